@@ -1,0 +1,52 @@
+//! What can go wrong: the caller's input, a limit of ours, a bug of ours. One enum; every message says what was wrong
+//! and where: which face, which vertex, which line of which file.
+
+use std::fmt;
+
+/// Everything that can go wrong in this library.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Error {
+    /// An argument is not acceptable (null, out of range, not finite): the message names it.
+    Argument(String),
+    /// A pose is refused: not finite, or its rotation farther from orthonormal than the limit.
+    Pose(String),
+    /// A mesh breaks the contract; the message names the face, edge or vertex in the caller's numbering.
+    Mesh(String),
+    /// A file cannot be read or does not parse; the message names the file and, where there is one, the line.
+    File(String),
+    /// An object id is null, stale or of another scene.
+    Handle(String),
+    /// A limit of the library was reached (counts that overflow 32 bits, no memory).
+    Limit(String),
+    /// The caller's callback asked to stop.
+    Cancelled(String),
+    /// A bug of ours, caught.
+    Bug(String),
+}
+
+/// The result type of every fallible function of this crate.
+pub type Result<T> = std::result::Result<T, Error>;
+
+impl Error {
+    /// The message without the kind.
+    pub fn message(&self) -> &str {
+        match self {
+            Error::Argument(m)
+            | Error::Pose(m)
+            | Error::Mesh(m)
+            | Error::File(m)
+            | Error::Handle(m)
+            | Error::Limit(m)
+            | Error::Cancelled(m)
+            | Error::Bug(m) => m,
+        }
+    }
+}
+
+impl fmt::Display for Error {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.message())
+    }
+}
+
+impl std::error::Error for Error {}
