@@ -1,0 +1,426 @@
+//! The exact convex hull of points: every sign that decides is exact, so the result is a convex
+//! polytope in the mathematical sense, whatever the input.
+//!
+//! In three dimensions this is Quickhull (C. B. Barber, D. P. Dobkin, H. Huhdanpaa, "The Quickhull
+//! Algorithm for Convex Hulls", ACM Transactions on Mathematical Software 22, 1996) with exact
+//! predicates instead of thick facets. A point *sees* a facet when it lies strictly above the
+//! facet's plane. Why that is enough, degenerate input included:
+//!
+//! - Let p be outside the current hull H and p' be p moved by an infinitesimal amount towards an
+//!   interior point of H. A plane of H that holds p has p' strictly below it, a plane strictly
+//!   below p still is. So the facets that p sees strictly are those that the generic p' sees, and
+//!   these form a disk whose boundary, the horizon, is a simple cycle.
+//! - Each new triangle (horizon edge, p) has area: p strictly sees the facet on one side of that
+//!   edge, so p is not in the plane of that facet, hence not on the line of the edge.
+//! - The facet on the other side of the horizon edge is not strictly above p; the new facet's
+//!   normal is a combination, with weights ≥ 0, of the normals of the two old facets at that edge:
+//!   the new surface is convex (or flat) at every edge.
+//! - A point q outside the new hull that saw a removed facet sees a new one: the facets that q saw
+//!   form a disk, too. If all of it was removed, what q sees now is new. Otherwise the disk has two
+//!   neighbours f, removed, and g, kept, and q is strictly above both, so above the new facet at
+//!   their common edge, whose normal lies between theirs. So the points of removed facets need to
+//!   be tried against the new facets only, and each point is in at most one facet's list.
+//!
+//! Of several farthest points any may become a vertex, so one inside a facet or an edge of the final hull, too. Such flat
+//! vertices are found at the end (fewer than three edges between planes that differ meet there), and the hull is built once
+//! more from the vertices without them.
+
+use std::collections::VecDeque;
+
+use crate::error::{Error, Result};
+use crate::math::Vector;
+use crate::predicates::{ExactPoints, FilteredPlane};
+
+/// The exact convex hull of a point set, as a triangulated surface over the input's indices.
+///
+/// | dimension | `triangles` |
+/// |---|---|
+/// | 3 | a closed, consistently oriented 2-manifold of genus 0, counter-clockwise from outside; neighbouring triangles may be exactly coplanar |
+/// | 2 | the convex polygon twice, once for each side |
+/// | 1, 0 | none |
+#[derive(Debug, Clone, PartialEq)]
+pub struct Hull {
+    /// The exact affine dimension of the points: 0 (one point), 1, 2 or 3.
+    pub dimension: u8,
+    /// Indices of the extreme points, ascending: those that are not in the hull of the others. Of exact duplicates the
+    /// lowest index. In dimension 1 these are the two end points, in dimension 0 the one point.
+    pub vertices: Vec<u32>,
+    /// Corners as indices into the input points.
+    pub triangles: Vec<[u32; 3]>,
+}
+
+/// The largest number of points that a hull is made of.
+const MOST_POINTS: usize = 1 << 30;
+
+/// No index.
+const NONE: u32 = u32::MAX;
+
+/// The exact convex hull of `points`.
+///
+/// # Errors
+/// No points, more than 2³⁰, or one that is not finite.
+pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
+    if points.is_empty() {
+        return Err(Error::Argument("a convex hull needs at least one point".into()));
+    }
+    if points.len() > MOST_POINTS {
+        return Err(Error::Limit(format!("{} points; a convex hull takes at most {MOST_POINTS}", points.len())));
+    }
+    if let Some(i) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        return Err(Error::Argument(format!("point {i} is not finite: {:?}", points[i].as_slice())));
+    }
+    let exact = ExactPoints::new(points);
+    match AffineBasis::find(points, &exact) {
+        AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: vec![a], triangles: Vec::new() }),
+        AffineBasis::Line => Ok(segment(points)),
+        AffineBasis::Plane(corners) => Ok(polygon(points, &exact, corners)),
+        AffineBasis::Space(corners) => {
+            let hull = Quickhull::run(&exact, corners);
+            let (vertices, triangles) = (hull.extreme_vertices(), hull.triangles());
+            // Euler's formula: a triangulated sphere has half as many vertices as triangles, and two.
+            if vertices.len() == triangles.len() / 2 + 2 {
+                Ok(Hull { dimension: 3, vertices, triangles })
+            } else {
+                hull_of_some(points, &vertices)
+            }
+        }
+    }
+}
+
+/// The hull of the points named in `some`, ascending and without duplicates.
+fn hull_of_some(points: &[Vector], some: &[u32]) -> Result<Hull> {
+    let chosen: Vec<Vector> = some.iter().map(|&v| points[v as usize]).collect();
+    let mut hull = convex_hull(&chosen)?;
+    for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
+        *v = some[*v as usize];
+    }
+    Ok(hull)
+}
+
+/// As many points as span the affine hull of a point set; with the exact dimension.
+enum AffineBasis {
+    Point(u32),
+    Line,
+    Plane([u32; 3]),
+    /// The fourth strictly above the oriented plane of the first three.
+    Space([u32; 4]),
+}
+
+impl AffineBasis {
+    /// Greedy: each next point is about the farthest from the span of those before. Floating point
+    /// proposes the point, exact predicates decide whether there is one.
+    fn find(points: &[Vector], exact: &ExactPoints) -> AffineBasis {
+        let all = || 0..points.len() as u32;
+        let a = lexicographic_extreme(points, |p, best| p < best);
+        let differs = |p: &u32| points[*p as usize] != points[a as usize];
+        let far = |p: u32| (exact.approximate(p) - exact.approximate(a)).norm_squared();
+        let Some(b) = Some(largest(all(), far)).filter(differs).or_else(|| all().find(differs)) else {
+            return AffineBasis::Point(a);
+        };
+        let along = exact.approximate(b) - exact.approximate(a);
+        let aside = |p: u32| (exact.approximate(p) - exact.approximate(a)).cross(&along).norm_squared();
+        let off_line = |p: &u32| !exact.collinear([a, b, *p]);
+        let Some(c) = Some(largest(all(), aside)).filter(off_line).or_else(|| all().find(off_line)) else {
+            return AffineBasis::Line;
+        };
+        let plane = exact.plane([a, b, c]);
+        let d = largest(all(), |p| exact.height(&plane, p).abs());
+        match exact.height(&plane, d) {
+            0.0 => AffineBasis::Plane([a, b, c]),
+            height if height > 0.0 => AffineBasis::Space([a, b, c, d]),
+            _ => AffineBasis::Space([a, c, b, d]),
+        }
+    }
+}
+
+/// The lowest index with the largest value; `candidates` must not be empty.
+fn largest(candidates: impl Iterator<Item = u32>, value: impl Fn(u32) -> f64) -> u32 {
+    let (mut best, mut best_value) = (0, f64::NEG_INFINITY);
+    for p in candidates {
+        let v = value(p);
+        if v > best_value {
+            (best, best_value) = (p, v);
+        }
+    }
+    best
+}
+
+/// The lowest index of the first point in the order by x, then y, then z that `before` tells.
+fn lexicographic_extreme(points: &[Vector], before: impl Fn([f64; 3], [f64; 3]) -> bool) -> u32 {
+    let mut best = 0;
+    for (i, p) in points.iter().enumerate() {
+        if before((*p).into(), points[best].into()) {
+            best = i;
+        }
+    }
+    best as u32
+}
+
+/// The hull of collinear points: on a line, the order by x, then y, then z is the order along the
+/// line.
+fn segment(points: &[Vector]) -> Hull {
+    let mut vertices =
+        vec![lexicographic_extreme(points, |p, best| p < best), lexicographic_extreme(points, |p, best| p > best)];
+    vertices.sort_unstable();
+    Hull { dimension: 1, vertices, triangles: Vec::new() }
+}
+
+/// The hull of coplanar points that span a plane: its strictly convex corners, by the monotone
+/// chain (A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions",
+/// Information Processing Letters 9, 1979).
+fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3]) -> Hull {
+    // Dropping a coordinate along which the plane's normal does not vanish is a bijection of the
+    // plane that keeps lines, so any such coordinate is as good as another.
+    let axis = (0..3).find(|k| exact.projected_orientation(*k, basis) != 0.0).unwrap_or(2);
+    let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
+    let key = |i: &u32| (points[*i as usize][first], points[*i as usize][second]);
+    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    // The coordinates are finite, and 0.0 equals -0.0 here as everywhere.
+    order.sort_by(|i, j| key(i).partial_cmp(&key(j)).expect("coordinates are finite").then(i.cmp(j)));
+    order.dedup_by(|later, kept| key(later) == key(kept));
+
+    let mut corners: Vec<u32> = Vec::new();
+    let mut extend = |sequence: &mut dyn Iterator<Item = u32>| {
+        let start = corners.len();
+        for p in sequence {
+            while let [.., q, r] = corners[start..] {
+                if exact.projected_orientation(axis, [q, r, p]) > 0.0 {
+                    break;
+                }
+                corners.pop();
+            }
+            corners.push(p);
+        }
+        // The last point begins the other chain.
+        corners.pop();
+    };
+    extend(&mut order.iter().copied());
+    extend(&mut order.iter().rev().copied());
+
+    let fan = corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
+    let triangles = fan.clone().chain(fan.map(|[a, b, c]| [a, c, b])).collect();
+    corners.sort_unstable();
+    Hull { dimension: 2, vertices: corners, triangles }
+}
+
+/// A triangle of the growing hull.
+struct Facet {
+    /// Counter-clockwise from outside.
+    corners: [u32; 3],
+    /// `neighbours[i]` is across the edge from `corners[i]` to `corners[(i + 1) % 3]`.
+    neighbours: [u32; 3],
+    plane: FilteredPlane,
+    /// The list of points whose turn comes with this facet; all see it. Continued in
+    /// `Quickhull::next_outside`.
+    first_outside: u32,
+    /// The point of the list with the largest height, the lowest index among equals.
+    farthest: u32,
+    farthest_height: f64,
+    /// Seen by a point that became a vertex; no longer part of the hull.
+    removed: bool,
+    /// The last point that was found not to see this facet.
+    unseen_by: u32,
+}
+
+/// An edge between a facet that the new vertex sees and one that it does not see.
+struct HorizonEdge {
+    /// First vertex, in the order of the facet that is seen.
+    tail: u32,
+    /// Second vertex.
+    head: u32,
+    /// The facet that is not seen.
+    outer: u32,
+}
+
+/// The state of the algorithm of this file's head.
+///
+/// Exact duplicates need no care: what happens to a point depends on its coordinates alone, so
+/// duplicates travel together through the lists, the lowest index becomes the vertex, and the
+/// others do not see any facet from then on.
+struct Quickhull<'a> {
+    points: &'a ExactPoints,
+    /// Never more than the largest hull on the way has, 2n − 4: removed ones are reused.
+    facets: Vec<Facet>,
+    /// Removed facets.
+    free: Vec<u32>,
+    /// Facets that had points in their lists, oldest first, so that the hull grows evenly on all
+    /// sides. One that was removed, and perhaps reused, while it waited does no harm.
+    waiting: VecDeque<u32>,
+    /// The next point in a facet's list, per point.
+    next_outside: Vec<u32>,
+    /// The new facet whose first corner a point is, per point; valid while the facets of one new
+    /// vertex are joined.
+    new_facet_from: Vec<u32>,
+}
+
+impl<'a> Quickhull<'a> {
+    fn run(points: &'a ExactPoints, [a, b, c, d]: [u32; 4]) -> Quickhull<'a> {
+        let mut hull = Quickhull {
+            points,
+            facets: Vec::new(),
+            free: Vec::new(),
+            waiting: VecDeque::new(),
+            next_outside: vec![NONE; points.len()],
+            new_facet_from: vec![NONE; points.len()],
+        };
+        // d is above (a, b, c). Facet i lacks corner i of [a, b, c, d].
+        hull.add_facet([b, c, d], [3, 1, 2]);
+        hull.add_facet([c, a, d], [3, 2, 0]);
+        hull.add_facet([a, b, d], [3, 0, 1]);
+        hull.add_facet([a, c, b], [1, 0, 2]);
+        let mut outside: Vec<u32> = (0..points.len() as u32).collect();
+        let mut new = vec![0, 1, 2, 3];
+        hull.distribute(&outside, &new);
+        let (mut visible, mut horizon) = (Vec::new(), Vec::new());
+        while let Some(f) = hull.waiting.pop_front() {
+            let Facet { first_outside, farthest: apex, .. } = *hull.facet(f);
+            if first_outside != NONE {
+                hull.remove_visible(f, apex, &mut visible, &mut horizon);
+                hull.take_outside(&visible, apex, &mut outside);
+                hull.add_cone(apex, &horizon, &mut new);
+                hull.distribute(&outside, &new);
+            }
+        }
+        hull
+    }
+
+    fn triangles(&self) -> Vec<[u32; 3]> {
+        self.facets.iter().filter(|f| !f.removed).map(|f| f.corners).collect()
+    }
+
+    /// The vertices where three edges or more meet between facets that are not exactly coplanar. At a vertex inside a
+    /// facet of the merged hull none do, inside an edge two.
+    fn extreme_vertices(&self) -> Vec<u32> {
+        let mut sharp_edges = vec![0_u32; self.points.len()];
+        for facet in self.facets.iter().filter(|f| !f.removed) {
+            for side in 0..3 {
+                let (tail, head) = (facet.corners[side], facet.corners[(side + 1) % 3]);
+                if tail < head {
+                    let other = self.facet(facet.neighbours[side]).corners;
+                    let across = other.into_iter().find(|v| *v != tail && *v != head);
+                    if across.is_some_and(|v| self.points.height(&facet.plane, v) < 0.0) {
+                        sharp_edges[tail as usize] += 1;
+                        sharp_edges[head as usize] += 1;
+                    }
+                }
+            }
+        }
+        (0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3).collect()
+    }
+
+    fn facet(&self, f: u32) -> &Facet {
+        &self.facets[f as usize]
+    }
+
+    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
+        let facet = Facet {
+            corners,
+            neighbours,
+            plane: self.points.plane(corners),
+            first_outside: NONE,
+            farthest: NONE,
+            farthest_height: 0.0,
+            removed: false,
+            unseen_by: NONE,
+        };
+        if let Some(f) = self.free.pop() {
+            self.facets[f as usize] = facet;
+            f
+        } else {
+            self.facets.push(facet);
+            self.facets.len() as u32 - 1
+        }
+    }
+
+    /// Puts each point into the list of the first of `facets` that it sees; drops it if there is
+    /// none. Facets with points then wait for their turn.
+    fn distribute(&mut self, points: &[u32], facets: &[u32]) {
+        for &p in points {
+            for &f in facets {
+                let facet = &mut self.facets[f as usize];
+                let height = self.points.height(&facet.plane, p);
+                if height > 0.0 {
+                    let is_tie = height == facet.farthest_height;
+                    if height > facet.farthest_height || (is_tie && p < facet.farthest) {
+                        facet.farthest = p;
+                        facet.farthest_height = height;
+                    }
+                    self.next_outside[p as usize] = facet.first_outside;
+                    facet.first_outside = p;
+                    break;
+                }
+            }
+        }
+        for &f in facets {
+            if self.facet(f).first_outside != NONE {
+                self.waiting.push_back(f);
+            }
+        }
+    }
+
+    /// Removes all facets that `apex` sees, `start` being one, and lists them in `visible`; lists
+    /// the edges at which the rest of the hull begins in `horizon`.
+    fn remove_visible(&mut self, start: u32, apex: u32, visible: &mut Vec<u32>, horizon: &mut Vec<HorizonEdge>) {
+        visible.clear();
+        horizon.clear();
+        self.facets[start as usize].removed = true;
+        visible.push(start);
+        let mut done = 0;
+        while done < visible.len() {
+            let Facet { corners, neighbours, .. } = *self.facet(visible[done]);
+            done += 1;
+            for side in 0..3 {
+                let outer = neighbours[side];
+                let facet = &mut self.facets[outer as usize];
+                if facet.removed {
+                    continue;
+                }
+                if facet.unseen_by != apex && self.points.height(&facet.plane, apex) > 0.0 {
+                    facet.removed = true;
+                    visible.push(outer);
+                } else {
+                    facet.unseen_by = apex;
+                    horizon.push(HorizonEdge { tail: corners[side], head: corners[(side + 1) % 3], outer });
+                }
+            }
+        }
+        self.free.extend_from_slice(visible);
+    }
+
+    /// Moves the points of the lists of `removed` facets to `outside`, except the new vertex
+    /// `apex`.
+    fn take_outside(&mut self, removed: &[u32], apex: u32, outside: &mut Vec<u32>) {
+        outside.clear();
+        for &f in removed {
+            let mut p = std::mem::replace(&mut self.facets[f as usize].first_outside, NONE);
+            while p != NONE {
+                if p != apex {
+                    outside.push(p);
+                }
+                p = self.next_outside[p as usize];
+            }
+        }
+    }
+
+    /// Joins `apex` to every edge of the horizon; lists the new facets in `new`.
+    fn add_cone(&mut self, apex: u32, horizon: &[HorizonEdge], new: &mut Vec<u32>) {
+        new.clear();
+        for &HorizonEdge { tail, head, outer } in horizon {
+            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE]);
+            let outer = &mut self.facets[outer as usize];
+            for side in 0..3 {
+                if outer.corners[side] == head {
+                    outer.neighbours[side] = f;
+                }
+            }
+            self.new_facet_from[tail as usize] = f;
+            new.push(f);
+        }
+        // The horizon is a simple cycle, so one new facet begins at each of its vertices.
+        for &f in new.iter() {
+            let following = self.new_facet_from[self.facet(f).corners[1] as usize];
+            self.facets[f as usize].neighbours[1] = following;
+            self.facets[following as usize].neighbours[2] = f;
+        }
+    }
+}

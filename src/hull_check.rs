@@ -1,0 +1,252 @@
+//! Is the caller's mesh what it promises: closed, 2-manifold, oriented, connected, convex? Or a
+//! message naming the face, edge or vertex where it is not.
+
+mod convexity;
+mod edges;
+mod proof;
+
+pub use convexity::check_convexity;
+pub use proof::check_hull;
+
+use std::collections::HashMap;
+
+use crate::error::{Error, Result};
+use crate::hull_build::convex_hull;
+use crate::math::Vector;
+use crate::mesh::PolygonMesh;
+use edges::match_edges;
+
+/// Checks a mesh in the caller's numbering against the contract of `docs/conventions.md`. `tolerance` is the
+/// largest distance that a vertex may lie outside a face's plane, in the mesh's units; `allow_flat`
+/// admits bodies without interior.
+///
+/// # Errors
+/// The first violation found, naming the face, edge or vertex.
+pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Result<()> {
+    check_surface(mesh)?;
+    check_convexity(mesh, &convex_hull(&mesh.vertices)?, tolerance, allow_flat)
+}
+
+/// The part of [`check_mesh`] that looks at no coordinates, except that exactly equal vertices
+/// count as one: indices in range, every vertex used, every face with three vertices or more and
+/// none twice, every edge in two faces and in opposite directions, the faces around every vertex
+/// one fan, the surface connected and of genus 0.
+///
+/// # Errors
+/// The first violation found, naming the face, edge or vertex.
+pub fn check_surface(mesh: &PolygonMesh) -> Result<()> {
+    check_indices(mesh)?;
+    let corners = Corners::new(mesh);
+    corners.check_faces()?;
+    corners.check_use()?;
+    let twins = corners.match_edges()?;
+    corners.check_fans(&twins)?;
+    corners.check_connected(&twins)?;
+    corners.check_genus(&twins)
+}
+
+fn violation<T>(message: String) -> Result<T> {
+    Err(Error::Mesh(message))
+}
+
+/// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
+fn first_of_equal(points: &[Vector]) -> Vec<u32> {
+    let mut first = HashMap::with_capacity(points.len());
+    let key = |p: &Vector| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
+    points.iter().enumerate().map(|(i, p)| *first.entry(key(p)).or_insert(i as u32)).collect()
+}
+
+/// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
+fn check_indices(mesh: &PolygonMesh) -> Result<()> {
+    let count = mesh.vertices.len();
+    if count == 0 || mesh.face_count() == 0 {
+        return violation(format!("a mesh of {count} vertices and {} faces", mesh.face_count()));
+    }
+    let whole = mesh.starts[0] == 0 && mesh.starts[mesh.starts.len() - 1] as usize == mesh.indices.len();
+    if !whole || !mesh.starts.is_sorted() {
+        return violation("the faces' starts do not divide the index array".into());
+    }
+    for f in 0..mesh.face_count() {
+        if let Some((i, v)) = mesh.face(f).iter().enumerate().find(|(_, v)| **v as usize >= count) {
+            return violation(format!("face {f}: corner {i} is vertex {v}, there are {count} vertices"));
+        }
+    }
+    match mesh.vertices.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+        Some(v) => violation(format!("vertex {v} is not finite: {:?}", mesh.vertices[v].as_slice())),
+        None => Ok(()),
+    }
+}
+
+/// The faces over merged vertices: exactly equal ones are replaced by the first, and a vertex that
+/// thus follows itself in a face is left out once. A corner of a face stands for the directed edge
+/// to the next corner.
+struct Corners {
+    /// For every vertex of the mesh the first one that equals it.
+    first: Vec<u32>,
+    /// The (first equal) vertex of each corner, face by face.
+    vertex: Vec<u32>,
+    /// The same as the caller numbers it.
+    given: Vec<u32>,
+    /// The face of each corner.
+    face: Vec<u32>,
+    /// Where each face's corners begin; one more entry than faces.
+    starts: Vec<u32>,
+}
+
+impl Corners {
+    fn new(mesh: &PolygonMesh) -> Corners {
+        let mut corners = Corners {
+            first: first_of_equal(&mesh.vertices),
+            vertex: Vec::with_capacity(mesh.indices.len()),
+            given: Vec::with_capacity(mesh.indices.len()),
+            face: Vec::with_capacity(mesh.indices.len()),
+            starts: vec![0],
+        };
+        for f in 0..mesh.face_count() {
+            let polygon = mesh.face(f);
+            for (i, &v) in polygon.iter().enumerate() {
+                let vertex = corners.first[v as usize];
+                let next = corners.first[polygon[(i + 1) % polygon.len()] as usize];
+                if vertex != next {
+                    corners.vertex.push(vertex);
+                    corners.given.push(v);
+                    corners.face.push(f as u32);
+                }
+            }
+            corners.starts.push(corners.vertex.len() as u32);
+        }
+        corners
+    }
+
+    fn next(&self, corner: u32) -> u32 {
+        let f = self.face[corner as usize] as usize;
+        if corner + 1 == self.starts[f + 1] { self.starts[f] } else { corner + 1 }
+    }
+
+    fn previous(&self, corner: u32) -> u32 {
+        let f = self.face[corner as usize] as usize;
+        if corner == self.starts[f] { self.starts[f + 1] - 1 } else { corner - 1 }
+    }
+
+    /// At least three vertices in each face, none of them twice.
+    fn check_faces(&self) -> Result<()> {
+        // The last face that each vertex was seen in.
+        let mut seen_in = vec![u32::MAX; self.first.len()];
+        for (f, range) in self.starts.windows(2).enumerate() {
+            let mut distinct = 0;
+            let mut repeated = None;
+            for corner in range[0] as usize..range[1] as usize {
+                let last = &mut seen_in[self.vertex[corner] as usize];
+                if *last == f as u32 {
+                    repeated = repeated.or(Some(self.given[corner]));
+                } else {
+                    *last = f as u32;
+                    distinct += 1;
+                }
+            }
+            if distinct < 3 {
+                return violation(format!("face {f} is degenerate: it has fewer than three distinct vertices"));
+            }
+            if let Some(v) = repeated {
+                return violation(format!("face {f} passes through vertex {v} more than once"));
+            }
+        }
+        Ok(())
+    }
+
+    /// Every vertex, or one exactly equal to it, is used.
+    fn check_use(&self) -> Result<()> {
+        let mut used = vec![false; self.first.len()];
+        for &v in &self.vertex {
+            used[v as usize] = true;
+        }
+        match self.first.iter().position(|&v| !used[v as usize]) {
+            Some(v) => violation(format!("vertex {v} belongs to no face")),
+            None => Ok(()),
+        }
+    }
+
+    /// The corner across the edge of each corner.
+    fn match_edges(&self) -> Result<Vec<u32>> {
+        let head = |corner: u32| self.vertex[self.next(corner) as usize];
+        let edges: Vec<(u32, u32)> =
+            (0..self.vertex.len() as u32).map(|c| (self.vertex[c as usize], head(c))).collect();
+        match_edges(self.first.len(), &edges).or_else(|uses| {
+            let face = self.face[uses[0] as usize];
+            let ends = [uses[0], self.next(uses[0])].map(|c| self.given[c as usize]);
+            let (tail, head) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+            let mut faces: Vec<String> = uses.iter().map(|c| self.face[*c as usize].to_string()).collect();
+            match uses.len() {
+                1 => violation(format!("face {face}: edge {tail}-{head} belongs to no other face")),
+                2 => violation(format!(
+                    "face {face}: edge {tail}-{head} runs in the same direction in face {}: \
+                     the faces are not consistently oriented",
+                    faces[1]
+                )),
+                count => {
+                    faces.truncate(10);
+                    let more = if count > 10 { ", ..." } else { "" };
+                    violation(format!(
+                        "face {face}: edge {tail}-{head} belongs to {count} faces ({}{more})",
+                        faces.join(", ")
+                    ))
+                }
+            }
+        })
+    }
+
+    /// The faces around every vertex follow each other across edges in one cycle.
+    fn check_fans(&self, twins: &[u32]) -> Result<()> {
+        let mut visited = vec![false; self.vertex.len()];
+        // A face of the fan found at each vertex.
+        let mut fan = vec![None; self.first.len()];
+        for start in 0..self.vertex.len() as u32 {
+            if visited[start as usize] {
+                continue;
+            }
+            let (v, face) = (self.vertex[start as usize], self.face[start as usize]);
+            if let Some(other) = fan[v as usize].replace(face) {
+                return violation(format!(
+                    "vertex {v}: its faces form more than one fan (face {face} is not in that of face {other})"
+                ));
+            }
+            let mut corner = start;
+            while !visited[corner as usize] {
+                visited[corner as usize] = true;
+                corner = twins[self.previous(corner) as usize];
+            }
+        }
+        Ok(())
+    }
+
+    /// Every face can be reached from the first one across edges.
+    fn check_connected(&self, twins: &[u32]) -> Result<()> {
+        let mut reached = vec![false; self.starts.len() - 1];
+        reached[0] = true;
+        let mut stack = vec![0_u32];
+        while let Some(f) = stack.pop() {
+            for corner in self.starts[f as usize]..self.starts[f as usize + 1] {
+                let across = self.face[twins[corner as usize] as usize];
+                if !std::mem::replace(&mut reached[across as usize], true) {
+                    stack.push(across);
+                }
+            }
+        }
+        match reached.iter().position(|r| !r) {
+            Some(f) => violation(format!("face {f} is not connected with face 0 across edges")),
+            None => Ok(()),
+        }
+    }
+
+    /// Euler's formula.
+    fn check_genus(&self, twins: &[u32]) -> Result<()> {
+        let mut vertices = self.vertex.clone();
+        vertices.sort_unstable();
+        vertices.dedup();
+        let (v, e, f) = (vertices.len() as i64, twins.len() as i64 / 2, self.starts.len() as i64 - 1);
+        if v - e + f == 2 {
+            return Ok(());
+        }
+        violation(format!("the surface has holes: {v} vertices - {e} edges + {f} faces = {}, not 2", v - e + f))
+    }
+}

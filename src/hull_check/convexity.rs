@@ -1,0 +1,381 @@
+//! How far a mesh is from the boundary of its own convex hull.
+
+use std::collections::HashSet;
+
+use super::edges::match_edges;
+use super::violation;
+use crate::error::{Error, Result};
+use crate::hull_build::Hull;
+use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::mesh::PolygonMesh;
+use crate::predicates::ExactPoints;
+
+/// In units of the largest coordinate: bounds the rounding of a distance from a plane as computed
+/// here (a point relative to an origin: u; a unit normal: relatively 6u, times distances below 4; a
+/// scalar product: 3u).
+const ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
+
+/// How many supporting planes are tried for a face whose own is not good enough. A hull that is
+/// flat up to rounding somewhere may have dozens of triangles too narrow for a normal next to each
+/// other there.
+const MOST_PLANES: usize = 100;
+
+/// The part of [`super::check_mesh`] that looks at coordinates, for a mesh that passed
+/// [`super::check_surface`] and its exact hull (`convex_hull(&mesh.vertices)`): not flat unless
+/// `allow_flat`, faces plane, convex, not inside out.
+///
+/// A face passes when all vertices of the mesh are at most `tolerance` (and the rounding of this
+/// test, about 1e-14 of the largest coordinate) outside of its plane and its own as close to it on
+/// either side. A tiny or narrow face has no reliable plane: a vertex misplaced by the tolerance
+/// may tilt it by any angle. Therefore a face also passes when some supporting plane of the hull
+/// has all of the face's vertices within the tolerance. Either way the whole face lies within the
+/// tolerance of the hull's boundary: for a direction n, no point of the face is deeper inside the
+/// hull than max n·hull − min n·face.
+///
+/// A surface all of whose faces lie at the hull's boundary may still be folded onto a part of it,
+/// or wind about it more than once. Moving every vertex by the tolerance changes area and volume by
+/// at most the tolerance times all edges' lengths, and all faces' areas; so area and volume must be
+/// those of the hull up to twice that.
+///
+/// The distances come from hill climbing on the exact hull, O(√n) a face and usually less.
+///
+/// # Errors
+/// The first violation found, naming the face and the vertex, or an edge; a tolerance that is negative
+/// or not a number.
+pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_flat: bool) -> Result<()> {
+    if tolerance.is_nan() || tolerance < 0.0 {
+        return Err(Error::Argument(format!("the convexity tolerance is {tolerance}")));
+    }
+    if hull.dimension < 3 && !allow_flat {
+        return violation(format!(
+            "the mesh is flat: all vertices lie {}",
+            match hull.dimension {
+                2 => format!(
+                    "in the plane of vertices {}, {} and {}",
+                    hull.triangles[0][0], hull.triangles[0][1], hull.triangles[0][2]
+                ),
+                1 => format!("on the line of vertices {} and {}", hull.vertices[0], hull.vertices[1]),
+                _ => format!("on vertex {}", hull.vertices[0]),
+            }
+        ));
+    }
+    if hull.dimension < 2 {
+        return Ok(());
+    }
+    let exact = ExactPoints::new(&mesh.vertices);
+    let origin = exact.approximate(hull.vertices[0]);
+    let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v) - origin).collect();
+    let boundary = Boundary::new(hull, &position);
+    let polygons: Vec<Polygon> = (0..mesh.face_count()).map(|f| Polygon::new(mesh.face(f), &position)).collect();
+    let surface = Extent::of(polygons.iter());
+    if hull.dimension == 3 && surface.volume < -surface.volume_rounding() {
+        return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
+    }
+    let allowed = exact.to_scaled(tolerance) + ROUNDING;
+    let mut search = boundary.search();
+    for (f, polygon) in polygons.iter().enumerate() {
+        let Err(Outside { vertex, distance }) = polygon.check_plane(&position, &mut search, allowed) else {
+            continue;
+        };
+        if polygon.is_near_boundary(&position, &mut search, allowed) {
+            continue;
+        }
+        if distance.is_infinite() {
+            return violation(format!(
+                "face {f} has no area and lies more than {tolerance:.3e} below the hull of the mesh"
+            ));
+        }
+        let side = if polygon.corners.contains(&vertex) { "off" } else { "outside of" };
+        return violation(format!(
+            "face {f}: vertex {vertex} lies {:.3e} {side} its plane (allowed {tolerance:.3e})",
+            exact.from_scaled(distance)
+        ));
+    }
+    check_single_cover(mesh, hull, &position, &boundary, &surface, allowed)
+}
+
+/// A vertex farther from a plane than allowed.
+struct Outside {
+    vertex: u32,
+    distance: f64,
+}
+
+/// A face with its measures.
+struct Polygon<'a> {
+    corners: &'a [u32],
+    /// The mean of the corners.
+    centre: Vector,
+    /// ½ Σ vᵢ × vᵢ₊₁ (M. E. Newell, 1972): the normal, as long as the area.
+    area: Vector,
+    perimeter: f64,
+}
+
+impl<'a> Polygon<'a> {
+    fn new(corners: &'a [u32], position: &[Vector]) -> Polygon<'a> {
+        let at = |i: usize| position[corners[i % corners.len()] as usize];
+        let (mut centre, mut area, mut perimeter) = (Vector::zeros(), Vector::zeros(), 0.0);
+        for i in 0..corners.len() {
+            centre += at(i);
+            area += 0.5 * (at(i) - at(0)).cross(&(at(i + 1) - at(0)));
+            perimeter += (at(i + 1) - at(i)).norm();
+        }
+        Polygon { corners, centre: centre / corners.len() as f64, area, perimeter }
+    }
+
+    /// All vertices of the mesh at most `allowed` outside of the face's plane, its own on either
+    /// side.
+    fn check_plane(&self, position: &[Vector], search: &mut Search, allowed: f64) -> std::result::Result<(), Outside> {
+        let Some(normal) = self.area.try_normalize(0.0) else {
+            return Err(Outside { vertex: self.corners[0], distance: f64::INFINITY });
+        };
+        let distance = |v: u32| normal.dot(&(position[v as usize] - self.centre));
+        search.begin_at(self.corners);
+        let own = self.corners.iter().map(|&v| Outside { vertex: v, distance: distance(v).abs() });
+        let top = search.extreme_vertex(&normal);
+        let outside = Outside { vertex: top, distance: distance(top) };
+        own.chain([outside]).find(|o| o.distance > allowed).map_or(Ok(()), Err)
+    }
+
+    /// All corners at most `allowed` below some supporting plane of the hull. The planes of the
+    /// hull's triangle over the face's centre and of those around it are tried: it alone may be as
+    /// tiny as the face, and tilted likewise.
+    fn is_near_boundary(&self, position: &[Vector], search: &mut Search, allowed: f64) -> bool {
+        // At a tip of the hull all planes may be those of tiny triangles; but a face as small as
+        // the tolerance that has a vertex of the hull is close enough wherever it lies.
+        let boundary = search.boundary;
+        let distance = |v: u32, w: u32| (position[v as usize] - position[w as usize]).norm();
+        let reaches_all = |v: u32| self.corners.iter().all(|&w| distance(v, w) <= allowed);
+        if self.corners.iter().any(|&v| boundary.valence(v) > 0 && reaches_all(v)) {
+            return true;
+        }
+        search.walk_to(&self.centre);
+        search.boundary.around(search.triangle).into_iter().any(|t| {
+            let normal = search.boundary.normals[t];
+            if normal == Vector::zeros() {
+                return false;
+            }
+            search.begin_at(&search.boundary.hull.triangles[t]);
+            let top = position[search.extreme_vertex(&normal) as usize];
+            self.corners.iter().all(|&v| normal.dot(&(top - position[v as usize])) <= allowed)
+        })
+    }
+}
+
+/// Measures of a whole surface.
+struct Extent {
+    area: f64,
+    /// Signed: positive when the faces run counter-clockwise seen from outside.
+    volume: f64,
+    /// The sum over all faces.
+    perimeter: f64,
+    faces: usize,
+}
+
+impl Extent {
+    fn of<'a>(polygons: impl Iterator<Item = &'a Polygon<'a>>) -> Extent {
+        let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, faces: 0 };
+        for p in polygons {
+            sum.area += p.area.norm();
+            sum.volume += p.centre.dot(&p.area) / 3.0;
+            sum.perimeter += p.perimeter;
+            sum.faces += 1;
+        }
+        sum
+    }
+
+    /// Each face's term is at most its area times the size (below 4 in scaled units) over 3, the
+    /// sum's rounding at most that of all times their number.
+    fn volume_rounding(&self) -> f64 {
+        (self.faces as f64 + 16.0) * 2.0 * UNIT_ROUNDOFF * self.area
+    }
+}
+
+/// The surface has the area and the volume of its hull.
+fn check_single_cover(
+    mesh: &PolygonMesh,
+    hull: &Hull,
+    position: &[Vector],
+    boundary: &Boundary,
+    surface: &Extent,
+    allowed: f64,
+) -> Result<()> {
+    let triangles: Vec<Polygon> = hull.triangles.iter().map(|t| Polygon::new(t, position)).collect();
+    let whole = Extent::of(triangles.iter());
+    let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
+    let volume_allowed =
+        2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();
+    let area_fits = (surface.area - whole.area).abs() <= area_allowed;
+    let volume_fits = (surface.volume - whole.volume).abs() <= volume_allowed;
+    if area_fits && volume_fits {
+        return Ok(());
+    }
+    let mut sides = HashSet::new();
+    for f in 0..mesh.face_count() {
+        let corners = mesh.face(f);
+        for (i, &v) in corners.iter().enumerate() {
+            let w = corners[(i + 1) % corners.len()];
+            sides.insert((v.min(w), v.max(w)));
+        }
+    }
+    let length = |e: &(u32, u32)| (position[e.1 as usize] - position[e.0 as usize]).norm();
+    let missing = boundary.sharp_edges().filter(|e| !sides.contains(e));
+    let gap = match missing.max_by(|d, e| length(d).total_cmp(&length(e))) {
+        Some((v, w)) => format!("; the hull's edge {v}-{w} is no edge of the mesh"),
+        None => String::new(),
+    };
+    violation(format!(
+        "the mesh is not convex: it covers {:.6} times the area of its convex hull{gap}",
+        surface.area / whole.area
+    ))
+}
+
+/// The hull's boundary, for floating-point searches.
+struct Boundary<'a> {
+    hull: &'a Hull,
+    position: &'a [Vector],
+    /// Unit normals of the triangles; zero where that cannot be computed.
+    normals: Vec<Vector>,
+    /// The triangle across each of its edges, three each; empty for a flat hull.
+    across: Vec<u32>,
+    /// The neighbours of vertex v (an input index) are `neighbours[starts[v]..starts[v + 1]]`.
+    neighbours: Vec<u32>,
+    starts: Vec<u32>,
+    /// A point inside.
+    centre: Vector,
+}
+
+impl<'a> Boundary<'a> {
+    fn new(hull: &'a Hull, position: &'a [Vector]) -> Boundary<'a> {
+        let normal = |t: &[u32; 3]| {
+            let [a, b, c] = t.map(|v| position[v as usize]);
+            (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default()
+        };
+        let edges: Vec<(u32, u32)> = hull.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        // In a hull of dimension 3 each directed edge occurs once; in a flat one twice, which does
+        // no harm.
+        let mut starts = vec![0_u32; position.len() + 1];
+        for &(tail, _) in &edges {
+            starts[tail as usize + 1] += 1;
+        }
+        for v in 0..position.len() {
+            starts[v + 1] += starts[v];
+        }
+        let mut free = starts.clone();
+        let mut neighbours = vec![0; edges.len()];
+        for &(tail, head) in &edges {
+            neighbours[free[tail as usize] as usize] = head;
+            free[tail as usize] += 1;
+        }
+        let across = if hull.dimension == 3 {
+            match_edges(position.len(), &edges).unwrap_or_default().iter().map(|c| c / 3).collect()
+        } else {
+            Vec::new()
+        };
+        let centre = hull.vertices.iter().map(|v| position[*v as usize]).sum::<Vector>() / hull.vertices.len() as f64;
+        let normals = hull.triangles.iter().map(normal).collect();
+        Boundary { hull, position, normals, across, neighbours, starts, centre }
+    }
+
+    /// Edges (lower vertex first) between triangles of clearly different planes, once each.
+    fn sharp_edges(&self) -> impl Iterator<Item = (u32, u32)> {
+        let flat = self.hull.dimension == 2;
+        let triangles = &self.hull.triangles;
+        let rim_spokes = [0, triangles.len() / 2 - 1];
+        (0..3 * triangles.len()).filter_map(move |corner| {
+            let (t, side) = (corner / 3, corner % 3);
+            let (tail, head) = (triangles[t][side], triangles[t][(side + 1) % 3]);
+            let sharp = if flat {
+                // A fan: its middle sides, and the first and the last spoke, are the rim.
+                t < triangles.len() / 2
+                    && (side == 1 || (side == 0 && t == rim_spokes[0]) || (side == 2 && t == rim_spokes[1]))
+            } else {
+                let other = self.across[corner] as usize;
+                t < other && self.normals[t].dot(&self.normals[other]) < 0.999
+            };
+            sharp.then(|| (tail.min(head), tail.max(head)))
+        })
+    }
+
+    /// How many neighbours a vertex of the mesh has on the hull; 0 when it is no hull vertex.
+    fn valence(&self, v: u32) -> u32 {
+        self.starts[v as usize + 1] - self.starts[v as usize]
+    }
+
+    /// Triangle `start` and those nearest to it, counted in edges crossed; of a flat hull only
+    /// `start`.
+    fn around(&self, start: usize) -> Vec<usize> {
+        let mut found = vec![start];
+        let mut done = 0;
+        while done < found.len() && found.len() < MOST_PLANES && !self.across.is_empty() {
+            for next in &self.across[3 * found[done]..3 * found[done] + 3] {
+                if !found.contains(&(*next as usize)) {
+                    found.push(*next as usize);
+                }
+            }
+            done += 1;
+        }
+        found
+    }
+
+    fn search(&'a self) -> Search<'a> {
+        let area = |t: &usize| Polygon::new(&self.hull.triangles[*t], self.position).area.norm();
+        let largest = (0..self.hull.triangles.len()).max_by(|s, t| area(s).total_cmp(&area(t)));
+        Search { boundary: self, vertex: self.hull.vertices[0], triangle: largest.unwrap_or(0) }
+    }
+}
+
+/// Searches that begin where the last one ended.
+struct Search<'a> {
+    boundary: &'a Boundary<'a>,
+    vertex: u32,
+    triangle: usize,
+}
+
+impl Search<'_> {
+    /// Begins the next climb at the vertex of fewest neighbours among those of `corners` that are
+    /// hull vertices, if any: the last look around, at the top, costs as many tests as it has
+    /// neighbours.
+    fn begin_at(&mut self, corners: &[u32]) {
+        let b = self.boundary;
+        let on_hull = corners.iter().copied().filter(|&v| b.valence(v) > 0);
+        self.vertex = on_hull.min_by_key(|&v| b.valence(v)).unwrap_or(self.vertex);
+    }
+
+    /// A hull vertex farthest in a direction, by hill climbing: on a convex polytope a local
+    /// maximum is a global one. It does not climb by less than rounding errors, so it may end that
+    /// much too low for each vertex on the way.
+    fn extreme_vertex(&mut self, direction: &Vector) -> u32 {
+        let b = self.boundary;
+        let height = |v: u32| direction.dot(&b.position[v as usize]);
+        let mut level = height(self.vertex);
+        loop {
+            let v = self.vertex as usize;
+            let (mut best, mut top) = (self.vertex, level + ROUNDING);
+            for &w in &b.neighbours[b.starts[v] as usize..b.starts[v + 1] as usize] {
+                if height(w) > top {
+                    (best, top) = (w, height(w));
+                }
+            }
+            if best == self.vertex {
+                return best;
+            }
+            (self.vertex, level) = (best, top);
+        }
+    }
+
+    /// Goes to about the triangle that the ray from the centre through `p` meets. A walk that
+    /// rounding leads in circles is cut short: it only steers. On a flat hull nothing happens.
+    fn walk_to(&mut self, p: &Vector) {
+        let b = self.boundary;
+        let target = p - b.centre;
+        let most_steps = if b.across.is_empty() { 0 } else { 64 + 4 * b.across.len().isqrt() };
+        for _ in 0..most_steps {
+            let corners = b.hull.triangles[self.triangle].map(|v| b.position[v as usize] - b.centre);
+            let outside = |i: &usize| corners[*i].cross(&corners[(i + 1) % 3]).dot(&target) < 0.0;
+            let Some(side) = (0..3).find(outside) else {
+                return;
+            };
+            self.triangle = b.across[3 * self.triangle + side] as usize;
+        }
+    }
+}

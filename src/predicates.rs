@@ -1,0 +1,469 @@
+//! Exact signs for plain points, for the hull and its checks.
+//!
+//! Four tiers decide each sign, the next only when the one before cannot:
+//! 1. floating point with an error bound, argued at [`ExactPoints::plane`];
+//! 2. double-double arithmetic with an error bound, argued at `double_double_height`: several
+//!    times cheaper than tier 3 for points that are coplanar up to rounding, as those of a rotated
+//!    box or prism are;
+//! 3. adaptive expansions (crate `robust`; J. R. Shewchuk, "Adaptive Precision Floating-Point
+//!    Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18,
+//!    1997), exact as long as nothing under- or overflows;
+//! 4. integers (crate `dashu-int`), instead of 2 and 3 for point sets whose exponents spread too
+//!    far for them.
+//!
+//! Every sign here is invariant under a common power-of-two scaling of all points. So the points
+//! are scaled until the largest coordinate lies in [1/2, 1), and nothing can overflow. If then no
+//! non-zero coordinate is below 2⁻³⁰⁰, all coordinates are multiples of 2⁻³⁵³, every product of
+//! three differences and every error term of an expansion is a multiple of 2⁻¹⁰⁵⁹, which doubles
+//! hold: tiers 2 and 3 are what they claim. Otherwise tier 4 takes their place.
+
+use dashu_int::IBig;
+use robust::{Coord, Coord3D, orient2d, orient3d};
+
+use crate::double_double::{two_sum, wide_cross, wide_dot};
+use crate::math::{UNIT_ROUNDOFF, Vector};
+
+/// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
+/// of this file. 2⁻³⁰⁰.
+const SMALLEST_FOR_EXPANSIONS: f64 = f64::from_bits((1023 - 300) << 52);
+
+/// Covers every underflow of tier 1, including that of the scaling itself: a plane's height takes
+/// part in fewer than 100 roundings, each wrong by at most 2⁻¹⁰⁷⁴ absolutely when it underflows,
+/// and multiplied by less than 2⁵ afterwards. 2⁻¹⁰⁰⁰.
+const UNDERFLOW_GUARD: f64 = f64::from_bits((1023 - 1000) << 52);
+
+/// The bound at [`ExactPoints::plane`], rounded up for the rounding of the bound itself.
+const FILTER: f64 = 10.0 * UNIT_ROUNDOFF;
+
+/// The bound at [`double_double_height`], rounded up for the rounding of the spread.
+const DOUBLE_DOUBLE_FILTER: f64 = 26.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+
+/// A point set prepared for exact predicates. Points are named by their index.
+#[derive(Debug, Clone)]
+pub struct ExactPoints {
+    /// The points times a power of two; largest coordinate in [1/2, 1) (or all are zero). Exact,
+    /// unless `integers` is there: then the smallest coordinates may have underflowed.
+    scaled: Vec<[f64; 3]>,
+    /// The points times another power of two, for sets that expansions cannot decide.
+    integers: Option<Vec<[IBig; 3]>>,
+    /// Size of the scaled points' bounding box along each axis, rounded up.
+    extent: [f64; 3],
+    /// The points were multiplied by 2 to this power.
+    scale: i32,
+    /// Absolute part of the error bounds of tier 1: [`UNDERFLOW_GUARD`], or infinite when `scaled`
+    /// is not to be trusted.
+    guard: f64,
+}
+
+/// An oriented plane through three points, with a floating-point filter for the side on which
+/// another point lies.
+#[derive(Debug, Clone, Copy)]
+pub struct FilteredPlane {
+    corners: [u32; 3],
+    /// (b − a) × (c − a), rounded.
+    normal: [f64; 3],
+    /// A computed height beyond ± this has the right sign.
+    error: f64,
+}
+
+impl ExactPoints {
+    /// Prepares finite points; fewer than 2³² of them.
+    pub fn new(points: &[Vector]) -> ExactPoints {
+        let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let scale = -exponent_above(largest);
+        let scaled: Vec<[f64; 3]> = points
+            .iter()
+            .map(|p| [times_power_of_two(p.x, scale), times_power_of_two(p.y, scale), times_power_of_two(p.z, scale)])
+            .collect();
+        let expansions_are_exact = points
+            .iter()
+            .zip(&scaled)
+            .all(|(p, s)| (0..3).all(|k| p[k] == 0.0 || s[k].abs() >= SMALLEST_FOR_EXPANSIONS));
+        let as_given = || points.iter().map(|p| (*p).into()).collect::<Vec<_>>();
+        let integers = (!expansions_are_exact).then(|| to_integers(&as_given()));
+        let mut extent = [0.0; 3];
+        for (k, size) in extent.iter_mut().enumerate() {
+            let low = scaled.iter().fold(f64::INFINITY, |m, s| m.min(s[k]));
+            let high = scaled.iter().fold(f64::NEG_INFINITY, |m, s| m.max(s[k]));
+            *size = (high - low).max(0.0).next_up();
+        }
+        ExactPoints { scaled, integers, extent, scale, guard: UNDERFLOW_GUARD }
+    }
+
+    /// Appends the exact average of four points (a point may be named more than once). It need not
+    /// be a point of doubles, so all signs come from integers from now on: slow.
+    pub fn push_average(&mut self, corners: [u32; 4]) {
+        let integers = self.integers.get_or_insert_with(|| to_integers(&self.scaled));
+        let average = [0, 1, 2].map(|k| corners.iter().map(|&i| &integers[i as usize][k]).sum());
+        // Four times as many units to the length: the sum itself is the average then.
+        for x in integers.iter_mut().flatten() {
+            *x <<= 2;
+        }
+        integers.push(average);
+        let rounded = |k: usize| corners.iter().map(|&i| 0.25 * self.scaled[i as usize][k]).sum();
+        self.scaled.push([0, 1, 2].map(rounded));
+        // The rounded copy is good for nothing but steering.
+        self.guard = f64::INFINITY;
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.scaled.len()
+    }
+
+    /// Whether there are no points.
+    pub fn is_empty(&self) -> bool {
+        self.scaled.is_empty()
+    }
+
+    /// The scaled coordinates of point `p`: good for steering, not for deciding.
+    pub fn approximate(&self, p: u32) -> Vector {
+        Vector::from(self.scaled[p as usize])
+    }
+
+    /// A length in the units of [`ExactPoints::approximate`].
+    pub fn to_scaled(&self, length: f64) -> f64 {
+        times_power_of_two(length, self.scale)
+    }
+
+    /// A length in the units of the points as they were given.
+    pub fn from_scaled(&self, length: f64) -> f64 {
+        times_power_of_two(length, -self.scale)
+    }
+
+    /// The sign of det(b − a, c − a, d − a): positive when the triangle a, b, c is seen
+    /// counter-clockwise from d, so when d lies strictly outside the face (a, b, c) of a hull; 0
+    /// when the four are coplanar. Only the sign means something.
+    pub fn orientation(&self, corners: [u32; 3], d: u32) -> f64 {
+        let [a, b, c] = corners.map(|i| &self.scaled[i as usize]);
+        let (normal, permanent) = normal_and_permanent([a, b, c]);
+        let p = &self.scaled[d as usize];
+        let height: f64 = (0..3).map(|k| normal[k] * (p[k] - a[k])).sum();
+        let spread: f64 = (0..3).map(|k| permanent[k] * (p[k] - a[k]).abs()).sum();
+        if height.abs() > FILTER * spread + self.guard {
+            return height;
+        }
+        if let Some(integers) = &self.integers {
+            let [a, b, c] = corners.map(|i| &integers[i as usize]);
+            return integer_orientation([a, b, c, &integers[d as usize]]);
+        }
+        // Cheap and common. With no spread all products vanish, exactly: d lies in a plane normal
+        // to an axis, say.
+        if spread == 0.0 || [a, b, c].contains(&p) {
+            return 0.0;
+        }
+        let height = double_double_height([a, b, c], p);
+        if height.abs() > DOUBLE_DOUBLE_FILTER * spread {
+            return height;
+        }
+        // `robust` is positive for d below a counter-clockwise triangle; two corners swapped make
+        // it positive above.
+        let [a, b, c, d] = [a, b, c, p].map(|&[x, y, z]| Coord3D { x, y, z });
+        orient3d(a, c, b, d)
+    }
+
+    /// The sign of the orientation of a, b, c after dropping coordinate `axis`, the remaining two
+    /// in cyclic order (axis 2: x, y; axis 0: y, z; axis 1: z, x): positive when counter-clockwise.
+    /// It is the sign of component `axis` of (b − a) × (c − a).
+    pub fn projected_orientation(&self, axis: usize, [a, b, c]: [u32; 3]) -> f64 {
+        let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
+        if let Some(integers) = &self.integers {
+            let [a, b, c] = [a, b, c].map(|i| &integers[i as usize]);
+            let left = (&b[first] - &a[first]) * (&c[second] - &a[second]);
+            let right = (&b[second] - &a[second]) * (&c[first] - &a[first]);
+            return integer_sign(&(left - right));
+        }
+        let coord = |i: u32| Coord { x: self.scaled[i as usize][first], y: self.scaled[i as usize][second] };
+        orient2d(coord(a), coord(b), coord(c))
+    }
+
+    /// Whether three points lie exactly on one line (or coincide).
+    pub fn collinear(&self, corners: [u32; 3]) -> bool {
+        (0..3).all(|axis| self.projected_orientation(axis, corners) == 0.0)
+    }
+
+    /// The plane through three points, for many calls of [`ExactPoints::height`].
+    pub fn plane(&self, corners: [u32; 3]) -> FilteredPlane {
+        let (normal, permanent) = normal_and_permanent(corners.map(|i| &self.scaled[i as usize]));
+        // height = Σ nₖ·dₖ with dₖ = pₖ − aₖ. Components of e = b − a and f = c − a have relative
+        // error u; a component of n, a difference of two products, is off by at most 4u·N, where N,
+        // the "permanent", is the same with a plus sign, N = |e_y·f_z| + |e_z·f_y|. dₖ has relative
+        // error u, the product and the two sums 3u more: altogether at most (8u + O(u²))·Σ Nₖ·|dₖ|,
+        // and |dₖ| is at most the size of the bounding box.
+        let spread: f64 = (0..3).map(|k| permanent[k] * self.extent[k]).sum();
+        FilteredPlane { corners, normal, error: FILTER * spread + self.guard }
+    }
+
+    /// How far point `p` lies above the plane, in units of the length of its unscaled normal. The
+    /// sign is exact (see [`ExactPoints::orientation`]), the magnitude is floating point and never
+    /// 0 unless exactly coplanar.
+    pub fn height(&self, plane: &FilteredPlane, p: u32) -> f64 {
+        let a = &self.scaled[plane.corners[0] as usize];
+        let point = &self.scaled[p as usize];
+        let n = &plane.normal;
+        let height = n[0] * (point[0] - a[0]) + n[1] * (point[1] - a[1]) + n[2] * (point[2] - a[2]);
+        if height.abs() > plane.error { height } else { self.small_height(plane, p, height) }
+    }
+
+    /// The height where the filter cannot decide its sign.
+    #[cold]
+    fn small_height(&self, plane: &FilteredPlane, p: u32, height: f64) -> f64 {
+        let sign = self.orientation(plane.corners, p);
+        if sign == 0.0 { 0.0 } else { height.abs().max(f64::MIN_POSITIVE).copysign(sign) }
+    }
+}
+
+/// n = (b − a) × (c − a), rounded, and the same with all minus signs of the cross product made
+/// plus.
+fn normal_and_permanent([a, b, c]: [&[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
+    let e = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
+    let f = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
+    let mut normal = [0.0; 3];
+    let mut permanent = [0.0; 3];
+    for k in 0..3 {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (left, right) = (e[i] * f[j], e[j] * f[i]);
+        normal[k] = left - right;
+        permanent[k] = left.abs() + right.abs();
+    }
+    (normal, permanent)
+}
+
+/// det(b − a, c − a, p − a), off by at most 25u²·spread (and the rounding of two words to one,
+/// which keeps the sign), with the spread of [`ExactPoints::orientation`]. The differences are
+/// exact; a component of the normal is off by 11u² of its permanent (8 the products, 3 the
+/// difference), its product with the third difference by 8u² more, the two sums by 6u².
+fn double_double_height([a, b, c]: [&[f64; 3]; 3], p: &[f64; 3]) -> f64 {
+    let from_a = |q: &[f64; 3]| [0, 1, 2].map(|k| two_sum(q[k], -a[k]));
+    wide_dot(&wide_cross(&from_a(b), &from_a(c)), &from_a(p)).hi
+}
+
+/// The sign of det(b − a, c − a, d − a) for integer points.
+fn integer_orientation([a, b, c, d]: [&[IBig; 3]; 4]) -> f64 {
+    let difference = |p: &[IBig; 3]| [&p[0] - &a[0], &p[1] - &a[1], &p[2] - &a[2]];
+    let (e, f, g) = (difference(b), difference(c), difference(d));
+    let minor = |i: usize, j: usize| &e[i] * &f[j] - &e[j] * &f[i];
+    integer_sign(&(minor(1, 2) * &g[0] + minor(2, 0) * &g[1] + minor(0, 1) * &g[2]))
+}
+
+fn integer_sign(value: &IBig) -> f64 {
+    if *value == IBig::ZERO {
+        0.0
+    } else if *value > IBig::ZERO {
+        1.0
+    } else {
+        -1.0
+    }
+}
+
+/// All points times the same power of two, chosen so that they become integers.
+fn to_integers(points: &[[f64; 3]]) -> Vec<[IBig; 3]> {
+    let nonzero = points.iter().flatten().filter(|x| **x != 0.0);
+    let lowest = nonzero.map(|x| mantissa_and_exponent(*x).1).min().unwrap_or(0);
+    let integer = |x: f64| {
+        if x == 0.0 {
+            return IBig::ZERO;
+        }
+        let (mantissa, exponent) = mantissa_and_exponent(x);
+        IBig::from(mantissa) << ((exponent - lowest) as usize)
+    };
+    points.iter().map(|p| p.map(integer)).collect()
+}
+
+/// x = mantissa·2^exponent, exactly.
+pub fn mantissa_and_exponent(x: f64) -> (i64, i32) {
+    let bits = x.to_bits();
+    let biased = ((bits >> 52) & 0x7ff) as i32;
+    let fraction = (bits & ((1 << 52) - 1)) as i64;
+    let (magnitude, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };
+    (if x < 0.0 { -magnitude } else { magnitude }, exponent)
+}
+
+/// The e with 2^(e−1) ≤ x < 2^e, for x ≥ 0; 0 for x = 0.
+fn exponent_above(x: f64) -> i32 {
+    let (mantissa, exponent) = mantissa_and_exponent(x);
+    if mantissa == 0 { 0 } else { exponent + 64 - mantissa.leading_zeros() as i32 }
+}
+
+/// x·2^exponent, for |exponent| ≤ 2000; rounded only where the result is subnormal.
+fn times_power_of_two(x: f64, exponent: i32) -> f64 {
+    // Two factors, because 2^exponent alone may be out of range.
+    let half = exponent / 2;
+    let power = |e: i32| f64::from_bits(((1023 + e) as u64) << 52);
+    x * power(half) * power(exponent - half)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use dashu_ratio::RBig;
+
+    /// S. Vigna's SplitMix64.
+    struct Random(u64);
+
+    impl Random {
+        fn next(&mut self) -> u64 {
+            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+            let mut z = self.0;
+            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+            z ^ (z >> 31)
+        }
+
+        /// Uniform in [-1, 1).
+        fn signed(&mut self) -> f64 {
+            (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+
+        fn point(&mut self) -> Vector {
+            Vector::new(self.signed(), self.signed(), self.signed())
+        }
+    }
+
+    fn exact_determinant(points: &[Vector; 4]) -> RBig {
+        let [a, b, c, d] = points.map(|p| [p.x, p.y, p.z].map(|x| RBig::try_from(x).unwrap()));
+        let from_a = |p: &[RBig; 3]| [0, 1, 2].map(|k| &p[k] - &a[k]);
+        let (e, f, g) = (from_a(&b), from_a(&c), from_a(&d));
+        (0..3).fold(RBig::ZERO, |sum, k| {
+            let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+            sum + (&e[i] * &f[j] - &e[j] * &f[i]) * &g[k]
+        })
+    }
+
+    fn sign(x: &RBig) -> f64 {
+        if *x == RBig::ZERO {
+            0.0
+        } else if *x > RBig::ZERO {
+            1.0
+        } else {
+            -1.0
+        }
+    }
+
+    fn sign_of(x: f64) -> f64 {
+        if x == 0.0 { 0.0 } else { x.signum() }
+    }
+
+    /// Four points, the last in the plane of the others up to a few roundings, or a little more, or
+    /// equal to one of them.
+    fn nearly_coplanar(random: &mut Random) -> [Vector; 4] {
+        let [a, b, c] = [random.point(), random.point(), random.point()];
+        let (s, t) = (random.signed(), random.signed());
+        let mut d = a + (b - a) * s + (c - a) * t;
+        match random.next() % 4 {
+            0 => d = b,
+            1 => d.x = d.x.next_up(),
+            2 => d.z += 1e-12,
+            _ => {}
+        }
+        [a, b, c, d]
+    }
+
+    #[test]
+    fn positive_means_seen_counter_clockwise() {
+        let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 1.0], [5.0, 5.0, 0.0]];
+        let exact = ExactPoints::new(&points.map(Vector::from));
+        assert!(exact.orientation([0, 1, 2], 3) > 0.0);
+        assert!(exact.orientation([0, 2, 1], 3) < 0.0);
+        assert_eq!(exact.orientation([0, 1, 2], 4), 0.0);
+        assert!(exact.height(&exact.plane([0, 1, 2]), 3) > 0.0);
+        assert!(exact.projected_orientation(2, [0, 1, 2]) > 0.0);
+        assert_eq!(exact.projected_orientation(0, [0, 1, 2]), 0.0);
+    }
+
+    #[test]
+    fn orientation_and_height_have_the_exact_sign() {
+        let mut random = Random(11);
+        // The last two are out of reach of expansions.
+        let frames = [
+            [1.0, 1.0, 1.0],
+            [1.0, 1.0, 1e-9],
+            [1e-12, 1.0, 1e-3],
+            [1e-99, 1.0, 1.0],
+            [1.0, 1e-130, 1e200],
+            [1e-310, 1.0, 1.0],
+        ];
+        for round in 0..20_000 {
+            let frame = Vector::from(frames[round % frames.len()]);
+            let points = nearly_coplanar(&mut random).map(|p| p.component_mul(&frame));
+            let truth = sign(&exact_determinant(&points));
+            let exact = ExactPoints::new(&points);
+            assert_eq!(sign_of(exact.orientation([0, 1, 2], 3)), truth, "{points:?}");
+            assert_eq!(sign_of(exact.height(&exact.plane([0, 1, 2]), 3)), truth, "{points:?}");
+        }
+    }
+
+    /// Small integers times one odd factor: coplanar and collinear ones among them are so exactly.
+    #[test]
+    fn exact_zeros_are_found() {
+        let mut random = Random(12);
+        let mut zeros = 0;
+        for round in 0..20_000 {
+            let factor = [1.0, 3.7e-5, 1e-305][round % 3];
+            let points = [(); 4].map(|()| random.point().map(|x| (3.0 * x).round() * 8.0 * factor));
+            let truth = sign(&exact_determinant(&points));
+            assert_eq!(sign_of(ExactPoints::new(&points).orientation([0, 1, 2], 3)), truth);
+            zeros += usize::from(truth == 0.0);
+        }
+        assert!(zeros > 1000, "{zeros}");
+    }
+
+    #[test]
+    fn projections_have_the_exact_sign() {
+        let mut random = Random(13);
+        for round in 0..5000 {
+            let scale = [1.0, 1e-200, 1e-310][round % 3];
+            let (a, b) = (random.point(), random.point());
+            let c = a + (b - a) * random.signed();
+            let points = [a, b, c].map(|p| Vector::new(p.x, p.y * scale, p.z));
+            let exact = ExactPoints::new(&points);
+            for axis in 0..3 {
+                // Flattened along the axis and seen from above.
+                let [a, b, c] = points.map(|mut p| {
+                    p[axis] = 0.0;
+                    p
+                });
+                let mut above = a;
+                above[axis] = 1.0;
+                let truth = sign(&exact_determinant(&[a, b, c, above]));
+                assert_eq!(sign_of(exact.projected_orientation(axis, [0, 1, 2])), truth);
+            }
+        }
+    }
+
+    #[test]
+    fn the_double_double_bound_holds() {
+        let mut random = Random(14);
+        let mut worst = 0.0_f64;
+        for _ in 0..20_000 {
+            let points = nearly_coplanar(&mut random);
+            let [a, b, c, d] = points.map(<[f64; 3]>::from);
+            let computed = double_double_height([&a, &b, &c], &d);
+            let exact = exact_determinant(&points);
+            let error = (RBig::try_from(computed).unwrap() - exact).to_f64().value().abs();
+            // Only the high word is returned; dropping the low one cannot change the sign.
+            let error = error - UNIT_ROUNDOFF * computed.abs();
+            let (_, permanent) = normal_and_permanent([&a, &b, &c]);
+            let spread: f64 = (0..3).map(|k| permanent[k] * (d[k] - a[k]).abs()).sum();
+            if spread > 0.0 {
+                worst = worst.max(error / (UNIT_ROUNDOFF * UNIT_ROUNDOFF * spread));
+            }
+        }
+        assert!(worst <= 25.0, "{worst} u²");
+    }
+
+    #[test]
+    fn averages_are_exact() {
+        let d = 5e-324;
+        let points = [[0.0, 0.0, 0.0], [d, 0.0, 0.0], [0.0, d, 0.0], [0.0, 0.0, d]].map(Vector::from);
+        let mut exact = ExactPoints::new(&points);
+        exact.push_average([0, 1, 2, 3]);
+        exact.push_average([0, 0, 1, 2]);
+        for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
+            assert!(exact.orientation(face, 4) < 0.0, "{face:?}");
+            assert!(exact.height(&exact.plane(face), 4) < 0.0, "{face:?}");
+        }
+        assert_eq!(exact.orientation([0, 1, 2], 5), 0.0);
+        assert!(exact.orientation([1, 2, 3], 5) < 0.0);
+    }
+}

@@ -1,0 +1,311 @@
+//! What `check_mesh` accepts, and that it says where the rest is wrong.
+
+use swiftprox::hull_build::convex_hull;
+use swiftprox::hull_check::check_mesh;
+use swiftprox::math::Vector;
+use swiftprox::mesh::PolygonMesh;
+
+fn mesh(vertices: &[Vector], faces: &[&[u32]]) -> PolygonMesh {
+    let mut starts = vec![0];
+    for f in faces {
+        starts.push(starts[starts.len() - 1] + f.len() as u32);
+    }
+    PolygonMesh { vertices: vertices.to_vec(), indices: faces.concat(), starts, single_precision: false }
+}
+
+/// The triangulated hull of points as a mesh of these points.
+fn hull_mesh(points: &[Vector]) -> PolygonMesh {
+    let triangles = convex_hull(points).unwrap().triangles;
+    mesh(points, &triangles.iter().map(|t| &t[..]).collect::<Vec<_>>())
+}
+
+/// The message of the refusal, which must hold every one of `parts`.
+#[track_caller]
+fn refused(mesh: &PolygonMesh, tolerance: f64, parts: &[&str]) {
+    let message = check_mesh(mesh, tolerance, false).expect_err("accepted").to_string();
+    for part in parts {
+        assert!(message.contains(part), "no \"{part}\" in \"{message}\"");
+    }
+}
+
+#[track_caller]
+fn accepted(mesh: &PolygonMesh, tolerance: f64) {
+    check_mesh(mesh, tolerance, false).unwrap_or_else(|e| panic!("{e}"));
+}
+
+/// The unit cube's vertices; vertex i has coordinates (bit 0, bit 1, bit 2 of i).
+fn cube_vertices() -> Vec<Vector> {
+    (0..8).map(|i| Vector::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect()
+}
+
+const CUBE_FACES: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2, 6, 7, 3], [0, 2, 3, 1], [4, 5, 7, 6]];
+
+fn cube() -> PolygonMesh {
+    mesh(&cube_vertices(), &CUBE_FACES.each_ref().map(|f| &f[..]))
+}
+
+/// A point set near the unit sphere, evenly spread (golden spiral).
+fn spiral(n: u32) -> Vec<Vector> {
+    let point = |i: u32| {
+        let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(n);
+        let (r, angle) = ((1.0 - z * z).sqrt(), f64::from(i) * 2.399963229728653);
+        Vector::new(r * angle.cos(), r * angle.sin(), z)
+    };
+    (0..n).map(point).collect()
+}
+
+fn turned(v: &Vector) -> Vector {
+    Vector::new(0.36 * v.x + 0.48 * v.y - 0.8 * v.z, -0.8 * v.x + 0.6 * v.y, 0.48 * v.x + 0.64 * v.y + 0.6 * v.z)
+}
+
+/// The faces of the cube [0, 1]³ as grids of n by n squares, each cut into two triangles; vertices
+/// not shared between squares (a triangle soup, as STL files are).
+fn gridded_cube_soup(n: u32) -> PolygonMesh {
+    let corners = cube_vertices();
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for [a, b, c, d] in CUBE_FACES.map(|f| f.map(|v| corners[v as usize])) {
+        debug_assert_eq!(a + c, b + d);
+        let at = |i: u32, j: u32| a + (b - a) * (f64::from(i) / f64::from(n)) + (d - a) * (f64::from(j) / f64::from(n));
+        for (i, j) in (0..n * n).map(|k| (k / n, k % n)) {
+            let first = vertices.len() as u32;
+            vertices.extend([at(i, j), at(i + 1, j), at(i + 1, j + 1)]);
+            vertices.extend([at(i, j), at(i + 1, j + 1), at(i, j + 1)]);
+            faces.extend([[first, first + 1, first + 2], [first + 3, first + 4, first + 5]]);
+        }
+    }
+    mesh(&vertices, &faces.iter().map(|f| &f[..]).collect::<Vec<_>>())
+}
+
+#[test]
+fn convex_meshes_are_accepted() {
+    accepted(&cube(), 0.0);
+    accepted(&hull_mesh(&spiral(500)), 1e-9);
+    let squashed: Vec<Vector> = spiral(500).iter().map(|v| turned(&Vector::new(v.x, v.y, v.z * 1e-4))).collect();
+    accepted(&hull_mesh(&squashed), 1e-9);
+    for scale in [1e-200, 1e200, 1e-300, 1e300] {
+        let mut scaled = cube();
+        scaled.vertices.iter_mut().for_each(|v| *v = turned(v) * scale);
+        accepted(&scaled, 1e-9 * scale);
+    }
+}
+
+#[test]
+fn polygons_of_any_valence() {
+    let n = 1000_u32;
+    let corner = |i: u32, z: f64| {
+        let angle = f64::from(i) / f64::from(n) * std::f64::consts::TAU;
+        turned(&Vector::new(angle.cos(), angle.sin(), z))
+    };
+    let vertices: Vec<Vector> = (0..n).map(|i| corner(i, 0.0)).chain((0..n).map(|i| corner(i, 1.0))).collect();
+    let mut faces: Vec<Vec<u32>> = (0..n)
+        .map(|i| {
+            let j = (i + 1) % n;
+            vec![i, j, n + j, n + i]
+        })
+        .collect();
+    faces.push((n..2 * n).collect());
+    faces.push((0..n).rev().collect());
+    accepted(&mesh(&vertices, &faces.iter().map(|f| &f[..]).collect::<Vec<_>>()), 1e-9);
+}
+
+#[test]
+fn equal_vertices_count_as_one() {
+    let soup = gridded_cube_soup(3);
+    assert_eq!(soup.vertices.len(), 6 * 9 * 6);
+    accepted(&soup, 1e-9);
+    // Quads that end in a pole written twice are triangles; and -0.0 is 0.0.
+    let vertices = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [0.0, 0.0, 1.0], [-0.0, -0.0, 1.0]];
+    let poles: [&[u32]; 4] = [&[0, 1, 3, 4], &[1, 2, 4, 3], &[2, 0, 3, 4], &[0, 2, 1]];
+    accepted(&mesh(&vertices.map(Vector::from), &poles), 0.0);
+}
+
+/// Tiny faces of rounded coordinates have planes tilted by noise; the surface is convex within the
+/// noise all the same.
+#[test]
+fn fine_faces_of_rounded_coordinates_are_accepted() {
+    let mut soup = gridded_cube_soup(30);
+    for v in &mut soup.vertices {
+        *v = turned(v).map(|x| f64::from(x as f32));
+    }
+    accepted(&soup, 1e-6);
+    refused(&soup, 1e-9, &["face", "vertex", "its plane (allowed 1.000e-9)"]);
+}
+
+/// The exact hull of points that are coplanar up to rounding has triangles too narrow for a normal.
+#[test]
+fn hulls_with_slivers_are_accepted() {
+    let grid: Vec<Vector> = gridded_cube_soup(7).vertices.iter().map(|v| turned(v) / 7.0).collect();
+    let hull = convex_hull(&grid).unwrap();
+    let corners: Vec<Vector> = hull.vertices.iter().map(|v| grid[*v as usize]).collect();
+    accepted(&hull_mesh(&corners), 1e-9);
+    // A tip of ever smaller triangles.
+    let tip: Vec<Vector> = spiral(300)
+        .iter()
+        .enumerate()
+        .map(|(i, v)| {
+            let size = (-0.5 * i as f64).exp();
+            Vector::new(v.x * size, v.y * size, 1.0 - size)
+        })
+        .collect();
+    let hull = convex_hull(&tip).unwrap();
+    let corners: Vec<Vector> = hull.vertices.iter().map(|v| tip[*v as usize]).collect();
+    accepted(&hull_mesh(&corners), 1e-9);
+}
+
+#[test]
+fn a_tolerance_must_be_a_number() {
+    for tolerance in [f64::NAN, -1e-9] {
+        refused(&cube(), tolerance, &["tolerance"]);
+    }
+}
+
+#[test]
+fn broken_indices_are_named() {
+    let mut m = cube();
+    m.indices[5] = 8;
+    refused(&m, 1e-9, &["face 1: corner 1 is vertex 8", "8 vertices"]);
+    let mut m = cube();
+    m.starts[3] = 4;
+    refused(&m, 1e-9, &["starts"]);
+    let mut m = cube();
+    m.vertices[3].y = f64::NAN;
+    refused(&m, 1e-9, &["vertex 3 is not finite"]);
+    refused(&PolygonMesh::default(), 1e-9, &["0 vertices"]);
+    let mut m = cube();
+    m.vertices.push(Vector::new(0.5, 0.5, 0.5));
+    refused(&m, 1e-9, &["vertex 8 belongs to no face"]);
+}
+
+#[test]
+fn degenerate_faces_are_named() {
+    let mut m = cube();
+    m.indices.extend([0, 1, 0]);
+    m.starts.push(27);
+    refused(&m, 1e-9, &["face 6 is degenerate: it has fewer than three"]);
+    let mut m = cube();
+    m.vertices[5] = m.vertices[4];
+    m.vertices[7] = m.vertices[4];
+    refused(&m, 1e-9, &["face 5 is degenerate: it has fewer than three"]);
+    let mut m = cube();
+    m.indices.extend([0, 1, 2, 3, 1]);
+    m.starts.push(29);
+    refused(&m, 1e-9, &["face 6 passes through vertex 1 more than once"]);
+    let mut m = cube();
+    m.starts.push(24);
+    refused(&m, 1e-9, &["face 6 is degenerate: it has fewer than three"]);
+}
+
+#[test]
+fn open_and_overused_edges_are_named() {
+    let faces: Vec<&[u32]> = CUBE_FACES[..5].iter().map(|f| &f[..]).collect();
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["edge", "belongs to no other face"]);
+    let mut faces: Vec<&[u32]> = CUBE_FACES.iter().map(|f| &f[..]).collect();
+    faces.push(&[0, 1, 7]);
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["face 2: edge 0-1 belongs to 3 faces (2, 4, 6)"]);
+    faces.pop();
+    faces[1] = &[1, 5, 7, 3];
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["edge 1-3", "same direction in face", "oriented"]);
+}
+
+#[test]
+fn surfaces_of_the_wrong_topology_are_named() {
+    let tetrahedron = [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]];
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(Vector::from);
+    // Two tetrahedra, apart or with vertex 3 in common.
+    let second = tetrahedron.map(|t| t.map(|v: u32| v + 4));
+    let faces: Vec<&[u32]> = tetrahedron.iter().chain(&second).map(|t| &t[..]).collect();
+    let shifted = |by: Vector| points.iter().copied().chain(points.map(|p| p + by)).collect::<Vec<_>>();
+    let apart = mesh(&shifted(Vector::new(3.0, 0.0, 0.0)), &faces);
+    refused(&apart, 1e-9, &["face 4 is not connected with face 0"]);
+    let touching = mesh(&shifted(Vector::new(0.0, 0.0, 1.0)), &faces);
+    refused(&touching, 1e-9, &["vertex 3: its faces form more than one fan"]);
+    // A square torus.
+    let ring = |r: f64, z: f64| (0..4).map(move |i| Vector::new([r, 0.0, -r, 0.0][i], [0.0, r, 0.0, -r][i], z));
+    let vertices: Vec<Vector> =
+        ring(1.0, 0.0).chain(ring(2.0, 0.0)).chain(ring(2.0, 1.0)).chain(ring(1.0, 1.0)).collect();
+    let quads: Vec<[u32; 4]> = (0..16)
+        .map(|k| {
+            let (r, s, i, j) = (k / 4, (k / 4 + 1) % 4, k % 4, (k + 1) % 4);
+            [4 * r + i, 4 * s + i, 4 * s + j, 4 * r + j]
+        })
+        .collect();
+    let torus = mesh(&vertices, &quads.iter().map(|q| &q[..]).collect::<Vec<_>>());
+    refused(&torus, 1e-9, &["16 vertices - 32 edges + 16 faces = 0"]);
+}
+
+#[test]
+fn inside_out_is_named() {
+    let mut m = cube();
+    for face in m.indices.chunks_mut(4) {
+        face.reverse();
+    }
+    refused(&m, 1e-9, &["inside out"]);
+    // A plate far thinner than the tolerance, too.
+    m.vertices.iter_mut().for_each(|v| v.z *= 1e-11);
+    refused(&m, 1e-9, &["inside out"]);
+}
+
+#[test]
+fn dents_and_bumps_are_named() {
+    // A vertex in the middle of the cube's top (face 5), pushed in.
+    for (depth, fine) in [(0.25, false), (1.1e-9, false), (0.9e-9, true), (-1e-3, true)] {
+        let mut vertices = cube_vertices();
+        vertices.push(Vector::new(0.5, 0.5, 1.0 - depth));
+        let mut faces: Vec<&[u32]> = CUBE_FACES[..5].iter().map(|f| &f[..]).collect();
+        faces.extend([&[4_u32, 5, 8][..], &[5, 7, 8], &[7, 6, 8], &[6, 4, 8]]);
+        let m = mesh(&vertices, &faces);
+        if fine { accepted(&m, 1e-9) } else { refused(&m, 1e-9, &["face 5: vertex", "outside of its plane"]) }
+    }
+    // Every edge of a ball flipped inwards.
+    let points = spiral(40);
+    let triangles = convex_hull(&points).unwrap().triangles;
+    for t in 0..triangles.len() {
+        let [a, b, c] = triangles[t];
+        let other = triangles.iter().position(|o| (0..3).any(|i| (o[i], o[(i + 1) % 3]) == (b, a))).unwrap();
+        let d = *triangles[other].iter().find(|v| **v != a && **v != b).unwrap();
+        let mut dented = triangles.clone();
+        dented[t] = [c, a, d];
+        dented[other] = [d, b, c];
+        let m = mesh(&points, &dented.iter().map(|t| &t[..]).collect::<Vec<_>>());
+        refused(&m, 1e-9, &["face", "vertex", "outside of its plane"]);
+    }
+}
+
+#[test]
+fn faces_that_are_not_plane_are_named() {
+    let mut m = cube();
+    m.vertices[7] *= 1.001;
+    refused(&m, 1e-9, &["face 1: vertex", "off its plane"]);
+    accepted(&m, 1e-3);
+}
+
+#[test]
+fn flat_bodies_need_the_option() {
+    let square = cube_vertices()[..4].to_vec();
+    let two_sided = mesh(&square, &[&[0, 1, 3, 2], &[2, 3, 1, 0]]);
+    refused(&two_sided, 1e-9, &["flat", "in the plane of vertices"]);
+    check_mesh(&two_sided, 0.0, true).unwrap();
+    let mut oblique = two_sided.clone();
+    oblique.vertices.iter_mut().for_each(|v| *v = Vector::new(v.x + v.y, 2.0 * v.y - v.x, 3.0 * v.x));
+    check_mesh(&oblique, 0.0, true).unwrap();
+    // The sides may be cut differently.
+    let cut = mesh(&square, &[&[0, 1, 3], &[0, 3, 2], &[2, 3, 1, 0]]);
+    check_mesh(&cut, 0.0, true).unwrap();
+    let line = [0.0, 1.0, 2.0].map(|x| Vector::new(x, x, 0.0));
+    refused(&mesh(&line, &[&[0, 1, 2], &[2, 1, 0]]), 1e-9, &["flat", "line"]);
+}
+
+#[test]
+fn a_flat_body_must_be_convex() {
+    let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
+    let ell: Vec<Vector> = corners.iter().map(|c| Vector::new(c[0], c[1], 0.0)).collect();
+    let m = mesh(&ell, &[&[0, 1, 2, 3, 4, 5], &[5, 4, 3, 2, 1, 0]]);
+    let message = check_mesh(&m, 1e-9, true).unwrap_err().to_string();
+    assert!(message.contains("0.857143 times") && message.contains("edge 2-4"), "{message}");
+    // Turned off the axes it is no longer exactly flat: no option is needed, and it is refused just
+    // the same.
+    let mut rotated = m.clone();
+    rotated.vertices.iter_mut().for_each(|v| *v = turned(v) / 3.0);
+    assert_eq!(convex_hull(&rotated.vertices).unwrap().dimension, 3);
+    refused(&rotated, 1e-9, &["0.857143 times", "edge 2-4"]);
+}
