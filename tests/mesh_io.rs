@@ -1,0 +1,330 @@
+//! The mesh readers on files as the world has them: every liberty of the formats, truncated files, garbage.
+
+use std::path::{Path, PathBuf};
+
+use swiftprox::error::Error;
+use swiftprox::math::Vector;
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::mesh_io::{Format, parse_mesh, read_mesh};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+
+const FIXTURES: [&str; 7] =
+    ["cube.off", "cube_one_line.off", "cube_colours.off", "cube.poly", "cube.obj", "cube.stl", "tetrahedron.tri"];
+
+fn fixture(name: &str) -> PathBuf {
+    Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/meshes").join(name)
+}
+
+fn bytes_of(name: &str) -> Vec<u8> {
+    std::fs::read(fixture(name)).unwrap()
+}
+
+/// The cube of the fixtures.
+fn cube() -> PolygonMesh {
+    let corner = |x: i8, y: i8, z: i8| Vector::new(x.into(), y.into(), z.into());
+    let vertices = vec![
+        corner(-1, -1, -1),
+        corner(1, -1, -1),
+        corner(1, 1, -1),
+        corner(-1, 1, -1),
+        corner(-1, -1, 1),
+        corner(1, -1, 1),
+        corner(1, 1, 1),
+        corner(-1, 1, 1),
+    ];
+    #[rustfmt::skip]
+    let indices = vec![0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7];
+    PolygonMesh::new(vertices, indices, Some(&[4; 6])).unwrap()
+}
+
+/// The corners of all triangles, each quadrilateral cut along its first diagonal.
+fn triangle_corners(mesh: &PolygonMesh) -> Vec<[Vector; 3]> {
+    let mut corners = Vec::new();
+    for f in 0..mesh.face_count() {
+        let face = mesh.face(f);
+        for k in 1..face.len() - 1 {
+            corners.push([face[0], face[k], face[k + 1]].map(|v| mesh.vertices[v as usize]));
+        }
+    }
+    corners
+}
+
+/// A binary STL file of a mesh.
+fn binary_stl(mesh: &PolygonMesh, header: &str) -> Vec<u8> {
+    let triangles = triangle_corners(mesh);
+    let mut bytes = header.as_bytes().to_vec();
+    bytes.resize(80, b' ');
+    bytes.extend((triangles.len() as u32).to_le_bytes());
+    for corners in triangles {
+        bytes.extend([0xff; 12]); // the normal: not numbers
+        for x in corners.iter().flat_map(|c| c.iter()) {
+            bytes.extend((*x as f32).to_le_bytes());
+        }
+        bytes.extend([0; 2]);
+    }
+    bytes
+}
+
+fn refusal(text: &str, format: Format) -> String {
+    match parse_mesh(text.as_bytes(), Some(format), "m") {
+        Err(Error::File(message)) => message,
+        other => panic!("{text:?} gave {other:?}"),
+    }
+}
+
+#[test]
+fn every_liberty_of_the_formats_gives_the_same_cube() {
+    for name in ["cube.off", "cube_one_line.off", "cube_colours.off", "cube.poly", "cube.obj"] {
+        assert_eq!(read_mesh(&fixture(name)), Ok(cube()), "{name}");
+    }
+}
+
+#[test]
+fn tri() {
+    let mesh = read_mesh(&fixture("tetrahedron.tri")).unwrap();
+    assert_eq!(mesh.vertices[3], Vector::z());
+    assert_eq!((mesh.face_count(), mesh.face(2)), (4, &[0, 3, 2][..]));
+    assert!(!mesh.single_precision);
+}
+
+#[test]
+fn stl_welds_equal_vertices_in_order_and_drops_triangles_without_area() {
+    let expected = triangle_corners(&cube());
+    let ascii = read_mesh(&fixture("cube.stl")).unwrap();
+    // A header that starts like ASCII STL, as some programs write it.
+    let binary = parse_mesh(&binary_stl(&cube(), "solid cube"), None, "m").unwrap();
+    assert_eq!(ascii, binary);
+    assert!(ascii.single_precision);
+    assert_eq!(ascii.vertices.len(), 8);
+    assert_eq!(&ascii.indices[..6], [0, 1, 2, 0, 2, 3]);
+    assert_eq!(triangle_corners(&ascii), expected);
+}
+
+#[test]
+fn stl_welds_zeros_of_either_sign() {
+    let mut mesh = cube();
+    for v in &mut mesh.vertices {
+        v.x = 0.0_f64.copysign(v.x);
+    }
+    let welded = parse_mesh(&binary_stl(&mesh, ""), None, "m").unwrap();
+    // The square x = 0 twice, a quadrilateral for each side; the other four sides have no area.
+    assert_eq!((welded.vertices.len(), welded.face_count()), (4, 4));
+}
+
+#[test]
+fn format_by_content() {
+    for name in FIXTURES {
+        let bytes = bytes_of(name);
+        let by_content = parse_mesh(&bytes, None, name).unwrap();
+        assert_eq!(Ok(by_content), read_mesh(&fixture(name)), "{name}");
+    }
+    let unknown = parse_mesh(b"ply\nformat ascii 1.0\n", None, "m").unwrap_err();
+    assert_eq!(unknown.message(), "m: not a TRI, POLY, OFF, OBJ or STL file, by its first bytes");
+    assert!(parse_mesh(b"", None, "m").is_err());
+}
+
+#[test]
+fn format_by_extension() {
+    for (name, format) in [
+        ("a.TRI", Some(Format::TriPoly)),
+        ("a.b.poly", Some(Format::TriPoly)),
+        ("a.Off", Some(Format::Off)),
+        ("a.obj", Some(Format::Obj)),
+        ("a.stl", Some(Format::Stl)),
+        ("off", None),
+        ("a.ply", None),
+    ] {
+        assert_eq!(Format::from_extension(Path::new(name)), format, "{name}");
+    }
+}
+
+#[test]
+fn a_missing_file_is_named() {
+    let message = read_mesh(Path::new("no/such.off")).unwrap_err().to_string();
+    assert!(message.starts_with("no/such.off: cannot be read: "), "{message}");
+}
+
+/// Some programs write edges and crumpled faces among the faces: whoever takes the hull does not mind.
+#[test]
+fn degenerate_faces_are_read_as_they_are() {
+    let tetrahedron = "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n";
+    let text = format!("OFF\n4 7 0\n{tetrahedron}2 0 1\n3 2 2 1\n0\n");
+    let mesh = parse_mesh(text.as_bytes(), None, "m").unwrap();
+    assert_eq!((mesh.face(4), mesh.face(5), mesh.face(6)), (&[0, 1][..], &[2, 2, 1][..], &[][..]));
+    let mut options = ShapeOptions::default();
+    let refusal = Shape::from_mesh(&mesh, &options).unwrap_err();
+    assert!(refusal.message().starts_with("face 4 is degenerate"), "{refusal}");
+    options.input = InputPolicy::Hull;
+    assert_eq!(Shape::from_mesh(&mesh, &options).unwrap().polyhedron().faces.len(), 4);
+}
+
+#[test]
+fn refusals_name_the_line() {
+    use Format::{Obj, Off, Stl, TriPoly};
+    let cases = [
+        (TriPoly, "TRIANGLE 1", "m: line 1: \"TRIANGLE\" where TRI or POLY should be"),
+        (TriPoly, "", "m: line 1: TRI or POLY: the file ends here"),
+        (TriPoly, "TRI\n1 1\n0 0 x", "m: line 3: vertex 0 of 1: \"x\" is not a number"),
+        (TriPoly, "TRI\n1 1\n0 0 1e400", "m: line 3: vertex 0: z is not finite (inf)"),
+        (TriPoly, "TRI\n-1 1", "m: line 2: the number of vertices: \"-1\" is not a whole number"),
+        (
+            TriPoly,
+            "POLY 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3",
+            "m: line 5: face 0, corner 2: vertex index 3 is out of range (3 vertices)",
+        ),
+        (Off, "4OFF\n", "m: line 1: \"4OFF\" is not supported: vertices must have three coordinates"),
+        (Off, "OFF BINARY\n", "m: line 1: binary OFF is not supported"),
+        (Off, "8 6 0\n", "m: line 1: \"8\" where OFF should be"),
+        (Off, "OFF\n# none\n\n", "m: line 4: the number of vertices: the file ends here"),
+        (Off, "OFF 0 0 0\n", "m: there are no vertices in it"),
+        (Obj, "v 0 0\n", "m: line 1: vertex 0 has 2 numbers; 3 are needed"),
+        (Obj, "v 0 0 0\rv 1 0 0\r", "m: line 1: vertex 0: \"v\" is not a number"),
+        (Obj, "v 0 0 0\nf 1 1/ 0\n", "m: line 2: vertex 0: OBJ counts from 1"),
+        (Obj, "v 0 0 0\nf 1 a 1\n", "m: line 2: \"a\" is not a vertex number"),
+        (Obj, "v 0 0 0\n\nf 1 2 3\n", "m: line 3: vertex 2 does not exist; the file has 1"),
+        (Obj, "v 0 0 0\nf 1 1 -2\n", "m: line 2: vertex \"-2\" does not exist; 1 so far"),
+        (Obj, "v 0 0 0\nf 1 1 99999999999\n", "m: line 2: vertex \"99999999999\" does not exist; 1 so far"),
+        (Obj, "garbage\n\0\0\n", "m: there are no vertices in it"),
+        (Stl, "solid a\nfacet normal 0 0 1\nouter lop", "m: line 3: \"lop\" where \"loop\" should be"),
+        (Stl, "solid a\n", "m: line 2: triangle 0 or \"endsolid\": the file ends here"),
+        (Stl, "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "m: line 5: triangle 0: the file ends here"),
+        (Stl, "solid a\nendsolid a\n", "m: there are no vertices in it"),
+        (Stl, "OFF", "m: neither ASCII STL (which starts with \"solid\") nor binary: 3 bytes are too few"),
+    ];
+    for (format, text, expected) in cases {
+        assert_eq!(refusal(text, format), expected);
+    }
+    let long = "x".repeat(1000);
+    assert!(refusal(&format!("TRI {long}"), TriPoly).len() < 100);
+}
+
+/// Nothing may be allocated from a count that the file only claims: these would be 100 GB and more.
+#[test]
+fn absurd_counts_are_refused() {
+    let cases = [
+        (Format::Off, "OFF\n4000000000 1 0\n0 0 0\n", "vertex 1 of 4000000000: the file ends here"),
+        (Format::Off, "OFF\n1 4000000000 0\n0 0 0\n", "face 0 of 4000000000: the file ends here"),
+        (Format::Off, "OFF\n1 1 0\n0 0 0\n4294967295 0 0\n", "face 0 of 1: the file ends here"),
+        (Format::Off, "OFF\n4294967296 1 0\n", "the number of vertices: \"4294967296\" does not fit 32 bits"),
+        (Format::TriPoly, "TRI 4000000000 4000000000 0 0 0", "vertex 1 of 4000000000: the file ends here"),
+        (
+            Format::TriPoly,
+            "TRI 99999999999999999999999999 1",
+            "the number of vertices: \"999999999999999999999999…\" does not fit 32 bits",
+        ),
+    ];
+    for (format, text, expected) in cases {
+        let message = refusal(text, format);
+        assert!(message.ends_with(expected), "{message}");
+    }
+    let mut stl = binary_stl(&cube(), "");
+    stl[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
+    let message = parse_mesh(&stl, Some(Format::Stl), "m").unwrap_err().to_string();
+    assert!(message.ends_with("asks for 214748364834 bytes, the file has 684"), "{message}");
+}
+
+#[test]
+fn a_binary_stl_file_names_the_triangle() {
+    let mut stl = binary_stl(&cube(), "");
+    stl[84 + 50 * 7 + 16..84 + 50 * 7 + 20].copy_from_slice(&f32::INFINITY.to_le_bytes());
+    let message = parse_mesh(&stl, None, "m").unwrap_err().to_string();
+    assert!(message.starts_with("m: triangle 7: "), "{message}");
+    assert!(message.ends_with("y is not finite (inf)"), "{message}");
+}
+
+/// Every prefix that misses the last face or more is refused. OBJ has no end mark and no counts: there, nothing tells.
+#[test]
+fn truncated_files_are_refused() {
+    for name in FIXTURES.into_iter().filter(|name| !name.ends_with(".obj")) {
+        let bytes = bytes_of(name);
+        let last: &[u8] = match name {
+            // The end of the first solid: nothing tells that another one should follow.
+            "cube.stl" => b"endsolid",
+            "tetrahedron.tri" => b"1 2 3\r\n",
+            _ => b"4 3 0 4 7",
+        };
+        let end = bytes.windows(last.len()).rposition(|window| window == last).unwrap();
+        let format = Format::from_extension(Path::new(name));
+        for length in 0..end {
+            assert!(parse_mesh(&bytes[..length], format, name).is_err(), "{name}: {length} bytes");
+        }
+    }
+    let stl = binary_stl(&cube(), "solid");
+    for length in 0..stl.len() {
+        assert!(parse_mesh(&stl[..length], Some(Format::Stl), "m").is_err(), "{length} bytes");
+    }
+}
+
+/// Steele, Lea & Flood 2014.
+struct SplitMix64(u64);
+
+impl SplitMix64 {
+    fn next(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    fn below(&mut self, n: usize) -> usize {
+        (self.next() % n as u64) as usize
+    }
+}
+
+/// One random damage: a byte changed, a piece removed, repeated or overwritten with something that parsers dislike.
+fn damage(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
+    const WORDS: [&[u8]; 12] =
+        [b"-1", b"0", b"4294967295", b"1e999", b"nan", b"\0", b"\\\n", b"#", b"\n", b"/", b"\xff\xfe", b" "];
+    let at = random.below(bytes.len() + 1);
+    let end = (at + random.below(20)).min(bytes.len());
+    match random.below(5) {
+        0 if at < bytes.len() => bytes[at] = random.next() as u8,
+        1 => drop(bytes.drain(at..end)),
+        2 => {
+            let piece = bytes[at..end].to_vec();
+            bytes.splice(at..at, piece);
+        }
+        3 => bytes.truncate(at),
+        _ => drop(bytes.splice(at..end, WORDS[random.below(WORDS.len())].iter().copied())),
+    }
+}
+
+/// Whatever the bytes, a reader returns a mesh that is safe to index, or an error that names the file.
+#[test]
+fn damaged_files_never_panic() {
+    let mut random = SplitMix64(1);
+    let mut files: Vec<Vec<u8>> = FIXTURES.iter().map(|name| bytes_of(name)).collect();
+    files.push(binary_stl(&cube(), "solid"));
+    let formats = [None, Some(Format::TriPoly), Some(Format::Off), Some(Format::Obj), Some(Format::Stl)];
+    let (mut read, mut refused) = (0, 0);
+    for round in 0..40_000 {
+        let mut bytes = files[round % files.len()].clone();
+        for _ in 0..=random.below(3) {
+            damage(&mut bytes, &mut random);
+        }
+        for format in formats {
+            match parse_mesh(&bytes, format, "the file") {
+                Ok(mesh) => {
+                    read += 1;
+                    let given = PolygonMesh {
+                        single_precision: mesh.single_precision,
+                        ..PolygonMesh::new(
+                            mesh.vertices.clone(),
+                            mesh.indices.clone(),
+                            Some(&(0..mesh.face_count()).map(|f| mesh.face(f).len() as u32).collect::<Vec<_>>()),
+                        )
+                        .unwrap()
+                    };
+                    assert_eq!(mesh, given);
+                }
+                Err(e) => {
+                    refused += 1;
+                    assert!(matches!(e, Error::File(_)), "{e:?}");
+                    assert!(e.message().starts_with("the file: "), "{e}");
+                }
+            }
+        }
+    }
+    // The damage is neither always fatal nor always harmless.
+    assert!(read > 5_000 && refused > 5_000, "{read} read, {refused} refused");
+}
