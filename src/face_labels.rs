@@ -1,0 +1,198 @@
+//! Which of the caller's polygons lie on which merged face.
+
+use std::collections::HashMap;
+
+use crate::face_merge::merge_bound;
+use crate::math::Vector;
+use crate::mesh::PolygonMesh;
+use crate::polyhedron::{Face, Polyhedron};
+
+/// Corners of a polygon whose faces are candidates for it.
+const MOST_CORNERS_TRIED: usize = 8;
+
+/// Labels every face by its own index: for a hull of bare points.
+pub fn label_by_index(polyhedron: &mut Polyhedron) {
+    let face_count = polyhedron.faces.len() as u32;
+    polyhedron.face_labels = (0..face_count).collect();
+    polyhedron.face_label_starts = (0..=face_count).collect();
+}
+
+/// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour. `points` are the mesh's
+/// vertices, centred like the polyhedron.
+///
+/// Polygons lie on the hull up to the convexity tolerance, so some of their vertices may not be hull vertices, or by an ulp only
+/// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
+/// around the hull's support in its normal's direction. Among those whose planes hold it within rounding, or else hold it
+/// best, the one with the closest normal wins.
+pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &PolygonMesh) {
+    let face_count = polyhedron.faces.len();
+    let mut holders = faces_of_polygons(polyhedron, points, mesh);
+    let borrowed = borrowed_labels(polyhedron, &holders);
+    holders.extend(borrowed.iter().map(|(face, _)| *face));
+    let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
+
+    // Counting sort by face; it keeps the order within a face.
+    let mut starts = vec![0_u32; face_count + 1];
+    holders.iter().for_each(|face| starts[*face as usize + 1] += 1);
+    for face in 0..face_count {
+        starts[face + 1] += starts[face];
+    }
+    let mut sorted = vec![0; holders.len()];
+    let mut fill = starts.clone();
+    for (face, label) in holders.iter().zip(labels) {
+        sorted[fill[*face as usize] as usize] = label;
+        fill[*face as usize] += 1;
+    }
+
+    polyhedron.polygon_starts = vec![0];
+    for of_face in starts.windows(2) {
+        let labels = &sorted[of_face[0] as usize..of_face[1] as usize];
+        for &label in labels {
+            if labels.len() > 1 {
+                polyhedron.polygon_corners.extend(mesh.face(label as usize).iter().map(|c| points[*c as usize]));
+            }
+            polyhedron.polygon_starts.push(polyhedron.polygon_corners.len() as u32);
+        }
+    }
+    polyhedron.face_labels = sorted;
+    polyhedron.face_label_starts = starts;
+}
+
+/// The face on which each polygon lies.
+fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonMesh) -> Vec<u32> {
+    let around = FacesAround::new(polyhedron);
+    let hull_vertices = hull_vertices_of(polyhedron, points);
+    let bound = 2.0 * merge_bound(polyhedron.radius);
+    let mut faces = Vec::with_capacity(mesh.face_count());
+    let mut vertices = Vec::new();
+    let mut start = 0;
+    for polygon in 0..mesh.face_count() {
+        let corners = mesh.face(polygon);
+        let normal = polygon_normal(points, corners);
+        // A few corners all around; those with few faces first, as the hub of a fan has thousands.
+        let spread = corners.iter().step_by(corners.len().div_ceil(MOST_CORNERS_TRIED));
+        vertices.clear();
+        vertices.extend(spread.filter_map(|c| hull_vertices[*c as usize]));
+        if vertices.is_empty() {
+            vertices.push(polyhedron.support(&normal, start).0);
+        }
+        vertices.sort_by_key(|v| around.of(*v).len());
+        start = vertices[0];
+
+        let misfit = |face: u32| {
+            let planes = &polyhedron.faces[face as usize].planes;
+            let plane = Vector::new(planes.x[0], planes.y[0], planes.z[0]);
+            let distance = corners.iter().map(|c| planes.value(0, &points[*c as usize]).abs()).fold(bound, f64::max);
+            (distance, -plane.dot(&normal))
+        };
+        let mut best = ((f64::INFINITY, f64::INFINITY), 0);
+        for &vertex in &vertices {
+            for &face in around.of(vertex) {
+                let misfit = misfit(face);
+                if misfit < best.0 {
+                    best = (misfit, face);
+                }
+            }
+            if best.0.0 <= bound {
+                break;
+            }
+        }
+        faces.push(best.1);
+    }
+    faces
+}
+
+/// The merged faces around each hull vertex, flat vertices included; a face with several triangles there comes several times.
+struct FacesAround {
+    faces: Vec<u32>,
+    starts: Vec<u32>,
+}
+
+impl FacesAround {
+    fn new(polyhedron: &Polyhedron) -> FacesAround {
+        let mut starts = vec![0_u32; polyhedron.vertices.len() + 1];
+        for v in polyhedron.triangles.iter().flatten() {
+            starts[*v as usize + 1] += 1;
+        }
+        for v in 0..polyhedron.vertices.len() {
+            starts[v + 1] += starts[v];
+        }
+        let mut faces = vec![0; 3 * polyhedron.triangles.len()];
+        let mut fill = starts.clone();
+        for (triangle, face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
+            for v in triangle {
+                faces[fill[*v as usize] as usize] = *face;
+                fill[*v as usize] += 1;
+            }
+        }
+        FacesAround { faces, starts }
+    }
+
+    fn of(&self, v: u32) -> &[u32] {
+        &self.faces[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
+    }
+}
+
+/// The hull vertex at each point, if there is one; exact duplicates share it.
+fn hull_vertices_of(polyhedron: &Polyhedron, points: &[Vector]) -> Vec<Option<u32>> {
+    // The points are free of −0, so equal coordinates have equal bits.
+    let key = |p: &Vector| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
+    let mut found = vec![None; points.len()];
+    for (v, &label) in polyhedron.vertex_labels.iter().enumerate() {
+        found[label as usize] = Some(v as u32);
+    }
+    if found.iter().any(Option::is_none) {
+        let by_position: HashMap<[u64; 3], u32> =
+            polyhedron.vertices.iter().enumerate().map(|(v, x)| (key(&x.position), v as u32)).collect();
+        for (vertex, point) in found.iter_mut().zip(points) {
+            *vertex = vertex.or_else(|| by_position.get(&key(point)).copied());
+        }
+    }
+    found
+}
+
+/// The area-weighted normal of a polygon (M. E. Newell), not of unit length.
+fn polygon_normal(points: &[Vector], corners: &[u32]) -> Vector {
+    let origin = points[corners[0] as usize];
+    let offset = |c: u32| points[c as usize] - origin;
+    corners[1..].windows(2).map(|pair| offset(pair[0]).cross(&offset(pair[1]))).sum()
+}
+
+/// Labels for the faces that hold no polygon, with those faces: each the lowest label of the neighbour with the closest normal,
+/// spreading from faces that have one.
+fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32]) -> Vec<(u32, u32)> {
+    let mut lowest = vec![None; polyhedron.faces.len()];
+    for (label, face) in holders.iter().enumerate().rev() {
+        lowest[*face as usize] = Some(label as u32);
+    }
+    let mut waiting: Vec<u32> = (0..lowest.len() as u32).filter(|f| lowest[*f as usize].is_none()).collect();
+    let mut borrowed = Vec::new();
+    // The faces are connected across edges and one has a label, so each round labels some.
+    while !waiting.is_empty() {
+        let round: Vec<(u32, u32)> =
+            waiting.iter().filter_map(|&face| Some((face, label_beside(polyhedron, &lowest, face)?))).collect();
+        if round.is_empty() {
+            break;
+        }
+        for &(face, label) in &round {
+            lowest[face as usize] = Some(label);
+        }
+        waiting.retain(|f| lowest[*f as usize].is_none());
+        borrowed.extend(round);
+    }
+    borrowed
+}
+
+/// The lowest label of the labelled neighbour of `face` with the closest normal.
+fn label_beside(polyhedron: &Polyhedron, lowest: &[Option<u32>], face: u32) -> Option<u32> {
+    let Face { first_side, side_count, .. } = polyhedron.faces[face as usize];
+    polyhedron.sides[first_side as usize..(first_side + side_count) as usize]
+        .iter()
+        .map(|side| &polyhedron.edges[*side as usize])
+        .filter_map(|edge| {
+            let neighbour = if edge.left == face { edge.right } else { edge.left };
+            Some((edge.normals[0].dot(&edge.normals[1]), neighbour, lowest[neighbour as usize]?))
+        })
+        .max_by(|(a, f, _), (b, g, _)| a.total_cmp(b).then(g.cmp(f)))
+        .map(|(_, _, label)| label)
+}

@@ -1,0 +1,285 @@
+//! The convex polyhedron that queries run on: the exact hull of the stored vertices, laid out for Voronoi marching.
+//!
+//! Exact part: `vertices` and `triangles` are the exact convex hull of the vertices that were given. Floating part:
+//! planes, unit directions and offsets are data for the search; how far each plane misses the exact hull is its `slack`,
+//! an upper bound computed at build time, which goes into every interval (Lin & Canny 1991; Mirtich 1998;
+//! Ehmann & Lin 2000, §5.1).
+//!
+//! Coordinates are *centred*: stored vertex = `centre` + `vertices[i].position`, an exact sum (Sterbenz), so that an
+//! object far from its own origin loses no digits. The centre is zero unless an axis range [m−h, m+h] has h ≤ |m|/3.
+
+use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
+
+/// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
+pub const NONE: u32 = u32::MAX;
+
+/// Four planes, one in each lane: the value of lane i at p is `x[i]·p.x + y[i]·p.y + z[i]·p.z + offset[i]`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct PlaneBlock {
+    /// First components of the four unit normals.
+    pub x: [f64; 4],
+    /// Second components.
+    pub y: [f64; 4],
+    /// Third components.
+    pub z: [f64; 4],
+    /// Constant terms.
+    pub offset: [f64; 4],
+}
+
+/// Up to eight neighbours of a vertex in the triangulated exact hull, diagonals of merged faces included; those along edges come
+/// first. Unused lanes repeat lane 0, so that a test over all lanes needs no mask. A point body is its own neighbour, in direction 0.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct NeighbourBlock {
+    /// First components of the unit vectors from the vertex to its neighbours.
+    pub x: [f64; 8],
+    /// Second components.
+    pub y: [f64; 8],
+    /// Third components.
+    pub z: [f64; 8],
+    /// The neighbours.
+    pub head: [u32; 8],
+    /// The edges along which they lie, or [`NONE`] inside a merged face. The neighbour is the edge's other end, or a flat vertex
+    /// within the edge; flat vertices within an edge know it, too.
+    pub edge: [u32; 8],
+}
+
+/// A vertex of the hull.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct Vertex {
+    /// Exact centred coordinates.
+    pub position: Vector,
+    /// Where its neighbour blocks beyond the first begin in `more_neighbours`; the first is `neighbours[own index]`.
+    pub first_more: u32,
+    /// How many blocks beyond the first.
+    pub more: u32,
+}
+
+/// An edge between two merged faces, from `tail` to `head`, the face `left` of it seen from outside. Once per edge.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct Edge {
+    /// The Voronoi region, inside ≥ 0 in all lanes: beyond the tail (`direction·p − direction·tail`), before the head
+    /// (`length − lane 0`), outside the prism of the left face (minus the inward side direction of the left face), outside
+    /// that of the right face. Lane 0's normal is the unit direction of the edge; minus lane 2's and 3's normals are the
+    /// unit inward side directions `n_left × direction` and `direction × n_right`.
+    pub planes: PlaneBlock,
+    /// Unit outward normals of the left and the right face.
+    pub normals: [Vector; 2],
+    /// Slacks of the two faces' planes.
+    pub slacks: [f64; 2],
+    /// Length of the edge.
+    pub length: f64,
+    /// 1 / (−n_left·side_right), the reciprocal sine of the exterior dihedral angle; +∞ where that is not positive.
+    pub reciprocal_sine: f64,
+    /// First vertex.
+    pub tail: u32,
+    /// Second vertex.
+    pub head: u32,
+    /// Left face.
+    pub left: u32,
+    /// Right face.
+    pub right: u32,
+    /// Index in `bevels` of the plane that halves a sharp edge (n_left·n_right < 0), or [`NONE`].
+    pub bevel: u32,
+    /// The caller's indices of the two vertices.
+    pub labels: [u32; 2],
+}
+
+/// A supporting plane through a sharp edge, its normal between those of the two faces.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Bevel {
+    /// Unit outward normal: (n_left + n_right)/|·|; for a flat body the in-plane outward normal of the edge.
+    pub normal: Vector,
+    /// An upper bound of max over the exact hull of n·x minus min over this edge's vertices, flat ones included, of n·x.
+    pub slack: f64,
+}
+
+/// A face: all exactly or within rounding coplanar triangles merged, a convex polygon of any valence.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(64))]
+pub struct Face {
+    /// Lane 0: the face's plane, positive outside. Lanes 1–3: its first three sides, each positive inside the polygon's
+    /// prism (normal `n × direction` with the edge counter-clockwise). Further sides are in `more_sides`.
+    pub planes: PlaneBlock,
+    /// σ: an upper bound of max over the exact hull of n·x minus min over this face's own vertices, flat ones included, of n·x.
+    pub slack: f64,
+    /// Where the face's sides begin in `sides`; side i lies in lane 1 + i of `planes` for i < 3, else in lane (i − 3) % 4 of
+    /// `more_sides[first_more + (i − 3) / 4]`.
+    pub first_side: u32,
+    /// Number of sides.
+    pub side_count: u32,
+    /// Index of the first further plane block; unused lanes of the last block hold normal 0 and offset +∞.
+    pub first_more: u32,
+    /// One vertex of the face.
+    pub vertex: u32,
+    /// The caller's polygon that the face is, or [`NONE`] where several were merged into it.
+    pub label: u32,
+    /// The unit outward normal, as in lane 0 of `planes`.
+    pub normal: Vector,
+}
+
+/// Volume, centre of mass and the like; of a flat body the area-weighted, of a segment the length-weighted ones.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct MassProperties {
+    /// Volume; 0 without interior.
+    pub volume: f64,
+    /// Volume centre of mass, in the caller's frame (after the input transform).
+    pub centre_of_mass: Vector,
+    /// Largest distance of a vertex from the centre of mass.
+    pub radius: f64,
+    /// Lower corner of the bounding box in the object's frame.
+    pub lower: Vector,
+    /// Upper corner.
+    pub upper: Vector,
+}
+
+/// A convex polyhedron, immutable once built.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Polyhedron {
+    /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).
+    pub dimension: u8,
+    /// What was subtracted from the stored vertices, exactly.
+    pub centre: Vector,
+    /// ρ: an upper bound of |position| over all vertices.
+    pub radius: f64,
+    /// Hull vertices. Those that only lie inside a merged face or edge (flat vertices) are kept for the support climb.
+    pub vertices: Vec<Vertex>,
+    /// One block per vertex.
+    pub neighbours: Vec<NeighbourBlock>,
+    /// Blocks of vertices with more than eight neighbours.
+    pub more_neighbours: Vec<NeighbourBlock>,
+    /// The exact hull, triangulated, over `vertices`; counter-clockwise from outside.
+    pub triangles: Vec<[u32; 3]>,
+    /// The merged face of each triangle.
+    pub face_of_triangle: Vec<u32>,
+    /// Edges between merged faces.
+    pub edges: Vec<Edge>,
+    /// Merged faces.
+    pub faces: Vec<Face>,
+    /// Edge ids of the faces' sides, counter-clockwise.
+    pub sides: Vec<u32>,
+    /// Plane blocks of faces with more than three sides.
+    pub more_sides: Vec<PlaneBlock>,
+    /// Planes that halve sharp edges.
+    pub bevels: Vec<Bevel>,
+    /// The caller's index of each vertex: the first one of exactly equal coordinates.
+    pub vertex_labels: Vec<u32>,
+    /// The caller's polygons merged into each face: face f owns `face_labels[face_label_starts[f]..face_label_starts[f+1]]`,
+    /// ascending. For a hull of bare points a face's label is its own index.
+    pub face_labels: Vec<u32>,
+    /// See `face_labels`; one more entry than faces.
+    pub face_label_starts: Vec<u32>,
+    /// The corners of polygon `face_labels[k]`, centred, in the caller's order: `polygon_corners[s[k]..s[k + 1]]` with s =
+    /// `polygon_starts`. Only kept where a face has several labels; otherwise, and without a mesh, empty.
+    pub polygon_corners: Vec<Vector>,
+    /// See `polygon_corners`; one more entry than `face_labels`, or empty without a mesh.
+    pub polygon_starts: Vec<u32>,
+    /// Volume, centre of mass, radius, box.
+    pub mass: MassProperties,
+}
+
+impl Polyhedron {
+    /// A vertex in the object's frame, as the caller gave it (after the input transform).
+    pub fn local_position(&self, vertex: u32) -> Vector {
+        self.centre + self.vertices[vertex as usize].position
+    }
+
+    /// The caller's polygons merged into a face, ascending; see `face_labels`.
+    #[inline]
+    pub fn labels_of_face(&self, face: u32) -> &[u32] {
+        let face = face as usize;
+        &self.face_labels[self.face_label_starts[face] as usize..self.face_label_starts[face + 1] as usize]
+    }
+
+    /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
+    /// rounding puts it in none. Time in proportion to the polygons merged into the face.
+    pub fn polygon_at(&self, face: u32, point: &Vector) -> u32 {
+        let labels = self.labels_of_face(face);
+        let first = self.face_label_starts[face as usize] as usize;
+        if labels.len() == 1 || self.polygon_starts.is_empty() {
+            return labels[0];
+        }
+        let normal = &self.faces[face as usize].normal;
+        let mut best = (f64::INFINITY, labels[0]);
+        for (k, &label) in labels.iter().enumerate() {
+            let range = self.polygon_starts[first + k] as usize..self.polygon_starts[first + k + 1] as usize;
+            let misses = misses_polygon(&self.polygon_corners[range], normal, point);
+            if misses < best.0 {
+                best = (misses, label);
+            }
+            if misses == 0.0 {
+                break;
+            }
+        }
+        best.1
+    }
+
+    /// The neighbour blocks of a vertex: the first, then those with neighbours beyond eight.
+    #[inline]
+    pub fn neighbour_blocks(&self, vertex: u32) -> impl Iterator<Item = &NeighbourBlock> {
+        let Vertex { first_more, more, .. } = self.vertices[vertex as usize];
+        let further = &self.more_neighbours[first_more as usize..(first_more + more) as usize];
+        std::iter::once(&self.neighbours[vertex as usize]).chain(further)
+    }
+
+    /// A vertex that is farthest along `direction` as far as plain doubles tell, and the number of steps from `start`: hill
+    /// climbing along the steepest edge of the triangulated hull until none leads up.
+    pub fn support(&self, direction: &Vector, start: u32) -> (u32, u32) {
+        // A computed slope, of a unit vector right to 4u per component, is off by less than 8u·|direction|₁. A step is taken
+        // only if it certainly leads up, so no vertex comes twice. The smallest normal number is for products that underflow: without
+        // it a direction of subnormal numbers could lead round in a circle.
+        let length = direction.x.abs() + direction.y.abs() + direction.z.abs();
+        let level = 8.0 * UNIT_ROUNDOFF * length + f64::MIN_POSITIVE;
+        let (mut vertex, mut steps) = (start, 0);
+        loop {
+            let mut steepest = level;
+            let mut next = vertex;
+            for block in self.neighbour_blocks(vertex) {
+                for lane in 0..8 {
+                    let slope = block.x[lane] * direction.x + block.y[lane] * direction.y + block.z[lane] * direction.z;
+                    if slope > steepest {
+                        (steepest, next) = (slope, block.head[lane]);
+                    }
+                }
+            }
+            if next == vertex {
+                return (vertex, steps);
+            }
+            vertex = next;
+            steps += 1;
+        }
+    }
+
+    /// The plane blocks of a face's sides beyond the third.
+    #[inline]
+    pub fn further_sides(&self, face: &Face) -> &[PlaneBlock] {
+        let count = (face.side_count as usize).saturating_sub(3).div_ceil(4);
+        &self.more_sides[face.first_more as usize..face.first_more as usize + count]
+    }
+}
+
+impl PlaneBlock {
+    /// The value of one plane at a point.
+    pub fn value(&self, lane: usize, point: &Vector) -> f64 {
+        self.x[lane] * point.x + self.y[lane] * point.y + self.z[lane] * point.z + self.offset[lane]
+    }
+}
+
+/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the sharp
+/// corner of a sliver a point may violate the sides by next to nothing and still be far away.
+fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
+    let (mut is_inside, mut nearest) = (true, f64::INFINITY);
+    for (i, a) in corners.iter().enumerate() {
+        let along = corners[(i + 1) % corners.len()] - a;
+        let from = point - a;
+        is_inside &= normal.cross(&along).dot(&from) >= 0.0;
+        let square = along.norm_squared();
+        // A side without length is a point.
+        let t = if square > 0.0 { clamp(from.dot(&along) / square, 0.0, 1.0) } else { 0.0 };
+        nearest = nearest.min((from - along * t).norm());
+    }
+    if is_inside { 0.0 } else { nearest }
+}

@@ -1,0 +1,216 @@
+//! Vertices, edges and faces with their planes, as marching wants them in memory.
+
+use crate::error::{Error, Result};
+use crate::face_merge::MergedFaces;
+use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::normal::unit;
+use crate::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
+use crate::slack::Flood;
+use crate::triangulation::Triangulation;
+
+/// The neighbours of a vertex with the edges to them: those along edges first, else counter-clockwise, each once (in a flat
+/// hull a diagonal occurs on both sides).
+pub fn neighbours_of(surface: &Triangulation, edge_of: &[u32], v: u32, flat: bool) -> Vec<(u32, u32)> {
+    let mut neighbours: Vec<(u32, u32)> =
+        surface.around(v).iter().map(|h| (surface.head(*h), edge_of[*h as usize])).collect();
+    if flat {
+        neighbours.sort_unstable();
+        neighbours.dedup_by_key(|(w, _)| *w);
+    }
+    neighbours.sort_by_key(|(_, edge)| *edge == NONE);
+    neighbours
+}
+
+/// The plane through the side of a face that runs from one vertex to another counter-clockwise, inside positive: its normal and
+/// offset. Both faces of an edge measure from the same end along the same direction.
+fn side_plane(positions: &[Vector], normal: &Vector, from: u32, to: u32) -> (Vector, f64) {
+    let (tail, head) = (&positions[from.min(to) as usize], &positions[from.max(to) as usize]);
+    let direction = unit(&(head - tail));
+    let inward = if from < to { normal.cross(&direction) } else { direction.cross(normal) };
+    // The edge may lean out of the rounded plane by a little, so normalise.
+    let inward = unit(&inward);
+    (inward, -inward.dot(tail))
+}
+
+/// An edge from its ends, the lower one first, and the faces beside it.
+fn edge_between(
+    [tail, head]: [u32; 2],
+    positions: &[Vector],
+    [left, right]: [u32; 2],
+    merged: &MergedFaces,
+    slacks: &[f64],
+) -> Edge {
+    let (a, b) = (&positions[tail as usize], &positions[head as usize]);
+    let direction = unit(&(b - a));
+    let length = (b - a).norm();
+    let normals = [merged.normals[left as usize], merged.normals[right as usize]];
+    let (side_left, offset_left) = side_plane(positions, &normals[0], tail, head);
+    let (side_right, offset_right) = side_plane(positions, &normals[1], head, tail);
+    let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0; 4] };
+    let start = direction.dot(a);
+    set_plane(&mut planes, 0, &direction, -start);
+    set_plane(&mut planes, 1, &-direction, length + start);
+    set_plane(&mut planes, 2, &-side_left, -offset_left);
+    set_plane(&mut planes, 3, &-side_right, -offset_right);
+    let sine = -normals[0].dot(&side_right);
+    Edge {
+        planes,
+        normals,
+        slacks: [slacks[left as usize], slacks[right as usize]],
+        length,
+        reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
+        tail,
+        head,
+        left,
+        right,
+        bevel: NONE,
+        labels: [NONE; 2],
+    }
+}
+
+/// Writes one lane of a plane block.
+fn set_plane(block: &mut PlaneBlock, lane: usize, normal: &Vector, offset: f64) {
+    (block.x[lane], block.y[lane], block.z[lane]) = (normal.x, normal.y, normal.z);
+    block.offset[lane] = offset;
+}
+
+/// The normal in one lane of a plane block.
+fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
+    Vector::new(block.x[lane], block.y[lane], block.z[lane])
+}
+
+impl Polyhedron {
+    /// Adds the next vertex with its neighbour blocks.
+    pub(super) fn add_vertex(&mut self, positions: &[Vector], v: u32, neighbours: &[(u32, u32)]) {
+        let position = positions[v as usize];
+        let mut blocks = neighbours.chunks(8).map(|chunk| {
+            let mut block = NeighbourBlock { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8], head: [0; 8], edge: [NONE; 8] };
+            for lane in 0..8 {
+                let (head, edge) = chunk[if lane < chunk.len() { lane } else { 0 }];
+                let direction = unit(&(positions[head as usize] - position));
+                (block.x[lane], block.y[lane], block.z[lane]) = (direction.x, direction.y, direction.z);
+                (block.head[lane], block.edge[lane]) = (head, edge);
+            }
+            block
+        });
+        self.neighbours.extend(blocks.next());
+        let first_more = self.more_neighbours.len() as u32;
+        self.more_neighbours.extend(blocks);
+        let more = self.more_neighbours.len() as u32 - first_more;
+        self.vertices.push(Vertex { position, first_more, more });
+    }
+
+    /// Adds all edges, ordered by their lower vertex, and the bevels of the sharp ones. Returns the edge of each half-edge, NONE
+    /// inside faces.
+    pub(super) fn add_edges(
+        &mut self,
+        surface: &Triangulation,
+        positions: &[Vector],
+        merged: &MergedFaces,
+        slacks: &[f64],
+        flood: &mut Flood,
+    ) -> Vec<u32> {
+        let mut edge_of = vec![NONE; surface.twins.len()];
+        // Euler: corners − edges + faces = 2.
+        self.edges.reserve_exact(merged.normals.len() + merged.corners.iter().filter(|c| **c).count());
+        for tail in (0..positions.len() as u32).filter(|v| merged.corners[*v as usize]) {
+            for &first in surface.around(tail) {
+                if !merged.is_boundary(surface, first) || edge_of[first as usize] != NONE {
+                    continue;
+                }
+                let id = self.edges.len() as u32;
+                let last = merged.last_of_edge(surface, first);
+                let after = |h: &u32| (*h != last).then(|| merged.next_on_boundary(surface, *h));
+                let half_edges = std::iter::successors(Some(first), after);
+                for h in half_edges.clone() {
+                    edge_of[h as usize] = id;
+                    edge_of[surface.twins[h as usize] as usize] = id;
+                }
+                let faces = [merged.left(first), merged.left(surface.twins[first as usize])];
+                let mut edge = edge_between([tail, surface.head(last)], positions, faces, merged, slacks);
+                if edge.normals[0].dot(&edge.normals[1]) < 0.0 {
+                    edge.bevel = self.bevels.len() as u32;
+                    let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), flood);
+                    self.bevels.push(bevel);
+                }
+                self.edges.push(edge);
+            }
+        }
+        edge_of
+    }
+
+    /// Adds all faces with their sides.
+    pub(super) fn add_faces(
+        &mut self,
+        surface: &Triangulation,
+        positions: &[Vector],
+        merged: &MergedFaces,
+        slacks: &[f64],
+        edge_of: &[u32],
+    ) -> Result<()> {
+        self.faces.reserve_exact(merged.normals.len());
+        self.sides.reserve_exact(2 * self.edges.len());
+        for (face, normal) in merged.normals.iter().enumerate() {
+            let first = merged.first_half_edges[face];
+            let first_side = self.sides.len();
+            let first_more = self.more_sides.len();
+            let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0; 4] };
+            let (mut low, mut high) = (f64::INFINITY, f64::NEG_INFINITY);
+            let mut h = first;
+            loop {
+                let last = merged.last_of_edge(surface, h);
+                let (tail, head) = (surface.tail(h), surface.head(last));
+                let height = normal.dot(&positions[tail as usize]);
+                (low, high) = (low.min(height), high.max(height));
+                // The edge has this plane, too; but there it is far away in memory.
+                let (side, offset) = side_plane(positions, normal, tail, head);
+                match self.sides.len() - first_side {
+                    i @ 0..3 => set_plane(&mut planes, 1 + i, &side, offset),
+                    i => self.add_further_side((i - 3) % 4, &side, offset),
+                }
+                self.sides.push(edge_of[h as usize]);
+                h = merged.next_on_boundary(surface, last);
+                if h == first {
+                    break;
+                }
+            }
+            let side_count = self.sides.len() - first_side;
+            if side_count < 3 {
+                return Err(Error::Bug(format!("face {face} has {side_count} sides")));
+            }
+            set_plane(&mut planes, 0, normal, -0.5 * (low + high));
+            self.faces.push(Face {
+                planes,
+                slack: slacks[face],
+                first_side: first_side as u32,
+                side_count: side_count as u32,
+                first_more: first_more as u32,
+                vertex: surface.tail(first),
+                label: NONE,
+                normal: merged.normals[face],
+            });
+        }
+        Ok(())
+    }
+
+    /// Adds one of the sides beyond the third of the last face; lane 0 begins a block.
+    fn add_further_side(&mut self, lane: usize, side: &Vector, offset: f64) {
+        if lane == 0 {
+            let unused = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::INFINITY; 4] };
+            self.more_sides.push(unused);
+        }
+        if let Some(block) = self.more_sides.last_mut() {
+            set_plane(block, lane, side, offset);
+        }
+    }
+}
+
+/// The plane that halves a sharp edge; `vertices` are those of the edge beyond its tail, flat ones included: a query may end at any
+/// of them. n_left + n_right cancels for a thin plate; minus the sum of the inward side directions has the same direction and does
+/// not.
+fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, flood: &mut Flood) -> Bevel {
+    let normal = unit(&(plane_normal(&edge.planes, 2) + plane_normal(&edge.planes, 3)));
+    let rise = flood.rise(&normal, edge.tail);
+    let fall = flood.fall(&normal, edge.tail, vertices);
+    Bevel { normal, slack: (rise + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF) }
+}

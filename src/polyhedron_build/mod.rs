@@ -1,0 +1,224 @@
+//! Builds a [`Polyhedron`] from points and their exact hull: centres the points, orders them for locality, merges faces, bounds how
+//! far each plane misses the exact hull, and lays it all out.
+
+mod layout;
+mod scale;
+
+use crate::double_double::{WideVector, narrow};
+use crate::error::Result;
+use crate::face_labels::{label_by_index, label_by_polygons};
+use crate::face_merge::{MergedFaces, merge_bound, merge_faces};
+use crate::hull_build::{Hull, convex_hull};
+use crate::mass::mass_properties;
+use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::mesh::PolygonMesh;
+use crate::normal::{area_vector, normal_of};
+use crate::polyhedron::{NONE, Polyhedron};
+use crate::slack::Flood;
+use crate::triangulation::Triangulation;
+use layout::neighbours_of;
+use scale::{factor_to_middle_scale, scale_back};
+
+/// The polyhedron of the exact convex hull of `points`. `polygons`, over the same points, gives the faces' labels; they lie on the
+/// hull up to a tolerance ([`crate::hull_check`]). The result depends on the arguments alone: same input, same arrays.
+///
+/// # Errors
+/// No points, too many, or one that is not finite ([`convex_hull`]).
+pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
+    build_on_hull(points, convex_hull(points)?, polygons)
+}
+
+/// As [`build`], for points whose exact hull is known.
+///
+/// # Errors
+/// [`crate::error::Error::Bug`] if `hull` is not the hull of the points.
+pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
+    let centre = centre_of(points);
+    // The sum with +0 turns −0 into 0.
+    let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
+    sort_for_locality(&mut hull.vertices, &centred);
+
+    let factor = factor_to_middle_scale(&centred);
+    let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
+    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(centre * factor)?;
+    match polygons {
+        Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
+            label_by_polygons(&mut polyhedron, &scaled, mesh);
+        }
+        _ => label_by_index(&mut polyhedron),
+    }
+    copy_labels(&mut polyhedron);
+    if factor != 1.0 {
+        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
+    }
+    Ok(polyhedron)
+}
+
+/// Puts the labels where an answer reads them together with the feature.
+fn copy_labels(polyhedron: &mut Polyhedron) {
+    for edge in &mut polyhedron.edges {
+        edge.labels = [edge.tail, edge.head].map(|v| polyhedron.vertex_labels[v as usize]);
+    }
+    for face in 0..polyhedron.faces.len() {
+        if let &[label] = polyhedron.labels_of_face(face as u32) {
+            polyhedron.faces[face].label = label;
+        }
+    }
+}
+
+/// What to subtract from all points: per axis the middle m of the range [m−h, m+h] if h ≤ |m|/3, else 0.
+///
+/// Then every x lies between 2m/3 and 4m/3 (up to rounding), well within [m/2, 2m] where x − m is exact (P. H. Sterbenz,
+/// Floating-Point Computation, 1974).
+fn centre_of(points: &[Vector]) -> Vector {
+    Vector::from_fn(|axis, _| {
+        let low = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
+        let high = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
+        let middle = 0.5 * low + 0.5 * high;
+        let half = (high - middle).max(middle - low);
+        if middle.is_finite() && half <= middle.abs() / 3.0 { middle } else { 0.0 }
+    })
+}
+
+/// Orders vertices along a Z-order curve (G. M. Morton, 1966), so that neighbours on the hull tend to be neighbours in memory.
+fn sort_for_locality(vertices: &mut [u32], points: &[Vector]) {
+    let mut low = Vector::repeat(f64::INFINITY);
+    let mut high = Vector::repeat(f64::NEG_INFINITY);
+    for &v in vertices.iter() {
+        low = low.inf(&points[v as usize]);
+        high = high.sup(&points[v as usize]);
+    }
+    // Halves, so that the size of the largest box does not overflow.
+    let half_size = (0.5 * high - 0.5 * low).amax();
+    let cell = |x: f64, low: f64| (((0.5 * x - 0.5 * low) / half_size) * f64::from((1_u32 << 21) - 1)) as u64;
+    let code = |v: &u32| {
+        let p = &points[*v as usize];
+        spread(cell(p.x, low.x)) | spread(cell(p.y, low.y)) << 1 | spread(cell(p.z, low.z)) << 2
+    };
+    vertices.sort_by_cached_key(|v| (code(v), *v));
+}
+
+/// The low 21 bits of x, two zeros after each.
+fn spread(x: u64) -> u64 {
+    let mut x = x & 0x1f_ffff;
+    x = (x | x << 32) & 0x001f_0000_0000_ffff;
+    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
+    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
+    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
+    (x | x << 2) & 0x1249_2492_4924_9249
+}
+
+/// The hull over its own vertices in their final order.
+struct HullSurface {
+    dimension: u8,
+    positions: Vec<Vector>,
+    labels: Vec<u32>,
+    triangles: Vec<[u32; 3]>,
+    /// Twice the triangles' area vectors.
+    areas: Vec<WideVector>,
+    normals: Vec<Vector>,
+}
+
+impl HullSurface {
+    fn new(points: &[Vector], hull: Hull) -> HullSurface {
+        let positions: Vec<Vector> = hull.vertices.iter().map(|v| points[*v as usize]).collect();
+        let mut index = vec![NONE; points.len()];
+        for (new, &old) in hull.vertices.iter().enumerate() {
+            index[old as usize] = new as u32;
+        }
+        // Like the vertices in order of place, each triangle from its lowest vertex.
+        let from_lowest = |mut t: [u32; 3]| {
+            let lowest = (0..3).min_by_key(|k| t[*k]).unwrap_or(0);
+            t.rotate_left(lowest);
+            t
+        };
+        let mut triangles: Vec<[u32; 3]> =
+            hull.triangles.iter().map(|t| from_lowest(t.map(|v| index[v as usize]))).collect();
+        triangles.sort_unstable();
+        let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
+        let areas: Vec<WideVector> = triangles
+            .iter()
+            .map(|t| {
+                let [a, b, c] = corners(t);
+                area_vector(&a, &b, &c)
+            })
+            .collect();
+        let normals = triangles
+            .iter()
+            .zip(&areas)
+            .map(|(t, area)| {
+                let [a, b, c] = corners(t);
+                normal_of(area, &a, &b, &c)
+            })
+            .collect();
+        HullSurface { dimension: hull.dimension, positions, labels: hull.vertices, triangles, areas, normals }
+    }
+
+    fn lay_out(self, centre: Vector) -> Result<Polyhedron> {
+        let longest = self.positions.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        // The norm is right to 3u.
+        let radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
+        let mass = mass_properties(self.dimension, &self.positions, &centre, &self.triangles, &self.areas);
+        let mut polyhedron = Polyhedron {
+            dimension: self.dimension,
+            centre,
+            radius,
+            vertices: Vec::new(),
+            neighbours: Vec::new(),
+            more_neighbours: Vec::new(),
+            triangles: Vec::new(),
+            face_of_triangle: Vec::new(),
+            edges: Vec::new(),
+            faces: Vec::new(),
+            sides: Vec::new(),
+            more_sides: Vec::new(),
+            bevels: Vec::new(),
+            vertex_labels: self.labels,
+            face_labels: Vec::new(),
+            face_label_starts: Vec::new(),
+            polygon_corners: Vec::new(),
+            polygon_starts: Vec::new(),
+            mass,
+        };
+        if self.dimension < 2 {
+            // A segment's ends are each other's neighbours, a point is its own.
+            for v in 0..self.positions.len() {
+                let other = self.positions.len() - 1 - v;
+                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)]);
+            }
+            return Ok(polyhedron);
+        }
+
+        let sizes: Vec<f64> = self.areas.iter().map(|a| narrow(a).norm()).collect();
+        let surface = Triangulation::new(self.triangles, &self.normals, self.positions.len())?;
+        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius));
+        let mut flood = Flood::new(&surface, &self.positions, radius);
+        let slacks = face_slacks(&surface, &merged, &mut flood);
+        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
+        polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
+        polyhedron.vertices.reserve_exact(self.positions.len());
+        polyhedron.neighbours.reserve_exact(self.positions.len());
+        for v in 0..self.positions.len() as u32 {
+            polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
+        }
+        polyhedron.triangles = surface.triangles;
+        polyhedron.face_of_triangle = merged.face_of;
+        Ok(polyhedron)
+    }
+}
+
+/// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below.
+fn face_slacks(surface: &Triangulation, merged: &MergedFaces, flood: &mut Flood) -> Vec<f64> {
+    let start = |face: usize| surface.tail(merged.first_half_edges[face]);
+    let mut slacks: Vec<f64> =
+        merged.normals.iter().enumerate().map(|(face, normal)| flood.rise(normal, start(face))).collect();
+    let mut falls = vec![0.0_f64; slacks.len()];
+    for (triangle, &face) in surface.triangles.iter().zip(&merged.face_of) {
+        let face = face as usize;
+        falls[face] = falls[face].max(flood.fall(&merged.normals[face], start(face), *triangle));
+    }
+    for (slack, fall) in slacks.iter_mut().zip(falls) {
+        *slack = (*slack + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF);
+    }
+    slacks
+}

@@ -1,0 +1,175 @@
+//! A shape: geometry that any number of objects, scenes and threads share, immutable once made.
+
+use std::path::Path;
+
+use crate::double_double::{DoubleDouble, two_product};
+use crate::error::{Error, Result};
+use crate::hull_build::convex_hull;
+use crate::hull_check::{check_convexity, check_surface};
+use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::mesh::PolygonMesh;
+use crate::mesh_io::read_mesh;
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron_build::{build, build_on_hull};
+
+/// Default of [`ShapeOptions::convexity_tolerance`].
+const CONVEXITY_TOLERANCE: f64 = 1e-9;
+
+/// The same for meshes that went through single precision.
+const SINGLE_PRECISION_CONVEXITY_TOLERANCE: f64 = 1e-6;
+
+/// What to do with input that is not a closed convex mesh with interior.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum InputPolicy {
+    /// Refuse it with a message that says where.
+    #[default]
+    Strict = 0,
+    /// Admit bodies without interior (a two-sided polygon); otherwise as strict.
+    Flat = 1,
+    /// Take the convex hull of the vertices, of any dimension. Faces label the hull if the mesh would pass as `Flat`; otherwise
+    /// they are ignored, and a face's label is its own index.
+    Hull = 2,
+}
+
+/// How a shape is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeOptions {
+    /// What to do with input that is not a closed convex mesh with interior.
+    pub input: InputPolicy,
+    /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
+    /// the rotation of a pose ([`ROTATION_LIMIT`]).
+    pub rotation: Matrix,
+    /// See `rotation`.
+    pub translation: Vector,
+    /// See `rotation`; positive and finite.
+    pub scale: f64,
+    /// Largest distance of a vertex outside a face of accepted input, relative to the bounding-box diagonal. `None`: 1e-9, or
+    /// 1e-6 for meshes that went through single precision.
+    pub convexity_tolerance: Option<f64>,
+}
+
+impl Default for ShapeOptions {
+    fn default() -> Self {
+        ShapeOptions {
+            input: InputPolicy::Strict,
+            rotation: Matrix::identity(),
+            translation: Vector::zeros(),
+            scale: 1.0,
+            convexity_tolerance: None,
+        }
+    }
+}
+
+/// Geometry for queries: immutable, shared by count (in Rust with `Arc`).
+#[derive(Debug, Clone, PartialEq)]
+pub struct Shape {
+    polyhedron: Polyhedron,
+}
+
+impl Shape {
+    /// From a mesh in the caller's numbering.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of range, [`Error::Mesh`] for a mesh that the policy does not admit, with the face,
+    /// edge or vertex where.
+    pub fn from_mesh(mesh: &PolygonMesh, options: &ShapeOptions) -> Result<Shape> {
+        let mesh = PolygonMesh { vertices: transformed(&mesh.vertices, options)?, ..mesh.clone() };
+        let tolerance = match options.convexity_tolerance {
+            Some(tolerance) if tolerance >= 0.0 && tolerance.is_finite() => tolerance,
+            Some(tolerance) => {
+                return Err(Error::Argument(format!("the convexity tolerance {tolerance:e} is not finite and ≥ 0")));
+            }
+            None if mesh.single_precision => SINGLE_PRECISION_CONVEXITY_TOLERANCE,
+            None => CONVEXITY_TOLERANCE,
+        };
+        let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
+        let hull = convex_hull(&mesh.vertices)?;
+        let allow_flat = options.input != InputPolicy::Strict;
+        let checked = check_surface(&mesh).and_then(|()| check_convexity(&mesh, &hull, tolerance, allow_flat));
+        let polygons = match options.input {
+            InputPolicy::Strict | InputPolicy::Flat => checked.map(|()| Some(&mesh))?,
+            InputPolicy::Hull => checked.is_ok().then_some(&mesh),
+        };
+        Shape::admitted(build_on_hull(&mesh.vertices, hull, polygons)?, options.input)
+    }
+
+    /// The convex hull of points. A face's label is its own index.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of range, no points or one that is not finite; [`Error::Mesh`] for a hull whose
+    /// dimension the policy does not admit.
+    pub fn from_points(points: &[Vector], options: &ShapeOptions) -> Result<Shape> {
+        Shape::admitted(build(&transformed(points, options)?, None)?, options.input)
+    }
+
+    /// From a mesh file ([`read_mesh`]).
+    ///
+    /// # Errors
+    /// As [`read_mesh`] and [`Shape::from_mesh`].
+    pub fn from_file(path: &Path, options: &ShapeOptions) -> Result<Shape> {
+        Shape::from_mesh(&read_mesh(path)?, options)
+    }
+
+    /// The polyhedron that queries run on.
+    pub fn polyhedron(&self) -> &Polyhedron {
+        &self.polyhedron
+    }
+
+    /// Refuses a polyhedron of a dimension that the policy does not admit.
+    fn admitted(polyhedron: Polyhedron, policy: InputPolicy) -> Result<Shape> {
+        let least = match policy {
+            InputPolicy::Strict => 3,
+            InputPolicy::Flat => 2,
+            InputPolicy::Hull => 0,
+        };
+        if polyhedron.dimension < least {
+            let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];
+            return Err(Error::Mesh(format!("the body has no interior: {}", what[usize::from(polyhedron.dimension)])));
+        }
+        Ok(Shape { polyhedron })
+    }
+}
+
+/// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
+/// itself and 2⁻⁹⁶ of the largest term.
+fn transformed(points: &[Vector], options: &ShapeOptions) -> Result<Vec<Vector>> {
+    let ShapeOptions { rotation, translation, scale, .. } = options;
+    if !(*scale > 0.0 && scale.is_finite()) {
+        return Err(Error::Argument(format!("the input scale {scale:e} is not positive and finite")));
+    }
+    Pose::new(rotation, translation)
+        .check(ROTATION_LIMIT)
+        .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
+    if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
+        return Ok(points.to_vec());
+    }
+    let coordinate = |p: &Vector, row: usize| {
+        let mut rotated = DoubleDouble::default();
+        for column in 0..3 {
+            rotated = rotated + two_product(rotation[(row, column)], p[column]);
+        }
+        (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
+    };
+    let transform = |(v, p): (usize, &Vector)| {
+        let image = Vector::from_fn(|row, _| coordinate(p, row));
+        if image.iter().all(|x| x.is_finite()) {
+            Ok(image)
+        } else {
+            Err(Error::Argument(format!("the input transform moves vertex {v} out of the range of doubles")))
+        }
+    };
+    points.iter().enumerate().map(transform).collect()
+}
+
+/// Half the diagonal of the bounding box, which cannot overflow where the whole one would; 0 without points.
+fn half_diagonal(points: &[Vector]) -> f64 {
+    let corner = |pick: fn(f64, f64) -> f64| points.iter().copied().reduce(|a, b| a.zip_map(&b, pick));
+    match (corner(f64::min), corner(f64::max)) {
+        (Some(lower), Some(upper)) => {
+            let half = 0.5 * upper - 0.5 * lower;
+            half.x.hypot(half.y).hypot(half.z)
+        }
+        _ => 0.0,
+    }
+}

@@ -1,0 +1,143 @@
+//! Shapes from meshes, points and files: policies, input transform, errors.
+
+use std::path::Path;
+
+use dashu_ratio::RBig;
+use swiftprox::error::Error;
+use swiftprox::math::{Matrix, Vector};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+
+/// A unit cube of six quadrilaterals.
+fn cube() -> PolygonMesh {
+    let vertices = (0..8).map(|i| Vector::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2))).collect();
+    #[rustfmt::skip]
+    let sides = [0, 2, 3, 1,  4, 5, 7, 6,  0, 1, 5, 4,  2, 6, 7, 3,  0, 4, 6, 2,  1, 3, 7, 5];
+    PolygonMesh::new(vertices, sides.to_vec(), Some(&[4; 6])).unwrap()
+}
+
+/// A square, one polygon on either side.
+fn square() -> PolygonMesh {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0]].map(Vector::from);
+    PolygonMesh::new(corners.to_vec(), vec![0, 1, 2, 3, 3, 2, 1, 0], Some(&[4, 4])).unwrap()
+}
+
+/// An octahedron with one corner pushed in through its centre.
+fn dented() -> PolygonMesh {
+    let mut vertices = Vec::new();
+    for k in 0..3 {
+        vertices.extend([Vector::ith(k, 1.0), Vector::ith(k, -1.0)]);
+    }
+    vertices[4].z = -0.5;
+    #[rustfmt::skip]
+    let triangles = [0, 2, 4,  2, 1, 4,  1, 3, 4,  3, 0, 4,  2, 0, 5,  1, 2, 5,  3, 1, 5,  0, 3, 5];
+    PolygonMesh::new(vertices, triangles.to_vec(), None).unwrap()
+}
+
+fn with(input: InputPolicy) -> ShapeOptions {
+    ShapeOptions { input, ..Default::default() }
+}
+
+#[test]
+fn a_convex_mesh_passes_every_policy_and_keeps_its_labels() {
+    for policy in [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull] {
+        let shape = Shape::from_mesh(&cube(), &with(policy)).unwrap();
+        let p = shape.polyhedron();
+        for f in 0..6 {
+            let [label] = *p.labels_of_face(f) else { panic!("one polygon a face") };
+            let planes = &p.faces[f as usize].planes;
+            let expected = [
+                [0.0, 0.0, -1.0],
+                [0.0, 0.0, 1.0],
+                [0.0, -1.0, 0.0],
+                [0.0, 1.0, 0.0],
+                [-1.0, 0.0, 0.0],
+                [1.0, 0.0, 0.0],
+            ];
+            assert_eq!([planes.x[0], planes.y[0], planes.z[0]], expected[label as usize]);
+        }
+    }
+}
+
+#[test]
+fn flat_meshes_are_admitted_on_request() {
+    let refused = Shape::from_mesh(&square(), &with(InputPolicy::Strict)).unwrap_err();
+    assert!(matches!(&refused, Error::Mesh(m) if m.contains("flat") || m.contains("plane")), "{refused}");
+    for policy in [InputPolicy::Flat, InputPolicy::Hull] {
+        let shape = Shape::from_mesh(&square(), &with(policy)).unwrap();
+        assert_eq!((shape.polyhedron().dimension, shape.polyhedron().faces.len()), (2, 2));
+    }
+}
+
+#[test]
+fn the_hull_policy_takes_anything() {
+    for policy in [InputPolicy::Strict, InputPolicy::Flat] {
+        let refused = Shape::from_mesh(&dented(), &with(policy)).unwrap_err();
+        assert!(matches!(refused, Error::Mesh(_)), "{refused}");
+    }
+    let shape = Shape::from_mesh(&dented(), &with(InputPolicy::Hull)).unwrap();
+    assert_eq!((shape.polyhedron().vertices.len(), shape.polyhedron().faces.len()), (5, 5));
+    assert_eq!(shape.polyhedron().face_labels, [0, 1, 2, 3, 4]);
+}
+
+#[test]
+fn points_without_interior() {
+    let point = [Vector::new(1.0, 2.0, 3.0)];
+    let segment = [Vector::zeros(), Vector::x()];
+    let triangle = [Vector::zeros(), Vector::x(), Vector::y()];
+    for (points, dimension) in [(&point[..], 0), (&segment[..], 1), (&triangle[..], 2)] {
+        for (policy, least) in [(InputPolicy::Strict, 3), (InputPolicy::Flat, 2), (InputPolicy::Hull, 0)] {
+            let result = Shape::from_points(points, &with(policy));
+            if dimension < least {
+                assert!(matches!(result, Err(Error::Mesh(_))));
+            } else {
+                assert_eq!(result.unwrap().polyhedron().dimension, dimension);
+            }
+        }
+    }
+    assert!(matches!(Shape::from_points(&[], &with(InputPolicy::Hull)), Err(Error::Argument(_))));
+}
+
+#[test]
+fn the_input_transform_rounds_once() {
+    // A rotation about z by atan(4/3), whose entries are not doubles, and numbers that cancel.
+    let rotation = Matrix::new(0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 1.0);
+    let translation = Vector::new(-2.6, 1e6, 0.1);
+    let options = ShapeOptions { rotation, translation, scale: 0.3, ..with(InputPolicy::Hull) };
+    let point = Vector::new(1e3, 1.0 / 3.0, -7.0);
+    let shape = Shape::from_points(&[point], &options).unwrap();
+    let exact = |row: usize| {
+        let rational = |x: f64| RBig::try_from(x).unwrap();
+        let rotated = (0..3).fold(RBig::ZERO, |sum, k| sum + rational(rotation[(row, k)]) * rational(point[k]));
+        (rotated * rational(0.3) + rational(translation[row])).to_f64().value()
+    };
+    assert_eq!(shape.polyhedron().local_position(0), Vector::new(exact(0), exact(1), exact(2)));
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let message = |options: ShapeOptions| match Shape::from_mesh(&cube(), &options) {
+        Err(Error::Argument(message)) => message,
+        other => panic!("{other:?}"),
+    };
+    for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
+        assert!(message(ShapeOptions { scale, ..Default::default() }).contains("scale"));
+    }
+    for tolerance in [-1.0, f64::NAN, f64::INFINITY] {
+        assert!(
+            message(ShapeOptions { convexity_tolerance: Some(tolerance), ..Default::default() }).contains("tolerance")
+        );
+    }
+    for rotation in [Matrix::zeros(), -Matrix::identity(), 2.0 * Matrix::identity(), f64::NAN * Matrix::identity()] {
+        assert!(message(ShapeOptions { rotation, ..Default::default() }).contains("input transform"));
+    }
+    let translation = Vector::new(0.0, f64::INFINITY, 0.0);
+    assert!(message(ShapeOptions { translation, ..Default::default() }).contains("input transform"));
+    assert!(message(ShapeOptions { scale: 1e308, ..Default::default() }).contains("vertex 0"));
+}
+
+#[test]
+fn files_that_are_not_there_are_named() {
+    let error = Shape::from_file(Path::new("no/such/file.off"), &ShapeOptions::default()).unwrap_err();
+    assert!(matches!(&error, Error::File(m) if m.contains("no/such/file.off")), "{error}");
+}
