@@ -1,0 +1,330 @@
+//! From nearest points and a direction to a rigorous interval of the distance, rounding included.
+//!
+//! With x, y points of the two bodies, U any world direction from body 2 to body 1, g₁ = −R₁ᵀU, g₂ = R₂ᵀU and
+//! δᵢ ≥ max over the body of gᵢ·z minus gᵢ·(own point), both ≥ 0,
+//!
+//! ```text
+//! (U·(x − y) − δ₁ − δ₂)/|U|  ≤  distance  ≤  |x − y|
+//! ```
+//!
+//! for any matrices R, since the support function of R·K + T in direction U is that of K in direction RᵀU plus U·T. A poor U
+//! costs width, never truth. δ is bounded in O(1): 0 at a vertex all of whose neighbours lie strictly behind (on an exact convex
+//! hull a local maximum is a global one), else from the planes around the feature, each with its own slack from build time.
+
+use crate::frame::Frame;
+use crate::math::{UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::polyhedron::{Bevel, Edge, Face, NONE, Polyhedron};
+use crate::simd::{Lanes, Portable};
+use crate::state::{FeatureId, State};
+use crate::voronoi::{STRICT, edge_direction, plane_values};
+
+/// A rigorous interval of the distance. `lower` may be negative or NaN: then nothing is proved.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Interval {
+    /// distance ≥ lower.
+    pub lower: f64,
+    /// distance ≤ upper.
+    pub upper: f64,
+}
+
+impl Interval {
+    /// Whether it proves separation and is as tight as answers are to be: 2e-14·max(ρ₁ + ρ₂, distance).
+    #[inline(always)]
+    pub fn is_tight(&self, size: f64) -> bool {
+        let scale = if self.lower > size { self.lower } else { size };
+        self.lower > 0.0 && self.upper - self.lower <= 2e-14 * scale
+    }
+}
+
+/// Features whose optimality conditions hold up to the frame's tolerance, and the nearest points.
+#[derive(Clone, Copy)]
+pub struct Minimum<L> {
+    /// Nearest points, one of each feature, in the centred local coordinates of their bodies.
+    pub points: [L; 2],
+    /// The points mapped by their bodies' rotations.
+    pub rotated: [L; 2],
+    /// A world direction from body 2 to body 1, of any length: the difference of the nearest points, or where the features
+    /// define it a normal, which keeps its digits at the smallest distance.
+    pub direction: L,
+    /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
+    /// closer look tells.
+    pub beyond: f64,
+    /// How far the points may lie out of their bodies, both together; +∞ as above.
+    pub outside: f64,
+    /// Value of the face plane at the vertex in a vertex-face state, else 0.
+    pub height: f64,
+}
+
+/// The nearest points of a minimum with their interval.
+#[derive(Clone, Copy)]
+pub struct Certified<L> {
+    /// The minimum.
+    pub minimum: Minimum<L>,
+    /// x − y of its points.
+    difference: L,
+    /// What follows from it.
+    pub gap: Gap,
+}
+
+impl<L: Lanes> Certified<L> {
+    /// Nothing certified yet.
+    #[inline(always)]
+    pub fn nothing() -> Certified<L> {
+        let zero = L::splat(0.0);
+        let nothing = f64::NAN;
+        Certified {
+            minimum: Minimum {
+                points: [zero; 2],
+                rotated: [zero; 2],
+                direction: zero,
+                beyond: nothing,
+                outside: nothing,
+                height: nothing,
+            },
+            difference: zero,
+            gap: Gap { distance: nothing, inverse: nothing, interval: Interval { lower: nothing, upper: nothing } },
+        }
+    }
+
+    /// Takes down a minimum and its interval, as far as a quick look tells.
+    #[inline(always)]
+    pub fn set(&mut self, frame: &Frame<L>, minimum: Minimum<L>) {
+        self.difference = minimum.rotated[0].add(frame.bodies[0].offset).sub(minimum.rotated[1]);
+        self.gap = gap(frame, self.difference, minimum.direction, minimum.beyond, minimum.outside);
+        self.minimum = minimum;
+    }
+
+    /// The interval by a closer look, for what the quick one leaves open: ties, sharp edges, skewed rotations.
+    #[inline(always)]
+    pub fn look_closer(&mut self, frame: &Frame<L>, state: State) {
+        let Minimum { points, direction, height, .. } = self.minimum;
+        let towards = [
+            frame.bodies[0].rotate_back(direction).negate().to_vector(),
+            frame.bodies[1].rotate_back(direction).to_vector(),
+        ];
+        let points = [points[0].to_vector(), points[1].to_vector()];
+        let defect = closely(frame.polyhedra(), state, points, towards, height);
+        let beyond = defect.beyond * self.gap.inverse;
+        self.gap = gap(frame, self.difference, direction, beyond, defect.outside);
+    }
+}
+
+/// Defects of both points of a minimum. `towards` are the directions towards the other body, in each body's frame.
+#[inline(never)]
+fn closely(
+    polyhedra: [&Polyhedron; 2],
+    state: State,
+    points: [Vector; 2],
+    towards: [Vector; 2],
+    height: f64,
+) -> Defect {
+    let features = state.features();
+    let mut sum = Defect { beyond: 0.0, outside: 0.0 };
+    for i in 0..2 {
+        let (polyhedron, g) = (polyhedra[i], &towards[i]);
+        let defect = match features[i] {
+            FeatureId::Vertex(v) => Defect { beyond: of_vertex(polyhedron, v, g), outside: 0.0 },
+            FeatureId::Edge(e) => Defect {
+                beyond: of_edge(polyhedron, &polyhedron.edges[e as usize], Portable::from_vector(g)),
+                outside: edge_rounding(polyhedron),
+            },
+            FeatureId::Face(f) => of_face(polyhedron, f, g, &points[i], height),
+        };
+        sum.beyond += defect.beyond;
+        sum.outside += defect.outside;
+    }
+    sum
+}
+
+/// tail + t·ê leaves the segment, and the planes of the faces beside it, by the rounding of ê and of the sum.
+#[inline(always)]
+pub fn edge_rounding(polyhedron: &Polyhedron) -> f64 {
+    8.0 * U * polyhedron.radius
+}
+
+/// A quick δ/|U| of an edge's point, for a blunt edge and g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound
+/// of all rounding: g = c₁n₁ + c₂n₂ + r with c₁ + c₂ ≤ √2|g| (the normals are at most a right angle apart), |r| ≤ misfit·|U|.
+/// |g| ≤ 1.02|U| for any R, less than 1.06·√2 = 1.5. A sharp edge needs a closer look.
+#[inline(always)]
+pub fn of_blunt_edge(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64 {
+    let slack = if edge.slacks[0] > edge.slacks[1] { edge.slacks[0] } else { edge.slacks[1] };
+    let beyond = 1.5 * (slack + edge_rounding(polyhedron)) + 2.0 * polyhedron.radius * misfit;
+    if edge.bevel == NONE { beyond } else { f64::INFINITY }
+}
+
+/// A quick δ/|U| of a point in a face, projected from `height` over it, for g = RᵀU equal to the face's unit normal up to `misfit`.
+#[inline(always)]
+pub fn of_facing_face(polyhedron: &Polyhedron, face: &Face, height: f64, misfit: f64) -> f64 {
+    face.slack + face_rounding(polyhedron, height) + 2.0 * polyhedron.radius * misfit
+}
+
+/// The point projected on a face from `height` over it misses the plane by the rounding of height and product.
+#[inline(always)]
+pub fn face_rounding(polyhedron: &Polyhedron, height: f64) -> f64 {
+    16.0 * U * (polyhedron.radius + height)
+}
+
+/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 3·(8u + 4u) for the defect of R and the rounding with which it was
+/// measured, 5.4u for the product; and 12u for what the planes and directions of a feature miss each other by.
+pub const RIGID_MISFIT: f64 = 56.0 * U;
+
+/// A rigorous interval and what else its computation yields.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Gap {
+    /// |D|, the computed distance of the points.
+    pub distance: f64,
+    /// 1/|U|.
+    pub inverse: f64,
+    /// The interval.
+    pub interval: Interval,
+}
+
+/// Square of the shortest direction that proves anything, 2⁻⁸⁰⁰: what underflows in a product with a direction of 2⁻⁴⁰⁰ or more is
+/// less than 2⁻⁶⁰⁰ of it, far below the error bound of any [usual](Frame::usual) pair.
+const SHORTEST_SQUARE: f64 = f64::from_bits((1023 - 800) << 52);
+
+/// The interval from the difference D of two points, of which the bodies reach at most `beyond` farther along the direction U/|U|
+/// and which lie at most `outside` out of the bodies.
+#[inline(always)]
+pub fn gap<L: Lanes>(frame: &Frame<L>, difference: L, direction: L, beyond: f64, outside: f64) -> Gap {
+    let distance = difference.dot(difference).sqrt();
+    let along = direction.dot(difference);
+    let square = direction.dot(direction);
+    // A NaN proves nothing.
+    let inverse = if square >= SHORTEST_SQUARE { 1.0 / square.sqrt() } else { f64::NAN };
+    let error = frame.difference_error(distance);
+    // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; beyond has been summed with as much.
+    let lower = (along * inverse - beyond * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
+    let upper = (distance * (1.0 + 4.0 * U) + error + outside) * (1.0 + 4.0 * U);
+    Gap { distance, inverse, interval: Interval { lower, upper } }
+}
+
+/// How far a body misses the assumptions at a point of a feature.
+struct Defect {
+    /// δ: how far the body reaches beyond the point along g.
+    beyond: f64,
+    /// How far the point may lie out of the body.
+    outside: f64,
+}
+
+/// Rounding error of g = RᵀU relative to |U|, which is at most 1.02|g|.
+const DIRECTION_ERROR: f64 = 6.2 * U;
+
+/// δ of any vertex of a body in direction g (local).
+pub fn of_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
+    let strict = -STRICT * norm1_of(g);
+    let is_strict = polyhedron
+        .neighbour_blocks(vertex)
+        .all(|block| (0..8).all(|lane| block.x[lane] * g.x + block.y[lane] * g.y + block.z[lane] * g.z < strict));
+    if is_strict { 0.0 } else { of_tied_vertex(polyhedron, vertex, g) }
+}
+
+/// δ of a vertex that has neighbours not strictly behind it: from the edges at it, whichever proves most; where it has none
+/// (a flat vertex, a body without edges) from all vertices.
+#[cold]
+fn of_tied_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
+    let edges = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge);
+    let best = edges
+        .filter(|&edge| edge != NONE)
+        .map(|edge| of_edge(polyhedron, &polyhedron.edges[edge as usize], Portable::from_vector(g)))
+        .fold(f64::INFINITY, f64::min);
+    if best < f64::INFINITY {
+        return best;
+    }
+    let own = &polyhedron.vertices[vertex as usize].position;
+    let highest = polyhedron.vertices.iter().map(|v| g.dot(&(v.position - own))).fold(0.0, f64::max);
+    // |v − own| ≤ 2ρ; difference and product err by 5u, g by DIRECTION_ERROR.
+    highest + 2.0 * polyhedron.radius * norm1_of(g) * (5.0 * U + DIRECTION_ERROR)
+}
+
+/// δ of a point of an edge: g as a non-negative combination of the two face normals and a remainder. The second coefficient
+/// comes from the remainder of the first: a tiny dihedral angle then leaves a remainder of order u, two independent quotients
+/// one of order u/angle.
+#[inline(always)]
+fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
+    let length = g.norm1();
+    let (first, second, first_slack, second_slack, coefficient) = if edge.bevel == NONE {
+        let planes = &edge.planes;
+        let outward = L::from_vector(&Vector::new(planes.x[3], planes.y[3], planes.z[3]));
+        let [left, right] = [L::from_vector(&edge.normals[0]), L::from_vector(&edge.normals[1])];
+        (left, right, edge.slacks[0], edge.slacks[1], g.dot(outward) * edge.reciprocal_sine)
+    } else {
+        let half = sharp_edge(edge, &polyhedron.bevels[edge.bevel as usize], &g.to_vector());
+        let [first, second] = [L::from_vector(&half.normal), L::from_vector(&half.bevel)];
+        (first, second, half.slacks[0], half.slacks[1], half.coefficient)
+    };
+    // A NaN from 0·∞ becomes 0 at an edge without a dihedral angle; there either normal will do.
+    let c1 = clamp(coefficient, 0.0, length);
+    let rest = first.negated_mul_add(L::splat(c1), g);
+    let c2 = clamp(rest.dot(second), 0.0, f64::INFINITY);
+    let remainder = second.negated_mul_add(L::splat(c2), rest);
+    let rounding = 8.0 * U * polyhedron.radius;
+    c1 * (first_slack + rounding)
+        + c2 * (second_slack + rounding)
+        + 2.0 * polyhedron.radius * (remainder.norm1() + 3.0 * U * (length + c1 + c2) + DIRECTION_ERROR * length)
+}
+
+/// The half of a sharp edge's normal cone that holds g: the coefficients of two nearly opposite normals would grow like
+/// 1/sine, so the cone is split at the bevel plane, and each half is at most a right angle.
+fn sharp_edge(edge: &Edge, bevel: &Bevel, g: &Vector) -> HalfCone {
+    let along = edge_direction(&edge.planes);
+    // In the plane across the edge, perpendicular to the bevel normal, towards the left face's normal.
+    let mut towards_left = along.cross(&bevel.normal);
+    if towards_left.dot(&edge.normals[0]) < 0.0 {
+        towards_left = -towards_left;
+    }
+    let part = g.dot(&towards_left);
+    let side = if part >= 0.0 { 0 } else { 1 };
+    let normal = edge.normals[side];
+    HalfCone {
+        normal,
+        bevel: bevel.normal,
+        slacks: [edge.slacks[side], bevel.slack],
+        coefficient: part / normal.dot(&towards_left),
+    }
+}
+
+/// Half of a sharp edge's normal cone.
+struct HalfCone {
+    /// The face's normal.
+    normal: Vector,
+    /// The bevel's normal.
+    bevel: Vector,
+    /// Slacks of both.
+    slacks: [f64; 2],
+    /// The coefficient of `normal`.
+    coefficient: f64,
+}
+
+/// Defects of a point in a face, found by projecting a point at `height` over it.
+fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, height: f64) -> Defect {
+    let record = &polyhedron.faces[face as usize];
+    let length = norm1_of(g);
+    let c = clamp(g.dot(&record.normal), 0.0, f64::INFINITY);
+    let remainder = g - record.normal * c;
+    let rounding = face_rounding(polyhedron, height);
+    let beyond = c * (record.slack + rounding)
+        + 2.0 * polyhedron.radius * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
+    // On the rim of the face nothing is proved about the point; the fallback finds another.
+    let is_inside = is_inside_sides(polyhedron, record, Portable::from_vector(point));
+    let outside = if is_inside { record.slack + rounding } else { f64::INFINITY };
+    Defect { beyond, outside }
+}
+
+/// Whether a point of a face's plane lies inside all its sides by a margin that covers every rounding of the sides' planes and
+/// the deviation of merged faces' vertices from convex position (16u·ρ).
+#[inline(always)]
+pub fn is_inside_sides<L: Lanes>(polyhedron: &Polyhedron, face: &Face, point: L) -> bool {
+    let margin = L::splat(64.0 * U * polyhedron.radius);
+    let mut inside = plane_values(&face.planes, point).greater(margin) & 0b1110 == 0b1110;
+    if face.side_count > 3 {
+        for block in polyhedron.further_sides(face) {
+            inside &= plane_values(block, point).greater(margin) == 0b1111;
+        }
+    }
+    inside
+}
+
+fn norm1_of(v: &Vector) -> f64 {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
