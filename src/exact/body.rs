@@ -1,0 +1,120 @@
+//! A polyhedron at a pose, in integers: world vertices and support vertices.
+
+use std::cmp::Ordering;
+
+use dashu_int::IBig;
+
+use super::dyadic::{DyadicVector, IntVector, dot, leading_bits};
+use crate::math::{Pose, Vector};
+use crate::polyhedron::Polyhedron;
+
+/// The objects' exact description: world vertex = R·(centre + position) + T.
+pub(crate) struct Body<'a> {
+    polyhedron: &'a Polyhedron,
+    centre: DyadicVector,
+    /// The rows of R, over `rotation_exponent`.
+    rotation: [IntVector; 3],
+    rotation_exponent: i32,
+    translation: DyadicVector,
+}
+
+/// A direction in a body's own frame: exactly, and its leading bits as doubles for the filter.
+pub(crate) struct LocalDirection {
+    exact: IntVector,
+    rounded: Vector,
+}
+
+impl<'a> Body<'a> {
+    pub fn new(polyhedron: &'a Polyhedron, pose: &Pose) -> Body<'a> {
+        let mut rows = pose.rows.map(|row| DyadicVector::from_doubles([row[0], row[1], row[2]]));
+        let exponent = rows.iter().map(|row| row.exponent).min().unwrap_or(0);
+        rows.iter_mut().for_each(|row| row.refine(exponent));
+        Body {
+            polyhedron,
+            centre: DyadicVector::from_doubles(polyhedron.centre.into()),
+            rotation: rows.map(|row| row.components),
+            rotation_exponent: exponent,
+            translation: DyadicVector::from_doubles(pose.translation().into()),
+        }
+    }
+
+    pub fn vertex_count(&self) -> usize {
+        self.polyhedron.vertices.len()
+    }
+
+    /// World coordinates of a vertex.
+    pub fn world_vertex(&self, vertex: u32) -> DyadicVector {
+        let position = self.polyhedron.vertices[vertex as usize].position;
+        let local = self.centre.clone().sum(DyadicVector::from_doubles(position.into()));
+        let rotated = DyadicVector {
+            components: [0, 1, 2].map(|k| dot(&self.rotation[k], &local.components)),
+            exponent: self.rotation_exponent + local.exponent,
+        };
+        rotated.sum(self.translation.clone())
+    }
+
+    /// Rᵀ·d, up to a positive factor: the world direction d mapped *into* the body. d·(R·o + T) and (Rᵀd)·o differ by a
+    /// constant, whatever R is.
+    pub fn local_direction(&self, d: &IntVector) -> LocalDirection {
+        let r = &self.rotation;
+        let exact = [0, 1, 2].map(|k| &r[0][k] * &d[0] + &r[1][k] * &d[1] + &r[2][k] * &d[2]);
+        LocalDirection { rounded: leading_bits(&exact), exact }
+    }
+
+    /// A vertex of largest value along `direction`, by hill climbing from `start` over the triangulated exact hull.
+    ///
+    /// Every comparison is exact, so the climb ends. It ends at a global maximum: at an extreme vertex and inside an edge the
+    /// neighbours span the cone of the hull; inside a face they span its plane, so that all of them tie only if the
+    /// direction is perpendicular to the face, outward (a maximum) or inward (the *minimum*: any vertex off the plane tells).
+    pub fn support(&self, start: u32, direction: &LocalDirection) -> u32 {
+        let mut vertex = start;
+        loop {
+            let mut best = vertex;
+            let mut all_tie = true;
+            for head in self.polyhedron.neighbour_blocks(vertex).flat_map(|block| block.head) {
+                match self.rise(best, head, direction) {
+                    Ordering::Equal => continue,
+                    Ordering::Greater => best = head,
+                    Ordering::Less => {}
+                }
+                all_tie = false;
+            }
+            if all_tie && self.polyhedron.dimension == 3 {
+                let off_plane = (0..self.vertex_count() as u32)
+                    .find(|&v| self.rise(vertex, v, direction).is_ne())
+                    .unwrap_or(vertex);
+                if self.rise(vertex, off_plane, direction).is_gt() {
+                    best = off_plane;
+                }
+            }
+            if best == vertex {
+                return vertex;
+            }
+            vertex = best;
+        }
+    }
+
+    /// direction·head against direction·tail: in doubles where their error bound allows, else in integers.
+    fn rise(&self, tail: u32, head: u32, direction: &LocalDirection) -> Ordering {
+        if tail == head {
+            return Ordering::Equal;
+        }
+        let o = &self.polyhedron.vertices[tail as usize].position;
+        let p = &self.polyhedron.vertices[head as usize].position;
+        let t = p - o;
+        let value = direction.rounded.dot(&t);
+        // With |g| ≤ 2⁶³ a component: each rounded g misses by 1 + u|g|, each difference by u, each product by u, the two
+        // sums by 2u, together less than (6.1u·2⁶³ + 1)Σ|t| < 6300 Σ|t|. A component of g is 0 or ≥ 1: nothing underflows. What
+        // overflows is not finite, or its bound is not.
+        let bound = 8192.0 * (t.x.abs() + t.y.abs() + t.z.abs());
+        if value.is_finite() && value.abs() > bound {
+            return value.total_cmp(&0.0);
+        }
+        dot(&direction.exact, &exact_difference(p, o)).cmp(&IBig::ZERO)
+    }
+}
+
+/// A positive multiple of p − o.
+fn exact_difference(p: &Vector, o: &Vector) -> IntVector {
+    DyadicVector::from_doubles((*p).into()).difference(DyadicVector::from_doubles((*o).into())).components
+}
