@@ -1,0 +1,106 @@
+//! The answer to a pair query: plain data, laid out for C.
+
+/// The outcome of a pair query.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Outcome {
+    /// Nothing is said yet: the value of a fresh answer.
+    #[default]
+    None = 0,
+    /// The objects are disjoint, `0 < lower ≤ distance ≤ upper`; `lower` is 0 only for a distance below the smallest double.
+    Separated = 1,
+    /// The objects are disjoint and farther apart than the distance tolerance: only `lower` is said.
+    Beyond = 2,
+    /// The closed objects have a common point (touching included).
+    Intersecting = 3,
+}
+
+/// How a pair query ended. Values are never reused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Status {
+    /// Nothing was asked yet.
+    #[default]
+    None = 0,
+    /// Voronoi marching ended and its certificate holds.
+    Marched = 1,
+    /// The vertex pairs of the last query still enclose the origin.
+    Coherent = 2,
+    /// Gilbert-Johnson-Keerthi decided.
+    Fallback = 3,
+    /// Integer arithmetic decided.
+    Exact = 4,
+}
+
+/// Kind of a feature.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum FeatureKind {
+    /// Nothing is said.
+    #[default]
+    None = 0,
+    /// A vertex: `ids[0]` is its index in the caller's array.
+    Vertex = 1,
+    /// An edge: `ids` are the caller's indices of its two end vertices.
+    Edge = 2,
+    /// A face: `ids[0]` is the caller's index of a polygon that holds the witness point.
+    Face = 3,
+}
+
+/// A feature in the caller's numbering.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct Feature {
+    /// Vertex, edge or face.
+    pub kind: FeatureKind,
+    /// See [`FeatureKind`]; unused entries are 0.
+    pub ids: [u32; 2],
+}
+
+/// What a query did.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct Statistics {
+    /// Voronoi marching: feature pairs visited.
+    pub marching_steps: u32,
+    /// Fallback: Gilbert-Johnson-Keerthi iterations in floating point.
+    pub fallback_iterations: u32,
+    /// Exact tier: iterations in integer arithmetic (it allocates; nothing else does).
+    pub exact_iterations: u32,
+}
+
+/// The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct PairAnswer {
+    /// Disjoint, beyond the tolerance, or intersecting.
+    pub outcome: Outcome,
+    /// Which tier decided.
+    pub status: Status,
+    /// The best estimate, `lower ≤ distance ≤ upper`; 0 when intersecting.
+    pub distance: f64,
+    /// Lower end of the rigorous interval; 0 when intersecting.
+    pub lower: f64,
+    /// Upper end of the rigorous interval; 0 when intersecting; +∞ for [`Outcome::Beyond`].
+    pub upper: f64,
+    /// Witness point on object 1, in its local frame.
+    pub local1: [f64; 3],
+    /// Witness point on object 2, in its local frame.
+    pub local2: [f64; 3],
+    /// Witness point on object 1, in the world frame.
+    pub world1: [f64; 3],
+    /// Witness point on object 2, in the world frame.
+    pub world2: [f64; 3],
+    /// Unit normal in the world frame, from object 2 to object 1.
+    pub normal: [f64; 3],
+    /// Nearest feature of object 1.
+    pub feature1: Feature,
+    /// Nearest feature of object 2.
+    pub feature2: Feature,
+    /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
+    pub proof: [[u32; 2]; 4],
+    /// How many entries of `proof` are used (1 to 4 when intersecting, else 0).
+    pub proof_count: u32,
+    /// What the query did.
+    pub statistics: Statistics,
+}

@@ -1,0 +1,438 @@
+//! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
+
+pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
+use crate::certificate::{Certified, Gap, Interval};
+use crate::contact;
+use crate::contact_direction::contact_direction;
+use crate::enclosure::encloses_origin;
+use crate::error::{Error, Result};
+use crate::exact::VertexPair;
+use crate::frame::Frame;
+use crate::marching::{self, March};
+use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
+use crate::overlap::{self, Decision, Pairs, Work};
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+use crate::simd::{self, Kernel, Lanes, Portable};
+use crate::state::State;
+use crate::voronoi::climb;
+
+/// What a pair remembers from its last query. Any bytes are safe; all zero is cold. It changes how fast an answer comes,
+/// never the verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct PairCache {
+    /// 0: nothing; 1 to 6: a feature pair, the number of its kind; 8 + n: n vertex pairs of an intersection.
+    kind: u32,
+    /// The indices of a feature pair.
+    indices: [u32; 2],
+    /// Vertex pairs.
+    pairs: [VertexPair; 4],
+    /// With a feature pair: the direction to the other body's origin in each body's frame, as the bits of single-precision
+    /// numbers.
+    outlook: [[u32; 3]; 2],
+}
+
+/// `PairCache::kind` of no vertex pairs.
+const PAIRS: u32 = 8;
+
+impl PairCache {
+    /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
+    #[inline(always)]
+    fn recall_pairs(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
+        if self.kind <= PAIRS || self.kind > PAIRS + 4 {
+            return None;
+        }
+        let pairs = &self.pairs[..(self.kind - PAIRS) as usize];
+        let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
+        let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
+        pairs.iter().all(known).then(|| Pairs::new(pairs))
+    }
+
+    #[inline(always)]
+    fn remember_state(&mut self, state: State) {
+        self.kind = state.kind as u32;
+        self.indices = state.indices;
+    }
+
+    fn remember_pairs(&mut self, pairs: &[VertexPair]) {
+        self.kind = PAIRS + pairs.len() as u32;
+        self.pairs[..pairs.len()].copy_from_slice(pairs);
+    }
+}
+
+/// Which interval a query computes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Bounds {
+    /// As tight as double precision allows.
+    #[default]
+    Tight = 0,
+    /// The cheapest that still prove the verdict.
+    Verdict = 1,
+}
+
+/// What a pair query is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct PairConfig {
+    /// The size of this struct, so that it can grow at the C interface; Rust has no use for it.
+    pub struct_size: usize,
+    /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
+    pub distance_tolerance: f64,
+    /// Largest accepted |RᵀR − I| entry, at most (and by default) 1e-2.
+    pub rotation_limit: f64,
+    /// Which interval.
+    pub bounds: Bounds,
+}
+
+impl Default for PairConfig {
+    fn default() -> Self {
+        PairConfig {
+            struct_size: size_of::<PairConfig>(),
+            distance_tolerance: f64::INFINITY,
+            rotation_limit: ROTATION_LIMIT,
+            bounds: Bounds::Tight,
+        }
+    }
+}
+
+/// What is asked of a pair.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Query {
+    Intersection,
+    Distance,
+    Contact,
+}
+
+/// Exact distance with its interval, witness points, normal and features.
+///
+/// Of an intersecting pair the distance and its interval are 0, `proof` holds the vertex pairs; points, normal and features are
+/// not said (see [`contact()`]). Of a pair beyond `config.distance_tolerance` only `lower` is said.
+///
+/// # Errors
+/// [`Error::Pose`] for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I above
+/// `config.rotation_limit`), [`Error::Argument`] for a tolerance or limit that is NaN or negative. Then `answer` and `cache` are
+/// as they were.
+pub fn distance(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    query(Query::Distance, [shape1, shape2], [pose1, pose2], cache, config, answer)
+}
+
+/// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`].
+///
+/// # Errors
+/// As [`distance`].
+pub fn intersection(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    query(Query::Intersection, [shape1, shape2], [pose1, pose2], cache, config, answer)
+}
+
+/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
+/// the objects overlap little (where they only touch along a face it separates them) and the features there.
+///
+/// # Errors
+/// As [`distance`].
+pub fn contact(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    query(Query::Contact, [shape1, shape2], [pose1, pose2], cache, config, answer)
+}
+
+#[inline(always)]
+fn query(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    if !(config.distance_tolerance >= 0.0 && config.rotation_limit >= 0.0) {
+        return Err(bad_config(config));
+    }
+    // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
+    let mut kernel =
+        PairQuery { query, polyhedra: [shapes[0].polyhedron(), shapes[1].polyhedron()], poses, cache, config, answer };
+    match simd::dispatch(&mut kernel) {
+        Attempt::Done => Ok(()),
+        attempt => kernel.decide(attempt),
+    }
+}
+
+#[cold]
+fn bad_config(config: &PairConfig) -> Error {
+    Error::Argument(format!(
+        "distance_tolerance ({}) and rotation_limit ({}) are to be non-negative numbers",
+        config.distance_tolerance, config.rotation_limit
+    ))
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The common case: marching, certified
+// ---------------------------------------------------------------------------------------------------------------------
+
+/// What became of the first attempt.
+enum Attempt {
+    /// The answer is there.
+    Done,
+    /// Marching or its certificate left it open, or the pair intersected the last time: where to go on.
+    Open { hint: Pairs, steps: u32 },
+    /// Poses to be refused, or magnitudes for integers only.
+    Unusual,
+}
+
+/// One query; as a kernel, marching from the cache and its certificate, compiled for the machine's vector units.
+struct PairQuery<'a> {
+    query: Query,
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    cache: &'a mut PairCache,
+    config: &'a PairConfig,
+    answer: &'a mut PairAnswer,
+}
+
+/// Marching from the cache is given up for a cold start after this many steps, if the pair has jumped.
+const TRIAL_STEPS: u32 = 4;
+
+impl Kernel for PairQuery<'_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
+        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+        if !frame.usual {
+            return Attempt::Unusual;
+        }
+        let remembered = State::checked(cache.kind, cache.indices, polyhedra);
+        let start = match remembered {
+            Some(state) => state,
+            None => match cache.recall_pairs(polyhedra) {
+                Some(hint) => return Attempt::Open { hint, steps: 0 },
+                None => cold_start(polyhedra, outlook(polyhedra, poses), [0, 0]),
+            },
+        };
+        // A segment or a point has no faces to march over.
+        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
+            return Attempt::Open { hint: Pairs::new(&[start.vertices(polyhedra)]), steps: 0 };
+        }
+        let mut found = Certified::nothing();
+        let mut steps = 0;
+        let mut state = start;
+        let mut limit = if remembered.is_some() { TRIAL_STEPS } else { step_limit(polyhedra) };
+        let (at, is_minimum) = loop {
+            let (march, more) = marching::march(&frame, state, limit, &mut found);
+            steps += more;
+            state = match march {
+                March::Minimum(at) => break (at, true),
+                March::Open(at) => break (at, false),
+                March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
+                March::Limit(at) => go_on(polyhedra, poses, &cache.outlook, at),
+            };
+            limit = step_limit(polyhedra);
+        };
+        let loose = query == Query::Intersection || config.bounds == Bounds::Verdict;
+        let is_enough = |gap: &Gap| gap.interval.is_tight(frame.size) || (loose && gap.interval.lower > 0.0);
+        if is_minimum && !is_enough(&found.gap) {
+            found.look_closer(&frame, at);
+        }
+        if !(is_minimum && is_enough(&found.gap)) {
+            return Attempt::Open { hint: Pairs::new(&[at.vertices(polyhedra)]), steps };
+        }
+        let Certified { minimum, gap, .. } = found;
+        let normal = minimum.direction.mul(L::splat(gap.inverse));
+        cache.remember_state(at);
+        // A pair that stays on its features keeps its old outlook: it is only asked for when marching takes long.
+        if steps > 1 {
+            cache.outlook = bits(&outlook(polyhedra, poses));
+        }
+        answer.status = Status::Marched;
+        answer.statistics = Statistics { marching_steps: steps, fallback_iterations: 0, exact_iterations: 0 };
+        set_interval(answer, &gap.interval, gap.distance, config);
+        if query != Query::Intersection && answer.outcome == Outcome::Separated {
+            contact::fill_separated(answer, &frame, minimum.points, minimum.rotated, normal, at.features());
+        } else {
+            contact::fill_normal(answer, normal);
+        }
+        Attempt::Done
+    }
+}
+
+/// More steps than any start needs; only cycles that the cycle detection misses meet it.
+#[inline(always)]
+fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
+    64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
+}
+
+// What follows is out of line, for the sake of the registers of the common case.
+
+/// The way to the other body's origin, in each body's frame, in plain rounding: for a start, nothing else.
+#[inline(never)]
+fn outlook(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [Vector; 2] {
+    let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
+    let between = origin(1) - origin(0);
+    [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)]
+}
+
+/// The support vertices along the line of the bodies' origins, by climbing from the given vertices.
+#[inline(never)]
+fn cold_start(polyhedra: [&Polyhedron; 2], outlook: [Vector; 2], from: [u32; 2]) -> State {
+    let climb =
+        |i: usize| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: outlook[i], from: from[i] });
+    State::vertex_vertex([climb(0), climb(1)])
+}
+
+/// A hill climb for a support vertex.
+struct Climb<'a> {
+    polyhedron: &'a Polyhedron,
+    direction: Vector,
+    from: u32,
+}
+
+impl Kernel for Climb<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> u32 {
+        climb(self.polyhedron, L::from_vector(&self.direction), self.from)
+    }
+}
+
+/// Where to go on when a few steps from the last features did not end: from a cold start if the pair has jumped, else from `at`.
+#[inline(never)]
+fn go_on(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: &[[u32; 3]; 2], at: State) -> State {
+    let now = outlook(polyhedra, poses);
+    let moved = |i: usize| -> f64 { (0..3).map(|k| (now[i][k] - f64::from(f32::from_bits(last[i][k]))).powi(2)).sum() };
+    // Garbage bits may be NaN: no jump.
+    if moved(0) + moved(1) > JUMP * now[0].norm_squared() {
+        cold_start(polyhedra, now, at.vertices(polyhedra))
+    } else {
+        at
+    }
+}
+
+/// Square of the angle, in radians, by which a body has to turn in the other's view (both views added) for a cold start to be nearer
+/// than the last features: about 30 degrees.
+const JUMP: f64 = 0.3;
+
+/// The single-precision bits of an outlook.
+fn bits(outlook: &[Vector; 2]) -> [[u32; 3]; 2] {
+    outlook.map(|v| [v.x, v.y, v.z].map(|x| (x as f32).to_bits()))
+}
+
+/// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair.
+#[inline(always)]
+fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, config: &PairConfig) {
+    answer.lower = interval.lower;
+    answer.proof_count = 0;
+    if interval.lower > config.distance_tolerance {
+        answer.outcome = Outcome::Beyond;
+        answer.upper = f64::INFINITY;
+        answer.distance = interval.lower;
+    } else {
+        answer.outcome = Outcome::Separated;
+        answer.upper = interval.upper;
+        answer.distance = clamp(distance, interval.lower, interval.upper);
+    }
+}
+
+// ---------------------------------------------------------------------------------------------------------------------
+// The rest: proofs re-tested, fallback, exact tier
+// ---------------------------------------------------------------------------------------------------------------------
+
+impl PairQuery<'_> {
+    #[inline(never)]
+    fn decide(&mut self, attempt: Attempt) -> Result<()> {
+        let &mut PairQuery { query, polyhedra, poses, config, .. } = self;
+        let limit = config.rotation_limit.min(ROTATION_LIMIT);
+        let frame = Frame::<Portable>::new(polyhedra, poses, limit);
+        let frame = frame.usual.then_some(frame);
+        if frame.is_none() {
+            for pose in poses {
+                pose.check(limit)?;
+            }
+        }
+        let (hint, steps) = match attempt {
+            Attempt::Open { hint, steps } => (hint, steps),
+            _ => (Pairs::new(&[[0, 0]]), 0),
+        };
+        let mut statistics = Statistics { marching_steps: steps, ..Statistics::default() };
+        // The tetrahedron of the last query: if it still encloses the origin, that is a proof.
+        if let Some(frame) = &frame
+            && let Some(weights) = encloses_origin(frame, hint.as_slice())
+        {
+            let decision = Decision::Intersecting { pairs: hint, weights };
+            self.answer.statistics = statistics;
+            self.answer.status = Status::Coherent;
+            self.fill(&decision);
+            return Ok(());
+        }
+        // Cheap bounds or not, nearest points are to be nearest.
+        let tight = query != Query::Intersection;
+        let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), tight);
+        let Work { fallback_iterations, exact_iterations } = work;
+        statistics.fallback_iterations = fallback_iterations;
+        statistics.exact_iterations = exact_iterations;
+        self.answer.statistics = statistics;
+        self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
+        self.fill(&decision);
+        Ok(())
+    }
+
+    /// Answer and cache from a decision.
+    fn fill(&mut self, decision: &Decision) {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
+        match decision {
+            Decision::Separated { points, direction, interval, pairs } => {
+                set_interval(answer, interval, 0.5 * interval.lower + 0.5 * interval.upper, config);
+                let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
+                let vertices = State::vertex_vertex(pairs.as_slice()[0]);
+                cache.remember_state(State::of_features(features).unwrap_or(vertices));
+                if query != Query::Intersection && answer.outcome == Outcome::Separated {
+                    contact::fill_placed(answer, polyhedra, poses, points, direction, features);
+                } else {
+                    contact::fill_nothing(answer);
+                    answer.normal = contact::normalised(direction);
+                }
+            }
+            Decision::Intersecting { pairs, weights } => {
+                cache.remember_pairs(pairs.as_slice());
+                answer.outcome = Outcome::Intersecting;
+                answer.distance = 0.0;
+                answer.lower = 0.0;
+                answer.upper = 0.0;
+                contact::fill_proof(answer, polyhedra, pairs.as_slice());
+                if query == Query::Contact {
+                    let direction = &contact_direction(polyhedra, poses, pairs.as_slice());
+                    let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
+                    let points = overlap::combinations(polyhedra, pairs.as_slice(), &weights);
+                    let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), &points, direction);
+                    contact::fill_placed(answer, polyhedra, poses, &points, direction, features);
+                } else {
+                    contact::fill_nothing(answer);
+                }
+            }
+        }
+    }
+}

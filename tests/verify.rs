@@ -1,0 +1,105 @@
+//! The check of answers: right ones pass however odd the bodies, wrong ones do not.
+
+use swiftprox::answer::Outcome;
+use swiftprox::error::Error;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify;
+
+/// SplitMix64 (Steele, Lea & Flood 2014), from 0 to 1.
+fn random(state: &mut u64) -> f64 {
+    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+    let mut z = *state;
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    (z ^ (z >> 31)) as f64 / 2.0_f64.powi(64)
+}
+
+fn hull(points: &[Vector]) -> Shape {
+    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    Shape::from_points(points, &options).unwrap()
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]] }
+}
+
+fn distance(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> PairAnswer {
+    let mut answer = PairAnswer::default();
+    let mut cache = PairCache::default();
+    pair::distance(a, pose_a, b, pose_b, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+    answer
+}
+
+/// Four corners 1e-4 apart in one direction and less than 1e-15 in the others: planes through them miss corners by far more than
+/// rounding.
+#[test]
+fn a_witness_point_on_a_sliver_is_in_its_body() {
+    let plate = hull(&[
+        Vector::new(0.133219564231972, 3.23015270312512e-10, 3.5073772010529396e-19),
+        Vector::new(0.6358577205379135, 8.3300246309407e-10, -1.5915651801453824e-20),
+        Vector::new(0.37173868327303317, 2.9035964723042463e-10, -9.258296667645484e-19),
+        Vector::new(-0.7200739416610624, 4.283565955930167e-10, 3.1839484862437663e-19),
+        Vector::new(0.5230955265302073, -4.884679880035127e-10, -1.348637730759519e-19),
+        Vector::new(-0.41728007026542846, 3.9147327615491557e-10, -2.4046901046354586e-19),
+        Vector::new(-0.2523141340892956, 2.5631509367280827e-10, -2.808707784060003e-19),
+        Vector::new(-0.740169576830934, 1.8953385420669357e-10, 4.683968653475268e-19),
+        Vector::new(-0.7403056164072654, 4.779047187009234e-10, -3.5219261942441296e-19),
+    ]);
+    let sliver = hull(&[
+        Vector::new(1.241375334439475e-43, 9.767468106466141e-05, -1.0912525746740991e-36),
+        Vector::new(-6.106915172227032e-16, -2.3592782236472713e-05, 3.3596481174385933e-65),
+        Vector::new(1.6514598508405787e-81, 8.960716753888421e-30, -1.0493613615709189e-36),
+        Vector::new(-2.644655076885476e-64, -4.7380002370609665e-50, 8.623243232131164e-38),
+    ]);
+    let (pose1, pose2) = (
+        Pose {
+            rows: [
+                [6.123233995736766e-17, -1.0, 0.0, 1e+16],
+                [1.0, 6.123233995736766e-17, 0.0, 0.0],
+                [0.0, 0.0, 1.0, 0.0],
+            ],
+        },
+        Pose {
+            rows: [
+                [1.0, 0.0, 0.0, 1e+16],
+                [0.0, -0.7781788123400206, -0.6280427820022096, -0.586056510901311],
+                [0.0, 0.6280427820022096, -0.7781788123400206, 0.2968600768254634],
+            ],
+        },
+    );
+    let answer = distance(&plate, &pose1, &sliver, &pose2);
+    verify(&plate, &pose1, &sliver, &pose2, &answer).unwrap();
+}
+
+#[test]
+fn answers_for_bodies_of_subnormal_size_verify() {
+    let least = f64::from_bits(1);
+    let mut state = 2;
+    for case in 0..300 {
+        let mut coordinate = || least * (2000.0 * random(&mut state)).floor();
+        let mut body = || hull(&(0..6).map(|_| Vector::from_fn(|_, _| coordinate())).collect::<Vec<_>>());
+        let (a, b) = (body(), body());
+        let away = at(least * (4000.0 * random(&mut state)).floor(), 0.0, 0.0);
+        let answer = distance(&a, &at(0.0, 0.0, 0.0), &b, &away);
+        let checked = verify(&a, &at(0.0, 0.0, 0.0), &b, &away, &answer);
+        assert!(checked.is_ok(), "case {case}: {checked:?}, {answer:?}");
+    }
+}
+
+/// Without witness points the gap along the normal still refutes an upper end below it.
+#[test]
+fn an_upper_end_below_the_gap_is_refuted() {
+    let tetrahedron = hull(&[Vector::zeros(), Vector::x(), Vector::y(), Vector::z()]);
+    let (here, there) = (at(0.0, 0.0, 0.0), at(3.0, 0.0, 0.0));
+    let mut answer = PairAnswer::default();
+    let mut cache = PairCache::default();
+    let config = PairConfig::default();
+    pair::intersection(&tetrahedron, &here, &tetrahedron, &there, &mut cache, &config, &mut answer).unwrap();
+    assert_eq!(answer.outcome, Outcome::Separated);
+    verify(&tetrahedron, &here, &tetrahedron, &there, &answer).unwrap();
+    (answer.lower, answer.distance, answer.upper) = (0.5, 1.0, 1.5);
+    let refused = verify(&tetrahedron, &here, &tetrahedron, &there, &answer);
+    assert!(matches!(&refused, Err(Error::Bug(message)) if message.contains("1.5e0")), "{refused:?}");
+}

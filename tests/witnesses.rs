@@ -1,0 +1,119 @@
+//! Small pairs, each about one promise: which feature holds a witness point, that a contact's point is common to both, answers
+//! about the smallest bodies.
+
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify;
+
+const OPTIONS: fn() -> ShapeOptions = || ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+
+fn hull(points: &[[f64; 3]]) -> Shape {
+    let points: Vec<Vector> = points.iter().map(|&p| p.into()).collect();
+    Shape::from_points(&points, &OPTIONS()).unwrap()
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose::new(&Matrix::identity(), &Vector::new(x, y, z))
+}
+
+/// The answer to [`distance`] from a cold cache.
+fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
+    let mut answer = PairAnswer::default();
+    let config = PairConfig::default();
+    distance(shape1, pose1, shape2, pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+    answer
+}
+
+/// Two triangles make each side of this cube: either is found as such, by marching and by the fallback.
+#[test]
+fn the_face_is_the_callers_triangle_that_holds_the_point() {
+    let corner = |k: usize| Vector::from_fn(|axis, _| if k >> axis & 1 == 1 { 1.0 } else { -1.0 });
+    let top = [4, 5, 7, 4, 7, 6];
+    let others = [0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 2, 3, 0, 3, 1];
+    let mesh = PolygonMesh::new((0..8).map(corner).collect(), [&top[..], &others].concat(), None).unwrap();
+    let cube = Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
+    let point = hull(&[[0.0; 3]]);
+    let spike = hull(&[[0.0; 3], [1.0, 0.0, 4.0], [-1.0, 1.0, 4.0], [-1.0, -1.0, 4.0]]);
+    for above in [point, spike] {
+        for (x, y, triangle) in [(0.5, -0.25, 0), (-0.5, 0.25, 1)] {
+            let answer = ask(&cube, &Pose::IDENTITY, &above, &at(x, y, 2.0));
+            assert_eq!(answer.local1, [x, y, 1.0]);
+            assert_eq!(answer.feature1, Feature { kind: FeatureKind::Face, ids: [triangle, 0] }, "{answer:?}");
+        }
+    }
+}
+
+/// A segment has no faces, so only the fallback answers for it.
+#[test]
+fn a_point_inside_a_segment_is_on_its_edge() {
+    let segment = hull(&[[-1.0, 0.0, 0.0], [1.0, 0.0, 0.0]]);
+    let answer = ask(&segment, &Pose::IDENTITY, &hull(&[[0.0; 3]]), &at(0.25, 0.0, 1.0));
+    assert_eq!(answer.local1, [0.25, 0.0, 0.0]);
+    assert_eq!(answer.feature1, Feature { kind: FeatureKind::Edge, ids: [0, 1] }, "{answer:?}");
+}
+
+/// A square with a tip a billionth above its middle: in double precision the normals of its four upper faces are as near to
+/// upward as one another, yet one face holds the point.
+#[test]
+fn of_nearly_coplanar_faces_the_one_that_holds_the_point() {
+    let square = [[1.0, 1.0, 0.0], [-1.0, 1.0, 0.0], [-1.0, -1.0, 0.0], [1.0, -1.0, 0.0]];
+    let plate = hull(&[square[0], square[1], square[2], square[3], [0.0, 0.0, 1e-9]]);
+    let polyhedron = plate.polyhedron();
+    for (x, y, side) in [(0.5, 0.1, [3, 0]), (0.1, 0.5, [0, 1]), (-0.5, 0.1, [1, 2]), (0.1, -0.5, [2, 3])] {
+        let answer = ask(&plate, &Pose::IDENTITY, &hull(&[[0.0; 3]]), &at(x, y, 1.0));
+        let Feature { kind: FeatureKind::Face, ids: [face, _] } = answer.feature1 else { panic!("{answer:?}") };
+        let on_face = |v: u32| {
+            let of = |&e: &u32| [polyhedron.edges[e as usize].tail, polyhedron.edges[e as usize].head];
+            let record = &polyhedron.faces[face as usize];
+            let sides = &polyhedron.sides[record.first_side as usize..][..record.side_count as usize];
+            sides.iter().flat_map(of).any(|w| polyhedron.vertex_labels[w as usize] == v)
+        };
+        assert!(on_face(4) && side.into_iter().all(on_face), "at {x}, {y}: {answer:?}");
+    }
+}
+
+/// Long segments through a cube: the weights of the tetrahedron that proves the contact are small differences.
+#[test]
+fn the_point_of_a_contact_is_common() {
+    let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { 1.0 } else { -1.0 });
+    let cube = hull(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner));
+    for exponent in 0..=8 {
+        let length = 10f64.powi(exponent);
+        for tilt in [0.1, 0.3, 0.7] {
+            let end = Vector::new(0.6 - tilt, 0.3 + tilt, 0.8 * tilt + 0.1) * length;
+            let segment = hull(&[(end * 1.1).into(), (-end * 0.7).into()]);
+            let pose = at(0.3, -0.2, 0.4);
+            let mut answer = PairAnswer::default();
+            let (cache, config) = (&mut PairCache::default(), PairConfig::default());
+            contact(&segment, &pose, &cube, &Pose::IDENTITY, cache, &config, &mut answer).unwrap();
+            assert_eq!(answer.outcome, Outcome::Intersecting);
+            let apart = (Vector::from(answer.world1) - Vector::from(answer.world2)).norm();
+            // As wide as the widest interval of a hard pair.
+            assert!(apart <= 1e-13 * (2.0 * length + 4.0), "length {length:e}: {apart:e} apart, {answer:?}");
+        }
+    }
+}
+
+/// Squares of these coordinates underflow or overflow.
+#[test]
+fn answers_at_the_ends_of_the_range_verify() {
+    let point = hull(&[[0.0; 3]]);
+    for size in [1e-300, 1e-241, 1e-162, 1e162, 1e300] {
+        let pose = at(0.0, size, 0.0);
+        let answer = ask(&point, &pose, &point, &Pose::IDENTITY);
+        assert!(answer.lower <= size && size <= answer.upper && answer.outcome == Outcome::Separated);
+        assert_eq!(verify(&point, &pose, &point, &Pose::IDENTITY, &answer), Ok(()), "{size:e}: {answer:?}");
+    }
+}
+
+/// A matrix entry of 2⁻¹⁰⁰⁰ takes y = 2⁻⁵⁰⁰ to x = 2⁻¹⁵⁰⁰: apart, though by less than any double.
+#[test]
+fn apart_by_less_than_any_double_is_not_intersecting() {
+    let tiny = hull(&[[0.0, 2f64.powi(-500), 0.0]]);
+    let mut skewed = Pose::IDENTITY;
+    skewed.rows[0][1] = 2f64.powi(-1000);
+    let answer = ask(&tiny, &skewed, &tiny, &Pose::IDENTITY);
+    assert_eq!((answer.outcome, answer.status), (Outcome::Separated, Status::Exact), "{answer:?}");
+}
