@@ -1,0 +1,117 @@
+//! Which pairs of objects are tested: the latest word on a pair holds, whether it was said of the pair, of one of its
+//! objects or of all.
+//!
+//! Nothing is enumerated. Every word gets a stamp, and a pair's state is the greatest of the four stamps that concern
+//! it: each call costs O(1) whatever the number of objects, and a pair of which nothing was said needs no entry.
+
+use std::collections::HashMap;
+
+use crate::object::{Object, ObjectId, Stamp};
+
+/// What was said of all pairs and of single ones; what was said of an object is in the object.
+#[derive(Debug, Default)]
+pub(crate) struct Activation {
+    latest: Stamp,
+    all: Stamp,
+    /// Since the last word on all; the earlier created object first.
+    pairs: HashMap<[ObjectId; 2], Stamp>,
+}
+
+impl Activation {
+    /// The next word: "active" or not.
+    fn say(&mut self, active: bool) -> Stamp {
+        self.latest = self.latest.next(active);
+        self.latest
+    }
+
+    /// Of all pairs that there are.
+    pub(crate) fn set_all(&mut self, active: bool) {
+        self.all = self.say(active);
+        self.pairs.clear();
+    }
+
+    /// Of all pairs of one object that there are. A new object must be set active: its pairs are, whatever was said before.
+    pub(crate) fn set_object(&mut self, object: &mut Object, active: bool) {
+        object.activation = self.say(active);
+    }
+
+    /// Of one pair, the earlier created object first.
+    pub(crate) fn set_pair(&mut self, pair: [ObjectId; 2], active: bool) {
+        let stamp = self.say(active);
+        self.pairs.insert(pair, stamp);
+    }
+
+    /// Forgets the pairs of a removed object.
+    pub(crate) fn remove_object(&mut self, id: ObjectId) {
+        self.pairs.retain(|pair, _| !pair.contains(&id));
+    }
+
+    /// Whether a pair is active, the earlier created object first.
+    pub(crate) fn is_active(&self, object1: &Object, object2: &Object) -> bool {
+        let pair = self.pairs.get(&[object1.id(), object2.id()]).copied().unwrap_or_default();
+        self.all.max(object1.activation).max(object2.activation).max(pair).active()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::object::{ObjectOptions, ObjectTable};
+
+    /// SplitMix64 (Steele, Lea & Flood 2014).
+    fn random(state: &mut u64, below: usize) -> usize {
+        *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = *state;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        ((z ^ (z >> 31)) % below as u64) as usize
+    }
+
+    /// Against the plain model, one flag for each pair, set by whatever is said: random words, objects that come and go.
+    #[test]
+    fn the_latest_word_holds() {
+        let mut state = 1;
+        let mut table = ObjectTable::new();
+        let mut activation = Activation::default();
+        let mut model: HashMap<[ObjectId; 2], bool> = HashMap::new();
+        let mut ids: Vec<ObjectId> = Vec::new();
+        for _ in 0..5_000 {
+            let active = random(&mut state, 2) == 1;
+            match random(&mut state, 16) {
+                0 => {
+                    activation.set_all(active);
+                    model.values_mut().for_each(|flag| *flag = active);
+                }
+                1 | 2 if ids.len() < 12 => {
+                    let id = table.insert(Vec::new(), &ObjectOptions::default()).unwrap();
+                    activation.set_object(table.get_mut(id).unwrap(), true);
+                    model.extend(ids.iter().map(|&earlier| ([earlier, id], true)));
+                    ids.push(id);
+                }
+                3 if ids.len() > 2 => {
+                    let id = ids.remove(random(&mut state, ids.len()));
+                    table.remove(id).unwrap();
+                    activation.remove_object(id);
+                    model.retain(|pair, _| !pair.contains(&id));
+                }
+                4..8 if !ids.is_empty() => {
+                    let id = ids[random(&mut state, ids.len())];
+                    activation.set_object(table.get_mut(id).unwrap(), active);
+                    model.iter_mut().filter(|(pair, _)| pair.contains(&id)).for_each(|(_, flag)| *flag = active);
+                }
+                8.. if ids.len() > 1 => {
+                    let second = 1 + random(&mut state, ids.len() - 1);
+                    let pair = [ids[random(&mut state, second)], ids[second]];
+                    activation.set_pair(pair, active);
+                    model.insert(pair, active);
+                }
+                _ => {}
+            }
+            for (pair, &flag) in &model {
+                let [object1, object2] = pair.map(|id| table.get(id).unwrap());
+                assert_eq!(activation.is_active(object1, object2), flag);
+            }
+        }
+        assert!(ids.len() > 2);
+    }
+}

@@ -1,0 +1,145 @@
+//! Queries allocate nothing: the pair layer never, a scene not after the first query with the same objects and
+//! activation. Only integer arithmetic may, and the statistics say when it ran.
+
+// GlobalAlloc is an unsafe trait.
+#![allow(unsafe_code)]
+
+mod random_scene;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::sync::Arc;
+
+use random_scene::{Random, cuboid, ellipsoid};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::object::{ObjectId, ObjectOptions};
+use swiftprox::pair::{self, Bounds, PairAnswer, PairCache, PairConfig};
+use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::shape::Shape;
+
+struct Counting;
+
+thread_local! {
+    /// Of this thread alone: the test harness allocates in others.
+    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
+}
+
+// SAFETY: every call is handed to the system's allocator unchanged; the counter neither allocates nor has a destructor.
+unsafe impl GlobalAlloc for Counting {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        // SAFETY: the caller's promise, passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        // SAFETY: the caller's promise, passed on; `alloc` and `realloc` hand out the system's pointers.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
+        // SAFETY: as for `dealloc`.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Counting = Counting;
+
+/// How many allocations `work` makes.
+fn allocations(work: impl FnOnce()) -> usize {
+    let before = ALLOCATIONS.get();
+    work();
+    ALLOCATIONS.get() - before
+}
+
+fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
+    let mut shapes = vec![cuboid([0.5, 0.5, 0.5]), cuboid([0.1, 0.4, 1.0])];
+    for half in [[0.6, 0.6, 0.6], [0.6, 0.6, 0.06], [0.6, 0.06, 0.06]] {
+        shapes.push(ellipsoid(random, 200, half, Vector::zeros()));
+    }
+    shapes
+}
+
+#[test]
+fn the_counter_counts() {
+    assert_eq!(allocations(|| drop(std::hint::black_box(vec![1_u8]))), 1);
+}
+
+#[test]
+fn pair_queries_allocate_nothing() {
+    let mut random = Random(5);
+    let shapes = shapes(&mut random);
+    let queries = [pair::distance, pair::intersection, pair::contact];
+    let mut without_exact_tier = 0;
+    for k in 0..4_000 {
+        let shape1 = &shapes[random.below(shapes.len())];
+        let shape2 = &shapes[random.below(shapes.len())];
+        let (pose1, pose2) = (random.pose(0.5), random.pose(0.5));
+        let bounds = if k % 2 == 0 { Bounds::Tight } else { Bounds::Verdict };
+        let config = PairConfig { bounds, ..Default::default() };
+        let mut cache = PairCache::default();
+        for query in queries {
+            let mut answer = PairAnswer::default();
+            let count = allocations(|| {
+                query(shape1, &pose1, shape2, &pose2, &mut cache, &config, &mut answer).unwrap();
+            });
+            let exact_tier = answer.statistics.exact_iterations > 0;
+            assert!(count == 0 || exact_tier, "{count} allocations: {answer:?}");
+            without_exact_tier += usize::from(!exact_tier);
+        }
+    }
+    assert!(without_exact_tier > 11_000, "integer arithmetic decided all but {without_exact_tier} of 12,000");
+}
+
+#[test]
+fn scene_queries_allocate_nothing_after_the_first() {
+    let mut random = Random(6);
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let shapes = shapes(&mut random);
+    let add = |k: usize| {
+        // Every third object of two pieces.
+        let pieces =
+            (0..1 + usize::from(k.is_multiple_of(3))).map(|p| shapes[(k + p) % shapes.len()].clone()).collect();
+        let options = ObjectOptions { pose: random.pose(1.5), ..Default::default() };
+        scene.add_object(pieces, &options).unwrap()
+    };
+    let ids: Vec<ObjectId> = (0..12).map(add).collect();
+    // The first query, of a kind that lists little: later ones list much more.
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    let mut without_exact_tier = 0;
+    for step in 0..400 {
+        // Mostly a small step, sometimes a jump.
+        for &id in &ids {
+            let pose = *scene.object(id).unwrap().pose();
+            let moved = if step % 50 == 0 {
+                random.pose(1.5)
+            } else {
+                let turn = Matrix::new(0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 1.0);
+                let rotation = if step % 10 == 0 { turn * pose.rotation() } else { pose.rotation() };
+                Pose::new(&rotation, &(pose.translation() + random.vector(0.01)))
+            };
+            scene.set_pose(id, &moved).unwrap();
+        }
+        scene.reset_statistics();
+        let query = SceneQuery {
+            early_exit: step % 7 == 0,
+            distance_tolerance: if step % 5 == 0 { 0.2 } else { f64::INFINITY },
+            bounds: if step % 2 == 0 { Bounds::Tight } else { Bounds::Verdict },
+        };
+        let count = allocations(|| {
+            let answer = match step % 4 {
+                0 => scene.query_intersection(&query),
+                1 => scene.query_tolerance(&query),
+                2 => scene.query_exact_distance(&query),
+                _ => scene.query_contacts(&query),
+            };
+            assert!(answer.unwrap().failure.is_none());
+        });
+        let exact_tier = scene.statistics().exact_iterations > 0;
+        assert!(count == 0 || exact_tier, "step {step}: {count} allocations: {:?}", scene.statistics());
+        without_exact_tier += usize::from(!exact_tier);
+    }
+    assert!(without_exact_tier > 300, "integer arithmetic ran in all but {without_exact_tier} of 400 queries");
+}
