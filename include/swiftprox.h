@@ -1,0 +1,867 @@
+/*
+ * swiftprox: certified proximity queries between convex polyhedra.
+ *
+ * Conventions, which hold for every function below:
+ *
+ * Names. swift_<noun>_<verb>; the noun comes first in the arguments.
+ *
+ * Failure. What can fail returns a swift_status: SWIFT_OK is 0, the numbers are never reused.
+ * swift_library_last_error_message says what was wrong and where, for each thread. A call that fails changes nothing but the
+ * outputs it names. Nothing is printed, nothing unwinds into the caller. A bug of the library, when it is caught, comes back as
+ * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. Shapes
+ * never change, so no bug can spoil them.
+ *
+ * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
+ * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
+ * nothing keeps a pointer of the caller except swift_library_set_log.
+ *
+ * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
+ * is not const needs exclusive use during the call. Nothing else is shared between calls: different objects need no care.
+ *
+ * Structs. Those that come in begin with struct_size: fill them with their _init function, then change members. A struct of an
+ * older header is accepted, one of a newer header as long as what this library does not know is zero. Enumerators travel as
+ * int32_t; unknown ones are refused.
+ *
+ * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]: an
+ * object is R*v + T over its vertices v, exactly as the doubles give it. R is accepted when every entry of R^T R - I is at most
+ * 1e-2 and det R > 0; nothing assumes that it is perfectly orthonormal. Right-handed, faces counter-clockwise from outside.
+ *
+ * Closed sets. Touching is intersecting. An interval [lower, upper] holds the true distance, rounding included.
+ */
+
+/* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
+
+
+#ifndef SWIFTPROX_H
+#define SWIFTPROX_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/** Major version of this header: programs compiled with another one do not go with this library. */
+#define SWIFT_VERSION_MAJOR 0
+
+/** Minor version of this header. While the major version is 0, another minor version is another interface. */
+#define SWIFT_VERSION_MINOR 1
+
+/** Patch version of this header. */
+#define SWIFT_VERSION_PATCH 0
+
+/** What a call returns. The numbers are never reused. */
+enum {
+  /** The call did what it says. */
+  SWIFT_OK = 0,
+  /** A pointer that must not be null is null: the message names the argument. */
+  SWIFT_ERROR_NULL_POINTER = 1,
+  /** An argument is out of range, not finite or unknown: the message names it. */
+  SWIFT_ERROR_INVALID_ARGUMENT = 2,
+  /**
+   * A struct_size is not one that this library knows: the struct was not initialised by its _init function, or it comes
+   * from a newer header and sets what this library does not know.
+   */
+  SWIFT_ERROR_STRUCT_SIZE = 3,
+  /** A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive. */
+  SWIFT_ERROR_POSE = 4,
+  /** A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering. */
+  SWIFT_ERROR_MESH = 5,
+  /** A file cannot be read or does not parse: the message names the file and the line. */
+  SWIFT_ERROR_FILE = 6,
+  /** An object id is null, stale or of another scene. */
+  SWIFT_ERROR_HANDLE = 7,
+  /** A limit of the library is reached: a count that does not fit. */
+  SWIFT_ERROR_LIMIT = 8,
+  /** A callback asked to stop. */
+  SWIFT_ERROR_CANCELLED = 9,
+  /** A bug of the library, caught: please report the message. */
+  SWIFT_ERROR_BUG = 10,
+  /** The handle met a bug in an earlier call; all that can be done with it is to destroy it. */
+  SWIFT_ERROR_POISONED = 11,
+  /** The program was compiled with a header that does not go with this library. */
+  SWIFT_ERROR_VERSION = 12,
+  /** The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not. */
+  SWIFT_ERROR_UNVERIFIED = 13
+};
+typedef int32_t swift_status;
+
+/** Which interval a query computes. */
+enum {
+  /** As tight as double precision allows. */
+  SWIFT_BOUNDS_TIGHT = 0,
+  /** The cheapest that still prove the verdict. */
+  SWIFT_BOUNDS_VERDICT = 1
+};
+typedef int32_t swift_bounds;
+
+/** The outcome of a pair query. */
+enum {
+  /** Nothing is said yet: the value of a fresh answer. */
+  SWIFT_OUTCOME_NONE = 0,
+  /** The objects are disjoint, `0 < lower <= distance <= upper`; `lower` is 0 only for a distance below the smallest double. */
+  SWIFT_OUTCOME_SEPARATED = 1,
+  /** The objects are disjoint and farther apart than the distance tolerance: only `lower` is said. */
+  SWIFT_OUTCOME_BEYOND = 2,
+  /** The closed objects have a common point (touching included). */
+  SWIFT_OUTCOME_INTERSECTING = 3
+};
+typedef int32_t swift_outcome;
+
+/** How a pair query ended. Values are never reused. */
+enum {
+  /** Nothing was asked yet. */
+  SWIFT_PAIR_STATUS_NONE = 0,
+  /** Voronoi marching ended and its certificate holds. */
+  SWIFT_PAIR_STATUS_MARCHED = 1,
+  /** The vertex pairs of the last query still enclose the origin. */
+  SWIFT_PAIR_STATUS_COHERENT = 2,
+  /** Gilbert-Johnson-Keerthi decided. */
+  SWIFT_PAIR_STATUS_FALLBACK = 3,
+  /** Integer arithmetic decided. */
+  SWIFT_PAIR_STATUS_EXACT = 4
+};
+typedef int32_t swift_pair_status;
+
+/** Kind of a feature. */
+enum {
+  /** Nothing is said. */
+  SWIFT_FEATURE_KIND_NONE = 0,
+  /** A vertex: `ids[0]` is its index in the caller's array. */
+  SWIFT_FEATURE_KIND_VERTEX = 1,
+  /** An edge: `ids` are the caller's indices of its two end vertices. */
+  SWIFT_FEATURE_KIND_EDGE = 2,
+  /** A face: `ids[0]` is the caller's index of a polygon that holds the witness point. */
+  SWIFT_FEATURE_KIND_FACE = 3
+};
+typedef int32_t swift_feature_kind;
+
+/** What to do with input that is not a closed convex mesh with interior. */
+enum {
+  /** Refuse it with a message that says where. */
+  SWIFT_INPUT_STRICT = 0,
+  /** Admit bodies without interior (a two-sided polygon); otherwise as strict. */
+  SWIFT_INPUT_FLAT = 1,
+  /**
+   * Take the convex hull of the vertices, of any dimension. Faces label the hull if the mesh would pass as `Flat`; otherwise
+   * they are ignored, and a face's label is its own index.
+   */
+  SWIFT_INPUT_HULL = 2
+};
+typedef int32_t swift_input;
+
+/** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
+typedef struct swift_scene swift_scene;
+
+/** Geometry for queries: immutable, shared by count (in Rust with `Arc`). */
+typedef struct swift_shape swift_shape;
+
+/**
+ * Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
+ * and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
+ */
+typedef void (*swift_log_callback)(int32_t status, const char *message, void *user);
+
+/** How a shape is made. Fill it with swift_shape_options_init, then change what should differ. */
+typedef struct swift_shape_options {
+  /** Set by swift_shape_options_init. */
+  size_t struct_size;
+  /** A swift_input: what to do with input that is not a closed convex mesh with interior. Default: refuse it. */
+  int32_t input;
+  /**
+   * Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
+   * scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
+   */
+  double rotation[9];
+  /** See rotation. Default: 0. */
+  double translation[3];
+  /** See rotation; positive. Default: 1. */
+  double scale;
+  /**
+   * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative, which
+   * means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+   */
+  double convexity_tolerance;
+} swift_shape_options;
+
+/** What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it. */
+typedef struct swift_shape_info {
+  /** Set by the caller. */
+  size_t struct_size;
+  /** Dimension of the hull: 3; 2 (a two-sided polygon), 1 (a segment) or 0 (a point) only where the input policy admits it. */
+  int32_t dimension;
+  /** Vertices of the hull. */
+  size_t vertex_count;
+  /** Edges between faces that are not coplanar. */
+  size_t edge_count;
+  /** Faces, coplanar triangles counted as one. */
+  size_t face_count;
+  /** Triangles of the hull, as swift_shape_copy_triangles gives them. */
+  size_t triangle_count;
+  /** Volume; 0 without interior. */
+  double volume;
+  /** Centre of mass of the volume, in the local frame; of a body without interior that of its area or length. */
+  double centre_of_mass[3];
+  /** Largest distance of a vertex from the centre of mass. */
+  double radius;
+  /** Lower corner of the bounding box in the local frame. */
+  double lower[3];
+  /** Upper corner of the bounding box in the local frame. */
+  double upper[3];
+  /** Memory that the shape holds, in bytes, however many share it. */
+  size_t bytes;
+} swift_shape_info;
+
+/** What a pair query is asked for. */
+typedef struct swift_pair_config {
+  /** The size of this struct, so that it can grow at the C interface; Rust has no use for it. */
+  size_t struct_size;
+  /** Pairs farther apart than this are answered with SWIFT_OUTCOME_BEYOND; +infinity (the default): none. */
+  double distance_tolerance;
+  /** Largest accepted |R^T R - I| entry, at most (and by default) 1e-2. */
+  double rotation_limit;
+  /** Which interval. */
+  swift_bounds bounds;
+} swift_pair_config;
+
+/**
+ * What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an
+ * answer comes, never the verdict. What the words mean is the library's own.
+ */
+typedef struct swift_pair_cache {
+  /** Not to be looked at. */
+  uint32_t words[24];
+} swift_pair_cache;
+
+/** A feature in the caller's numbering. */
+typedef struct swift_feature {
+  /** Vertex, edge or face. */
+  swift_feature_kind kind;
+  /** See swift_feature_kind; unused entries are 0. */
+  uint32_t ids[2];
+} swift_feature;
+
+/** What a query did. */
+typedef struct swift_statistics {
+  /** Voronoi marching: feature pairs visited. */
+  uint32_t marching_steps;
+  /** Fallback: Gilbert-Johnson-Keerthi iterations in floating point. */
+  uint32_t fallback_iterations;
+  /** Exact tier: iterations in integer arithmetic (it allocates; nothing else does). */
+  uint32_t exact_iterations;
+} swift_statistics;
+
+/** The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal. */
+typedef struct swift_pair_answer {
+  /** Disjoint, beyond the tolerance, or intersecting. */
+  swift_outcome outcome;
+  /** Which tier decided. */
+  swift_pair_status status;
+  /** The best estimate, `lower <= distance <= upper`; 0 when intersecting. */
+  double distance;
+  /** Lower end of the rigorous interval; 0 when intersecting. */
+  double lower;
+  /** Upper end of the rigorous interval; 0 when intersecting; +infinity for SWIFT_OUTCOME_BEYOND. */
+  double upper;
+  /** Witness point on object 1, in its local frame. */
+  double local1[3];
+  /** Witness point on object 2, in its local frame. */
+  double local2[3];
+  /** Witness point on object 1, in the world frame. */
+  double world1[3];
+  /** Witness point on object 2, in the world frame. */
+  double world2[3];
+  /** Unit normal in the world frame, from object 2 to object 1. */
+  double normal[3];
+  /** Nearest feature of object 1. */
+  struct swift_feature feature1;
+  /** Nearest feature of object 2. */
+  struct swift_feature feature2;
+  /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
+  uint32_t proof[4][2];
+  /** How many entries of `proof` are used (1 to 4 when intersecting, else 0). */
+  uint32_t proof_count;
+  /** What the query did. */
+  struct swift_statistics statistics;
+} swift_pair_answer;
+
+/** How a scene is made. Fill it with swift_scene_options_init, then change what should differ. */
+typedef struct swift_scene_options {
+  /** Set by swift_scene_options_init. */
+  size_t struct_size;
+  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
+  double rotation_limit;
+} swift_scene_options;
+
+/** How an object begins. Fill it with swift_object_options_init, then change what should differ. */
+typedef struct swift_object_options {
+  /** Set by swift_object_options_init. */
+  size_t struct_size;
+  /** The caller's own; it comes back in every result. Default: 0. */
+  uint64_t user_data;
+  /** Where it stands, row-major [R|T]. Default: the identity. */
+  double pose[12];
+  /** Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0. */
+  int32_t fixed;
+} swift_object_options;
+
+/**
+ * Names an object of a scene. Zero (SWIFT_OBJECT_ID_NULL, the default) names none; the id of a removed object is refused
+ * for ever, that of another scene unless about a million scenes were made in between.
+ */
+typedef uint64_t swift_object_id;
+/** Names no object. */
+#define SWIFT_OBJECT_ID_NULL 0
+
+/** What an object is. Set struct_size to sizeof(swift_object_info) before asking for it. */
+typedef struct swift_object_info {
+  /** Set by the caller. */
+  size_t struct_size;
+  /** The caller's own. */
+  uint64_t user_data;
+  /** Number of convex pieces. */
+  size_t piece_count;
+  /** Where it stands, row-major [R|T]. */
+  double pose[12];
+  /** 1 if it is fixed, else 0. */
+  int32_t fixed;
+} swift_object_info;
+
+/** What a query over a scene is asked for. Fill it with swift_scene_query_init, then change what should differ. */
+typedef struct swift_scene_query {
+  /** Set by swift_scene_query_init. */
+  size_t struct_size;
+  /**
+   * List pairs up to this distance, intersecting ones always; from 0 to infinity (the default: all pairs). A pair whose
+   * interval does not exclude it is listed, so that none is missed. swift_scene_query_intersection does not look at it.
+   */
+  double distance_tolerance;
+  /** Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0. */
+  int32_t early_exit;
+  /**
+   * A swift_bounds: which interval the answers carry; with a finite distance tolerance the tight one always. Default: the
+   * tight one.
+   */
+  int32_t bounds;
+} swift_scene_query;
+
+/** One pair of convex pieces in a query's list. */
+typedef struct swift_pair_result {
+  /** The earlier created object. */
+  swift_object_id object1;
+  /** The later created object. */
+  swift_object_id object2;
+  /** The caller's own number of object 1. */
+  uint64_t user_data1;
+  /** The caller's own number of object 2. */
+  uint64_t user_data2;
+  /** Which piece of object 1. */
+  uint32_t piece1;
+  /** Which piece of object 2. */
+  uint32_t piece2;
+  /** The answer; its outcome is SWIFT_OUTCOME_NONE when the pair could not be answered. */
+  struct swift_pair_answer answer;
+} swift_pair_result;
+
+/** What a query over a scene found. */
+typedef struct swift_scene_answer {
+  /**
+   * The pairs that the query lists, by object 1, object 2, piece 1, piece 2, objects in order of creation. Owned by the
+   * scene, valid until its next call that takes it by a pointer that is not const. Null when count is 0.
+   */
+  const struct swift_pair_result *pairs;
+  /** How many pairs. */
+  size_t count;
+  /** 1 if any tested pair intersects, else 0. */
+  int32_t intersecting;
+} swift_scene_answer;
+
+/** What the queries of a scene did since it was made or swift_scene_reset_statistics was called. */
+typedef struct swift_scene_statistics {
+  /** Queries. */
+  uint64_t queries;
+  /** Pairs of convex pieces tested. */
+  uint64_t pairs;
+  /** ... of which Voronoi marching decided. */
+  uint64_t marched;
+  /** ... of which the vertex pairs of the query before decided. */
+  uint64_t coherent;
+  /** ... of which Gilbert-Johnson-Keerthi in floating point decided. */
+  uint64_t fallback;
+  /** ... of which integer arithmetic decided. */
+  uint64_t exact;
+  /** ... of which could not be answered. */
+  uint64_t failed;
+  /** Feature pairs visited by Voronoi marching. */
+  uint64_t marching_steps;
+  /** Iterations of Gilbert-Johnson-Keerthi in floating point. */
+  uint64_t fallback_iterations;
+  /** Iterations in integer arithmetic. */
+  uint64_t exact_iterations;
+} swift_scene_statistics;
+
+/** The version of the library that runs, as "major.minor.patch". Never null, valid for ever. */
+const char *swift_library_version(void);
+
+/**
+ * Whether a program compiled with the header of the given version can run with this library. Call it once with
+ * SWIFT_VERSION_MAJOR, SWIFT_VERSION_MINOR and SWIFT_VERSION_PATCH, which are then those of the program.
+ *
+ * SWIFT_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+ */
+swift_status swift_library_check_version(int32_t major,
+                                         int32_t minor,
+                                         int32_t patch);
+
+/** A status in words. Never null, valid for ever; a number that is no status gets a string that says so. */
+const char *swift_library_status_string(int32_t status);
+
+/**
+ * What went wrong in the last call of this thread that did not return SWIFT_OK; the empty string before the first. Never
+ * null; valid until the next such call of the same thread, or its end.
+ */
+const char *swift_library_last_error_message(void);
+
+/**
+ * Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
+ * not return SWIFT_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
+ * from several at once; calls already under way in other threads may still reach the old one for a moment.
+ */
+void swift_library_set_log(swift_log_callback callback,
+                           void *user);
+
+/**
+ * Fills `options` with the defaults, struct_size included.
+ *
+ * SWIFT_ERROR_NULL_POINTER: options is null.
+ */
+swift_status swift_shape_options_init(struct swift_shape_options *options);
+
+/**
+ * Makes a shape from a polygon mesh. The arrays are copied.
+ *
+ * `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
+ * other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are
+ * triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
+ * unless the options say otherwise. Answers name features by these numbers.
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ * `options` may be null for the defaults.
+ *
+ * SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
+ * bits. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ */
+swift_status swift_shape_create_from_mesh(const double *vertices,
+                                          size_t vertex_count,
+                                          const uint32_t *indices,
+                                          const uint32_t *valences,
+                                          size_t face_count,
+                                          const struct swift_shape_options *options,
+                                          struct swift_shape **shape);
+
+/**
+ * Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
+ * name vertices by their place in `points` (the first of equal ones).
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ * `options` may be null for the defaults, which refuse a hull without interior.
+ *
+ * SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate that
+ * is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_NULL_POINTER,
+ * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ */
+swift_status swift_shape_create_from_points(const double *points,
+                                            size_t point_count,
+                                            const struct swift_shape_options *options,
+                                            struct swift_shape **shape);
+
+/**
+ * Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
+ * system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file.
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ * `options` may be null for the defaults.
+ *
+ * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
+ * the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+ * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ */
+swift_status swift_shape_create_from_file(const char *path,
+                                          const struct swift_shape_options *options,
+                                          struct swift_shape **shape);
+
+/**
+ * Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.
+ *
+ * Always SWIFT_OK.
+ */
+swift_status swift_shape_retain(const struct swift_shape *shape);
+
+/**
+ * Gives back one share of a shape; the last one frees it (scenes hold shares of their own). Safe from any thread. Null is
+ * ignored.
+ *
+ * Always SWIFT_OK.
+ */
+swift_status swift_shape_release(const struct swift_shape *shape);
+
+/**
+ * Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
+ *
+ * SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+ */
+swift_status swift_shape_get_info(const struct swift_shape *shape,
+                                  struct swift_shape_info *info);
+
+/**
+ * Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
+ * at least swift_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+ */
+swift_status swift_shape_copy_vertices(const struct swift_shape *shape,
+                                       double *vertices,
+                                       uint32_t *labels,
+                                       size_t capacity);
+
+/**
+ * Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
+ * swift_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
+ * swift_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
+ * none.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+ */
+swift_status swift_shape_copy_triangles(const struct swift_shape *shape,
+                                        uint32_t *corners,
+                                        size_t capacity);
+
+/**
+ * Fills `config` with the defaults, struct_size included.
+ *
+ * SWIFT_ERROR_NULL_POINTER: config is null.
+ */
+swift_status swift_pair_config_init(struct swift_pair_config *config);
+
+/**
+ * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the distance
+ * is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
+ * config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFT_FEATURE_KIND_NONE.
+ *
+ * A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
+ * the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
+ * `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFT_OUTCOME_NONE.
+ *
+ * SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_BUG: the cache is reset, too.
+ */
+swift_status swift_pair_distance(const struct swift_shape *shape1,
+                                 const double *pose1,
+                                 const struct swift_shape *shape2,
+                                 const double *pose2,
+                                 struct swift_pair_cache *cache,
+                                 const struct swift_pair_config *config,
+                                 struct swift_pair_answer *answer);
+
+/**
+ * The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need not be
+ * tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+ */
+swift_status swift_pair_intersection(const struct swift_shape *shape1,
+                                     const double *pose1,
+                                     const struct swift_shape *shape2,
+                                     const double *pose2,
+                                     struct swift_pair_cache *cache,
+                                     const struct swift_pair_config *config,
+                                     struct swift_pair_answer *answer);
+
+/**
+ * As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along which
+ * the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments and
+ * errors as of swift_pair_distance.
+ */
+swift_status swift_pair_contact(const struct swift_shape *shape1,
+                                const double *pose1,
+                                const struct swift_shape *shape2,
+                                const double *pose2,
+                                struct swift_pair_cache *cache,
+                                const struct swift_pair_config *config,
+                                struct swift_pair_answer *answer);
+
+/**
+ * Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
+ * and its witness points, an intersecting one by the exact position of the origin in its vertex pairs. SWIFT_OK: it holds for
+ * these shapes and poses.
+ *
+ * SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
+ * unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+ */
+swift_status swift_pair_verify(const struct swift_shape *shape1,
+                               const double *pose1,
+                               const struct swift_shape *shape2,
+                               const double *pose2,
+                               const struct swift_pair_answer *answer);
+
+/**
+ * Fills `options` with the defaults, struct_size included.
+ *
+ * SWIFT_ERROR_NULL_POINTER: options is null.
+ */
+swift_status swift_scene_options_init(struct swift_scene_options *options);
+
+/**
+ * Makes an empty scene; the caller gives it back with swift_scene_destroy. On failure `*scene` is null. `options` may be null
+ * for the defaults.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the
+ * message names the argument.
+ */
+swift_status swift_scene_create(const struct swift_scene_options *options,
+                                struct swift_scene **scene);
+
+/**
+ * Ends a scene, a poisoned one too; its shares of shapes are given back, its ids and results end with it. Null is ignored.
+ *
+ * SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its memory.
+ */
+swift_status swift_scene_destroy(struct swift_scene *scene);
+
+/**
+ * Fills `options` with the defaults, struct_size included.
+ *
+ * SWIFT_ERROR_NULL_POINTER: options is null.
+ */
+swift_status swift_object_options_init(struct swift_object_options *options);
+
+/**
+ * Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
+ * shape: the caller's own may be released at once. On failure nothing is added and `*id` is 0, which names no object.
+ * `options` may be null for the defaults.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces than a
+ * scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_add_object(struct swift_scene *scene,
+                                    const struct swift_shape *const *pieces,
+                                    size_t piece_count,
+                                    const struct swift_object_options *options,
+                                    swift_object_id *id);
+
+/**
+ * Makes a shape as swift_shape_create_from_mesh does and adds an object of that one piece as swift_scene_add_object does, with
+ * the arguments and the errors of both. Both options may be null for the defaults.
+ */
+swift_status swift_scene_add_mesh(struct swift_scene *scene,
+                                  const double *vertices,
+                                  size_t vertex_count,
+                                  const uint32_t *indices,
+                                  const uint32_t *valences,
+                                  size_t face_count,
+                                  const struct swift_shape_options *shape_options,
+                                  const struct swift_object_options *object_options,
+                                  swift_object_id *id);
+
+/**
+ * Makes a shape as swift_shape_create_from_file does and adds an object of that one piece as swift_scene_add_object does, with
+ * the arguments and the errors of both. Both options may be null for the defaults.
+ */
+swift_status swift_scene_add_file(struct swift_scene *scene,
+                                  const char *path,
+                                  const struct swift_shape_options *shape_options,
+                                  const struct swift_object_options *object_options,
+                                  swift_object_id *id);
+
+/**
+ * Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
+ * whatever those of its original are. On failure nothing is added and `*id` is 0.
+ *
+ * SWIFT_ERROR_HANDLE: original names no object of this scene. SWIFT_ERROR_LIMIT: more objects than a scene holds.
+ * SWIFT_ERROR_NULL_POINTER: the message names the argument. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_copy_object(struct swift_scene *scene,
+                                     swift_object_id original,
+                                     swift_object_id *id);
+
+/**
+ * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_remove_object(struct swift_scene *scene,
+                                       swift_object_id id);
+
+/**
+ * Sets the number that comes back in every result of this object.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_set_user_data(struct swift_scene *scene,
+                                       swift_object_id id,
+                                       uint64_t user_data);
+
+/**
+ * Says what an object is: set info->struct_size to sizeof(swift_object_info) first.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene or info is null.
+ * SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_get_object_info(const struct swift_scene *scene,
+                                         swift_object_id id,
+                                         struct swift_object_info *info);
+
+/**
+ * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep the
+ * shape longer than the object. On failure `*shape` is null.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFT_ERROR_NULL_POINTER: scene or shape is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_get_piece(const struct swift_scene *scene,
+                                   swift_object_id id,
+                                   size_t piece,
+                                   const struct swift_shape **shape);
+
+/**
+ * Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene or
+ * pose is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_set_pose(struct swift_scene *scene,
+                                  swift_object_id id,
+                                  const double *pose);
+
+/** As swift_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`. */
+swift_status swift_scene_set_transform(struct swift_scene *scene,
+                                       swift_object_id id,
+                                       const double *rotation,
+                                       const double *translation);
+
+/**
+ * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
+ * stay where they are.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused; the
+ * message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_set_all_poses(struct swift_scene *scene,
+                                       const double *poses,
+                                       size_t count);
+
+/** As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object. */
+swift_status swift_scene_set_all_transforms(struct swift_scene *scene,
+                                            const double *rotations,
+                                            const double *translations,
+                                            size_t count);
+
+/**
+ * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
+ * same.
+ *
+ * SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
+ * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_pair(struct swift_scene *scene,
+                                       swift_object_id id1,
+                                       swift_object_id id2);
+
+/** Deactivates the pair of two objects: queries leave it out. Errors as of swift_scene_activate_pair. */
+swift_status swift_scene_deactivate_pair(struct swift_scene *scene, swift_object_id id1, swift_object_id id2);
+
+/**
+ * Activates all pairs that an object is in now.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_object(struct swift_scene *scene,
+                                         swift_object_id id);
+
+/** Deactivates all pairs that an object is in now. Errors as of swift_scene_activate_object. */
+swift_status swift_scene_deactivate_object(struct swift_scene *scene, swift_object_id id);
+
+/**
+ * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
+ *
+ * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_all(struct swift_scene *scene);
+
+/** Deactivates all pairs that there are now. Errors as of swift_scene_activate_all. */
+swift_status swift_scene_deactivate_all(struct swift_scene *scene);
+
+/**
+ * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
+ *
+ * Errors as of swift_scene_activate_pair; SWIFT_ERROR_NULL_POINTER also when active is null.
+ */
+swift_status swift_scene_is_pair_active(const struct swift_scene *scene,
+                                        swift_object_id id1,
+                                        swift_object_id id2,
+                                        int32_t *active);
+
+/**
+ * Fills `query` with the defaults, struct_size included.
+ *
+ * SWIFT_ERROR_NULL_POINTER: query is null.
+ */
+swift_status swift_scene_query_init(struct swift_scene_query *query);
+
+/**
+ * Lists the intersecting pairs (touching ones are), each with its verdict alone. `query` may be null for the defaults.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
+ * then.
+ *
+ * When a pair could not be answered, the call returns that pair's status, but the answer is there: such pairs are listed with
+ * SWIFT_OUTCOME_NONE, all others are answered as if these were not in the scene.
+ */
+swift_status swift_scene_query_intersection(struct swift_scene *scene,
+                                            const struct swift_scene_query *query,
+                                            struct swift_scene_answer *answer);
+
+/**
+ * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Errors as of
+ * swift_scene_query_intersection.
+ */
+swift_status swift_scene_query_tolerance(struct swift_scene *scene,
+                                         const struct swift_scene_query *query,
+                                         struct swift_scene_answer *answer);
+
+/**
+ * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swift_pair_distance
+ * says of each. Errors as of swift_scene_query_intersection.
+ */
+swift_status swift_scene_query_exact_distance(struct swift_scene *scene,
+                                              const struct swift_scene_query *query,
+                                              struct swift_scene_answer *answer);
+
+/**
+ * As swift_scene_query_exact_distance, with what swift_pair_contact says of each pair. Errors as of
+ * swift_scene_query_intersection.
+ */
+swift_status swift_scene_query_contacts(struct swift_scene *scene,
+                                        const struct swift_scene_query *query,
+                                        struct swift_scene_answer *answer);
+
+/**
+ * What the queries of a scene did since it was made or swift_scene_reset_statistics was called.
+ *
+ * SWIFT_ERROR_NULL_POINTER: scene or statistics is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_get_statistics(const struct swift_scene *scene,
+                                        struct swift_scene_statistics *statistics);
+
+/**
+ * Sets the statistics of a scene to zero.
+ *
+ * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_reset_statistics(struct swift_scene *scene);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

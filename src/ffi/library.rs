@@ -1,0 +1,108 @@
+//! The library as a whole: its version, its statuses in words, the last error, the log.
+
+use std::ffi::{CStr, c_char, c_void};
+use std::sync::{PoisonError, RwLock};
+
+use super::{Failure, LAST_ERROR, StatusCode, guard};
+
+/// Major version of this header: programs compiled with another one do not go with this library.
+pub const VERSION_MAJOR: i32 = 0;
+/// Minor version of this header. While the major version is 0, another minor version is another interface.
+pub const VERSION_MINOR: i32 = 1;
+/// Patch version of this header.
+pub const VERSION_PATCH: i32 = 0;
+
+/// The version of the library that runs, as "major.minor.patch". Never null, valid for ever.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_version() -> *const c_char {
+    const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
+    VERSION.as_ptr().cast()
+}
+
+/// Whether a program compiled with the header of the given version can run with this library. Call it once with
+/// SWIFT_VERSION_MAJOR, SWIFT_VERSION_MINOR and SWIFT_VERSION_PATCH, which are then those of the program.
+///
+/// SWIFT_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_check_version(major: i32, minor: i32, patch: i32) -> StatusCode {
+    guard(|| {
+        let fits = major == VERSION_MAJOR
+            && if major == 0 { minor == VERSION_MINOR } else { (0..=VERSION_MINOR).contains(&minor) };
+        if fits {
+            return Ok(());
+        }
+        Err(Failure::new(
+            StatusCode::ErrorVersion,
+            format!(
+                "the program was compiled for version {major}.{minor}.{patch}, the library is {}",
+                env!("CARGO_PKG_VERSION")
+            ),
+        ))
+    })
+}
+
+/// A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
+    const STRINGS: [(StatusCode, &CStr); 14] = [
+        (StatusCode::Ok, c"ok"),
+        (StatusCode::ErrorNullPointer, c"a pointer is null"),
+        (StatusCode::ErrorInvalidArgument, c"an argument is invalid"),
+        (StatusCode::ErrorStructSize, c"a struct_size is unknown"),
+        (StatusCode::ErrorPose, c"a pose is refused"),
+        (StatusCode::ErrorMesh, c"a mesh breaks the contract"),
+        (StatusCode::ErrorFile, c"a file cannot be read"),
+        (StatusCode::ErrorHandle, c"an object id is null, stale or of another scene"),
+        (StatusCode::ErrorLimit, c"a limit of the library is reached"),
+        (StatusCode::ErrorCancelled, c"a callback asked to stop"),
+        (StatusCode::ErrorBug, c"a bug of the library was caught"),
+        (StatusCode::ErrorPoisoned, c"the handle met a bug in an earlier call"),
+        (StatusCode::ErrorVersion, c"header and library do not go together"),
+        (StatusCode::ErrorUnverified, c"the answer does not hold"),
+    ];
+    let known = STRINGS.iter().find(|(code, _)| *code as i32 == status);
+    known.map_or(c"not a status", |(_, string)| string).as_ptr()
+}
+
+/// What went wrong in the last call of this thread that did not return SWIFT_OK; the empty string before the first. Never
+/// null; valid until the next such call of the same thread, or its end.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_last_error_message() -> *const c_char {
+    LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
+}
+
+/// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
+/// and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
+pub type LogCallback = Option<unsafe extern "C" fn(status: i32, message: *const c_char, user: *mut c_void)>;
+
+#[derive(Clone, Copy)]
+struct Log {
+    callback: LogCallback,
+    user: *mut c_void,
+}
+
+// SAFETY: `user` is only ever handed back to the callback, which swift_library_set_log requires to be callable from every
+// thread.
+unsafe impl Send for Log {}
+// SAFETY: as above.
+unsafe impl Sync for Log {}
+
+static LOG: RwLock<Log> = RwLock::new(Log { callback: None, user: std::ptr::null_mut() });
+
+/// Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
+/// not return SWIFT_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
+/// from several at once; calls already under way in other threads may still reach the old one for a moment.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_set_log(callback: LogCallback, user: *mut c_void) {
+    *LOG.write().unwrap_or_else(PoisonError::into_inner) = Log { callback, user };
+}
+
+/// Hands a failure to the log.
+pub(super) fn log(status: StatusCode, message: &CStr) {
+    // The lock is let go first: a callback may set the log.
+    let log = *LOG.read().unwrap_or_else(PoisonError::into_inner);
+    if let Some(callback) = log.callback {
+        // SAFETY: the callback takes any status and message and its own user pointer (swift_library_set_log).
+        unsafe { callback(status as i32, message.as_ptr(), log.user) };
+    }
+}

@@ -1,0 +1,325 @@
+//! The C interface: with the dispatch in `simd.rs` the only unsafe code. One file per noun; this one holds what every entry
+//! point shares: the guard that turns errors and caught panics into a [`StatusCode`], the message of the last failure, and the
+//! checks of pointers.
+//!
+//! The contract that every pointer must meet (alignment, lifetime, exclusive use behind a non-const pointer) is stated once,
+//! in the head of `swiftprox.h`; the `SAFETY` comments below call it "the header's pointer rules".
+
+#![allow(unsafe_code, reason = "this is where C comes in; the lint stays on everywhere else")]
+#![allow(clippy::missing_safety_doc, reason = "the header's pointer rules, stated once, are the safety section of all")]
+
+// In the order of the header.
+pub mod library;
+pub mod shape;
+pub mod pair;
+pub mod scene;
+
+use std::cell::{Cell, RefCell};
+use std::ffi::{CStr, CString, c_char};
+use std::mem::MaybeUninit;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::sync::Once;
+
+use crate::error::Error;
+use crate::pair::Bounds;
+
+/// What a call returns. The numbers are never reused.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
+pub enum StatusCode {
+    /// The call did what it says.
+    Ok = 0,
+    /// A pointer that must not be null is null: the message names the argument.
+    ErrorNullPointer = 1,
+    /// An argument is out of range, not finite or unknown: the message names it.
+    ErrorInvalidArgument = 2,
+    /// A struct_size is not one that this library knows: the struct was not initialised by its _init function, or it comes
+    /// from a newer header and sets what this library does not know.
+    ErrorStructSize = 3,
+    /// A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive.
+    ErrorPose = 4,
+    /// A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering.
+    ErrorMesh = 5,
+    /// A file cannot be read or does not parse: the message names the file and the line.
+    ErrorFile = 6,
+    /// An object id is null, stale or of another scene.
+    ErrorHandle = 7,
+    /// A limit of the library is reached: a count that does not fit.
+    ErrorLimit = 8,
+    /// A callback asked to stop.
+    ErrorCancelled = 9,
+    /// A bug of the library, caught: please report the message.
+    ErrorBug = 10,
+    /// The handle met a bug in an earlier call; all that can be done with it is to destroy it.
+    ErrorPoisoned = 11,
+    /// The program was compiled with a header that does not go with this library.
+    ErrorVersion = 12,
+    /// The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not.
+    ErrorUnverified = 13,
+}
+
+/// Why a call did not do what it says.
+#[derive(Debug)]
+struct Failure {
+    status: StatusCode,
+    message: String,
+}
+
+/// The result of what runs inside the guard.
+type Checked<T> = Result<T, Failure>;
+
+impl Failure {
+    #[cold]
+    fn new(status: StatusCode, message: impl Into<String>) -> Failure {
+        Failure { status, message: message.into() }
+    }
+
+    #[cold]
+    fn null(name: &str) -> Failure {
+        Failure::new(StatusCode::ErrorNullPointer, format!("the pointer `{name}` is null"))
+    }
+}
+
+impl From<Error> for Failure {
+    #[cold]
+    fn from(error: Error) -> Failure {
+        let status = match error {
+            Error::Argument(_) => StatusCode::ErrorInvalidArgument,
+            Error::Pose(_) => StatusCode::ErrorPose,
+            Error::Mesh(_) => StatusCode::ErrorMesh,
+            Error::File(_) => StatusCode::ErrorFile,
+            Error::Handle(_) => StatusCode::ErrorHandle,
+            Error::Limit(_) => StatusCode::ErrorLimit,
+            Error::Cancelled(_) => StatusCode::ErrorCancelled,
+            Error::Bug(_) => StatusCode::ErrorBug,
+        };
+        Failure::new(status, error.message())
+    }
+}
+
+// --- The guard ---------------------------------------------------------------------------------------------------------
+
+/// Runs the body of an entry point: nothing unwinds into C. Nothing but the result is looked at on success, so that a
+/// pair query pays a few instructions for it.
+#[inline(always)]
+fn guard(body: impl FnOnce() -> Checked<()>) -> StatusCode {
+    // Unwind safety: what a panic may leave half-changed is reset or poisoned by the entry points themselves.
+    match catch_unwind(AssertUnwindSafe(body)) {
+        Ok(Ok(())) => StatusCode::Ok,
+        Ok(Err(failure)) => report(failure),
+        Err(payload) => {
+            // Dropping a payload may panic in its turn (no payload of ours does): forgetting it cannot.
+            std::mem::forget(payload);
+            report(bug())
+        }
+    }
+}
+
+/// The cold end of every failing call: remembers the message for this thread and hands it to the log.
+#[cold]
+#[inline(never)]
+fn report(failure: Failure) -> StatusCode {
+    let Failure { status, message } = failure;
+    // A message may quote a file: C must see all of it.
+    let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
+    library::log(status, &message);
+    // At the end of a thread the message has no place any more; the status still says what happened.
+    let _ = LAST_ERROR.try_with(|last| last.replace(message));
+    status
+}
+
+thread_local! {
+    /// What `swift_library_last_error_message` returns.
+    static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
+    /// What the panic hook saw, on its way to the guard.
+    static LAST_PANIC: Cell<Option<String>> = const { Cell::new(None) };
+}
+
+/// The failure that a caught panic becomes.
+fn bug() -> Failure {
+    let seen = LAST_PANIC.try_with(Cell::take).ok().flatten();
+    let seen = seen.unwrap_or_else(|| "a panic that left no message".into());
+    Failure::new(StatusCode::ErrorBug, format!("a bug in swiftprox, please report it: {seen}"))
+}
+
+/// Keeps the message and the place of a panic for [`bug`] and keeps them off the standard error of a C program. Called by
+/// the functions that make handles: without a handle there is nothing that could panic, and queries need not ask.
+///
+/// The threads of a C program are unknown to Rust and have no Rust name; named ones belong to a Rust program, whose own
+/// hook is then left to do its work.
+fn keep_panics_quiet() {
+    static INSTALLED: Once = Once::new();
+    if std::thread::panicking() {
+        return; // The hook cannot be changed now; the next handle will.
+    }
+    INSTALLED.call_once(|| {
+        let previous = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            let _ = LAST_PANIC.try_with(|last| last.set(Some(info.to_string().replace('\n', " "))));
+            if std::thread::current().name().is_some() {
+                previous(info);
+            }
+        }));
+    });
+}
+
+// --- Arguments -----------------------------------------------------------------------------------------------------------
+
+/// An input that must not be null.
+///
+/// # Safety
+/// `pointer` is null or points to a valid `T` for `'a`.
+#[inline(always)]
+unsafe fn input<'a, T>(pointer: *const T, name: &str) -> Checked<&'a T> {
+    // SAFETY: valid when not null, by the caller.
+    unsafe { pointer.as_ref() }.ok_or_else(|| Failure::null(name))
+}
+
+/// An input or output that must not be null and that nobody else uses meanwhile.
+///
+/// # Safety
+/// `pointer` is null or points to a valid `T` for `'a` that only this call uses.
+#[inline(always)]
+unsafe fn exclusive<'a, T>(pointer: *mut T, name: &str) -> Checked<&'a mut T> {
+    // SAFETY: valid and unshared when not null, by the caller.
+    unsafe { pointer.as_mut() }.ok_or_else(|| Failure::null(name))
+}
+
+/// Writes an output that must not be null; what was there before is not looked at.
+///
+/// # Safety
+/// `pointer` is null or points to room for a `T` that only this call uses.
+unsafe fn output<T: Copy>(pointer: *mut T, name: &str, value: T) -> Checked<()> {
+    if pointer.is_null() {
+        return Err(Failure::null(name));
+    }
+    // SAFETY: not null, and writable by the caller.
+    unsafe { pointer.write(value) };
+    Ok(())
+}
+
+/// An array that must not be null unless it is empty.
+///
+/// # Safety
+/// `pointer` is null or points to `count` valid `T` for `'a`.
+unsafe fn array<'a, T>(pointer: *const T, count: usize, name: &str) -> Checked<&'a [T]> {
+    if count == 0 {
+        return Ok(&[]);
+    }
+    if pointer.is_null() {
+        return Err(Failure::null(name));
+    }
+    // No array in memory is longer: a negative count that became a size_t, most likely.
+    if count > isize::MAX as usize / size_of::<T>() {
+        return Err(Failure::new(StatusCode::ErrorLimit, format!("`{name}` cannot have {count} entries")));
+    }
+    // SAFETY: not null, `count` valid entries by the caller, and no more bytes than isize::MAX.
+    Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
+}
+
+/// Which interval, as C says it in a member of `owner`.
+#[inline(always)]
+fn read_bounds(bounds: i32, owner: &str) -> Checked<Bounds> {
+    const TIGHT: i32 = Bounds::Tight as i32;
+    const VERDICT: i32 = Bounds::Verdict as i32;
+    match bounds {
+        TIGHT => Ok(Bounds::Tight),
+        VERDICT => Ok(Bounds::Verdict),
+        _ => Err(Failure::new(
+            StatusCode::ErrorInvalidArgument,
+            format!("{owner}->bounds is {bounds}, which is no swift_bounds"),
+        )),
+    }
+}
+
+/// A string that must not be null.
+///
+/// # Safety
+/// `pointer` is null or points to a string that ends in a zero byte and stays unchanged for `'a`.
+unsafe fn string<'a>(pointer: *const c_char, name: &str) -> Checked<&'a CStr> {
+    if pointer.is_null() {
+        return Err(Failure::null(name));
+    }
+    // SAFETY: not null and terminated, by the caller.
+    Ok(unsafe { CStr::from_ptr(pointer) })
+}
+
+// --- Structs that know their size ----------------------------------------------------------------------------------------
+
+/// No struct of this interface will ever be larger: a larger struct_size was never initialised.
+const LARGEST_STRUCT: usize = 4096;
+
+/// A C struct that begins with its own size, so that it can grow: new members go to its end, never into padding.
+///
+/// # Safety
+/// The type is `repr(C)` and its first member is the `usize` struct_size.
+unsafe trait Versioned: Copy {
+    /// Its name in the header.
+    const NAME: &'static str;
+    /// The size it had when it was first released: older programs pass that or more.
+    const FIRST_SIZE: usize;
+}
+
+/// Reads and checks the size of a caller's struct: at least `FIRST_SIZE`, and zero bytes beyond what this library knows.
+///
+/// # Safety
+/// `pointer` points to as many readable bytes as its struct_size says.
+#[cold]
+unsafe fn struct_size<T: Versioned>(pointer: *const T) -> Checked<usize> {
+    // SAFETY: struct_size is the first member.
+    let size = unsafe { pointer.cast::<usize>().read() };
+    if size < T::FIRST_SIZE || size > LARGEST_STRUCT {
+        return Err(Failure::new(
+            StatusCode::ErrorStructSize,
+            format!("{}: struct_size is {size}; fill the struct with its _init function first", T::NAME),
+        ));
+    }
+    for offset in size_of::<T>()..size {
+        // SAFETY: below struct_size, readable by the caller.
+        if unsafe { pointer.cast::<u8>().add(offset).read() } != 0 {
+            return Err(Failure::new(
+                StatusCode::ErrorStructSize,
+                format!("{}: the byte at offset {offset} is set, which this version does not know", T::NAME),
+            ));
+        }
+    }
+    Ok(size)
+}
+
+/// Copies a caller's struct of any accepted size over `defaults`, which stay where an older struct ends, or wholly for null.
+///
+/// # Safety
+/// `pointer` is null or as for [`struct_size`]; its bytes, laid over those of `defaults`, make a valid `T`.
+unsafe fn read_struct<T: Versioned>(pointer: *const T, defaults: T) -> Checked<T> {
+    if pointer.is_null() {
+        return Ok(defaults);
+    }
+    // SAFETY: by the caller.
+    let size = unsafe { struct_size(pointer) }?.min(size_of::<T>());
+    let mut value = MaybeUninit::new(defaults);
+    // SAFETY: `size` bytes are readable there and fit here; two different places. The result is valid by the caller.
+    unsafe {
+        value.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(pointer.cast::<u8>(), size);
+        Ok(value.assume_init())
+    }
+}
+
+/// Fills a caller's struct, as far as its struct_size says; members that only a newer header has must be
+/// zero and stay so.
+///
+/// # Safety
+/// `pointer` is null or as for [`struct_size`], and the bytes are writable.
+unsafe fn write_struct<T: Versioned>(pointer: *mut T, name: &str, value: &T) -> Checked<()> {
+    if pointer.is_null() {
+        return Err(Failure::null(name));
+    }
+    let start = size_of::<usize>();
+    // SAFETY: by the caller.
+    let size = unsafe { struct_size(pointer) }?.min(size_of::<T>());
+    // SAFETY: both places have `size` bytes behind their struct_size, which the caller keeps.
+    unsafe {
+        let source = (&raw const *value).cast::<u8>().add(start);
+        pointer.cast::<u8>().add(start).copy_from_nonoverlapping(source, size - start);
+    }
+    Ok(())
+}

@@ -1,0 +1,262 @@
+//! Pair queries: thin doors to `pair`, in front of functions that take some tens of nanoseconds. Nothing is copied; poses
+//! and configuration are read where the caller has them.
+
+use super::{
+    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_struct, struct_size,
+};
+use crate::error::{Error, Result};
+use crate::math::Pose;
+use crate::pair::{self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status};
+use crate::shape::Shape;
+use crate::verify::verify;
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for PairConfig {
+    const NAME: &'static str = "swift_pair_config";
+    const FIRST_SIZE: usize = size_of::<PairConfig>();
+}
+
+/// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an
+/// answer comes, never the verdict. What the words mean is the library's own.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct CPairCache {
+    /// Not to be looked at.
+    pub words: [u32; 24],
+}
+
+// A `PairCache` lives in the words, which leave it room to grow; any bytes make a valid one.
+const _: () = {
+    assert!(size_of::<PairCache>() <= size_of::<CPairCache>());
+    assert!(align_of::<PairCache>() <= align_of::<CPairCache>());
+};
+
+/// Fills `config` with the defaults, struct_size included.
+///
+/// SWIFT_ERROR_NULL_POINTER: config is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_config_init(config: *mut PairConfig) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe { output(config, "config", PairConfig::default()) })
+}
+
+/// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the distance
+/// is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
+/// config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFT_FEATURE_KIND_NONE.
+///
+/// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
+/// the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
+/// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFT_OUTCOME_NONE.
+///
+/// SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_BUG: the cache is reset, too.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_distance(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CPairCache,
+    config: *const PairConfig,
+    answer: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { query(pair::distance, shape1, pose1, shape2, pose2, cache, config, answer) }
+}
+
+/// The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need not be
+/// tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_intersection(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CPairCache,
+    config: *const PairConfig,
+    answer: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { query(pair::intersection, shape1, pose1, shape2, pose2, cache, config, answer) }
+}
+
+/// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along which
+/// the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments and
+/// errors as of swift_pair_distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_contact(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CPairCache,
+    config: *const PairConfig,
+    answer: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { query(pair::contact, shape1, pose1, shape2, pose2, cache, config, answer) }
+}
+
+/// Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
+/// and its witness points, an intersecting one by the exact position of the origin in its vertex pairs. SWIFT_OK: it holds for
+/// these shapes and poses.
+///
+/// SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
+/// unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_verify(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    answer: *const PairAnswer,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let (shape1, pose1, shape2, pose2, answer) = unsafe {
+            (
+                input(shape1, "shape1")?,
+                input(pose1.cast::<Pose>(), "pose1")?,
+                input(shape2, "shape2")?,
+                input(pose2.cast::<Pose>(), "pose2")?,
+                read_answer(answer)?,
+            )
+        };
+        verify(shape1, pose1, shape2, pose2, answer).map_err(|error| match error {
+            // In this call it is the answer that is wrong, and it may have come from anywhere.
+            Error::Bug(message) => Failure::new(StatusCode::ErrorUnverified, message),
+            other => other.into(),
+        })
+    })
+}
+
+/// Checks the arguments of a query and runs it. `run` is one of the functions of `pair`, as a type of its own rather than as a
+/// pointer: the call is direct.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+#[inline(always)]
+#[allow(clippy::too_many_arguments, reason = "the seven of the C functions, and which one it is")]
+unsafe fn query(
+    run: impl Fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CPairCache,
+    config: *const PairConfig,
+    answer: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the caller's; a pose is twelve doubles, row by row, as is `Pose`.
+    let status = guard(move || unsafe {
+        let answer = write_answer(answer)?;
+        let shape1 = input(shape1, "shape1")?;
+        let pose1 = input(pose1.cast::<Pose>(), "pose1")?;
+        let shape2 = input(shape2, "shape2")?;
+        let pose2 = input(pose2.cast::<Pose>(), "pose2")?;
+        let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
+        let mut own_config = PairConfig::default();
+        let config = read_config(config, &mut own_config)?;
+        Ok(run(shape1, pose1, shape2, pose2, cache, config, answer)?)
+    });
+    if status != StatusCode::Ok {
+        // SAFETY: the caller's.
+        unsafe { reset(status, cache, answer) };
+    }
+    status
+}
+
+/// Leaves nothing half-written behind a failed query.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+#[cold]
+#[inline(never)]
+unsafe fn reset(status: StatusCode, cache: *mut CPairCache, answer: *mut PairAnswer) {
+    if !answer.is_null() {
+        // SAFETY: not null, and writable by the caller.
+        unsafe { answer.write(PairAnswer::default()) };
+    }
+    if status == StatusCode::ErrorBug && !cache.is_null() {
+        // SAFETY: not null, and writable by the caller.
+        unsafe { cache.write(CPairCache::default()) };
+    }
+}
+
+/// The caller's configuration where it is when it has today's size; an older or newer one, or the defaults for null, in `own`.
+///
+/// # Safety
+/// `config` meets the header's pointer rules.
+#[inline(always)]
+unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checked<&PairConfig> {
+    if config.is_null() {
+        return Ok(own);
+    }
+    // SAFETY: not null; the struct begins with its size.
+    let size = unsafe { config.cast::<usize>().read() };
+    if size != size_of::<PairConfig>() {
+        // SAFETY: as large as it says, by the caller.
+        unsafe { struct_size(config) }?;
+    }
+    // SAFETY: `bounds` has been a member since the first version, so these four bytes are there, whatever they hold.
+    let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
+    read_bounds(bounds, "config")?;
+    if size == size_of::<PairConfig>() {
+        // SAFETY: as large as today's struct, and its only enumerator is valid.
+        return Ok(unsafe { &*config });
+    }
+    // SAFETY: laid over the defaults its bytes are valid, as its only enumerator is.
+    *own = unsafe { read_struct(config, *own) }?;
+    Ok(own)
+}
+
+/// The caller's answer to write to. It may hold any bytes: those that Rust must never see are replaced first.
+///
+/// # Safety
+/// `answer` meets the header's pointer rules.
+#[inline(always)]
+unsafe fn write_answer<'a>(answer: *mut PairAnswer) -> Checked<&'a mut PairAnswer> {
+    if answer.is_null() {
+        return Err(Failure::null("answer"));
+    }
+    // SAFETY: not null, writable by the caller; with valid enumerators any other bytes make a valid answer.
+    unsafe {
+        (&raw mut (*answer).outcome).write(Outcome::None);
+        (&raw mut (*answer).status).write(Status::None);
+        (&raw mut (*answer).feature1.kind).write(FeatureKind::None);
+        (&raw mut (*answer).feature2.kind).write(FeatureKind::None);
+        Ok(&mut *answer)
+    }
+}
+
+/// The caller's answer to read, its enumerators checked.
+///
+/// # Safety
+/// `answer` meets the header's pointer rules.
+unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> {
+    if answer.is_null() {
+        return Err(Failure::null("answer"));
+    }
+    // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
+    let [outcome, status, kind1, kind2] = unsafe {
+        [
+            (&raw const (*answer).outcome).cast::<i32>().read(),
+            (&raw const (*answer).status).cast::<i32>().read(),
+            (&raw const (*answer).feature1.kind).cast::<i32>().read(),
+            (&raw const (*answer).feature2.kind).cast::<i32>().read(),
+        ]
+    };
+    for (name, value, last) in [
+        ("outcome", outcome, Outcome::Intersecting as i32),
+        ("status", status, Status::Exact as i32),
+        ("feature1.kind", kind1, FeatureKind::Face as i32),
+        ("feature2.kind", kind2, FeatureKind::Face as i32),
+    ] {
+        if !(0..=last).contains(&value) {
+            let message = format!("answer->{name} is {value}, which is no known enumerator");
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+        }
+    }
+    // SAFETY: its enumerators are valid, and any other bytes are.
+    Ok(unsafe { &*answer })
+}

@@ -1,0 +1,440 @@
+//! Shapes: made from arrays or files, shared by count.
+
+use std::ffi::c_char;
+use std::path::Path;
+use std::sync::Arc;
+
+use super::{
+    Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, read_struct, string,
+    write_struct,
+};
+use crate::math::{Matrix, Vector};
+use crate::mesh::PolygonMesh;
+use crate::polyhedron::Polyhedron;
+use crate::shape::{InputPolicy, Shape, ShapeOptions};
+
+/// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CShapeOptions {
+    /// Set by swift_shape_options_init.
+    pub struct_size: usize,
+    /// A swift_input: what to do with input that is not a closed convex mesh with interior. Default: refuse it.
+    pub input: i32,
+    /// Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
+    /// scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
+    pub rotation: [f64; 9],
+    /// See rotation. Default: 0.
+    pub translation: [f64; 3],
+    /// See rotation; positive. Default: 1.
+    pub scale: f64,
+    /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative, which
+    /// means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+    pub convexity_tolerance: f64,
+}
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for CShapeOptions {
+    const NAME: &'static str = "swift_shape_options";
+    const FIRST_SIZE: usize = size_of::<CShapeOptions>();
+}
+
+impl CShapeOptions {
+    const DEFAULT: CShapeOptions = CShapeOptions {
+        struct_size: size_of::<CShapeOptions>(),
+        input: InputPolicy::Strict as i32,
+        rotation: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
+        translation: [0.0; 3],
+        scale: 1.0,
+        convexity_tolerance: -1.0,
+    };
+
+    /// The options in Rust's terms. What is left to check, the makers of shapes check.
+    fn checked(&self) -> Checked<ShapeOptions> {
+        let input = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull]
+            .into_iter()
+            .find(|policy| *policy as i32 == self.input)
+            .ok_or_else(|| {
+                let message = format!("options->input is {}, which is no swift_input", self.input);
+                Failure::new(StatusCode::ErrorInvalidArgument, message)
+            })?;
+        if self.convexity_tolerance.is_nan() {
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, "options->convexity_tolerance is not a number"));
+        }
+        Ok(ShapeOptions {
+            input,
+            rotation: Matrix::from_row_slice(&self.rotation),
+            translation: Vector::from(self.translation),
+            scale: self.scale,
+            convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
+        })
+    }
+}
+
+/// What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct ShapeInfo {
+    /// Set by the caller.
+    pub struct_size: usize,
+    /// Dimension of the hull: 3; 2 (a two-sided polygon), 1 (a segment) or 0 (a point) only where the input policy admits it.
+    pub dimension: i32,
+    /// Vertices of the hull.
+    pub vertex_count: usize,
+    /// Edges between faces that are not coplanar.
+    pub edge_count: usize,
+    /// Faces, coplanar triangles counted as one.
+    pub face_count: usize,
+    /// Triangles of the hull, as swift_shape_copy_triangles gives them.
+    pub triangle_count: usize,
+    /// Volume; 0 without interior.
+    pub volume: f64,
+    /// Centre of mass of the volume, in the local frame; of a body without interior that of its area or length.
+    pub centre_of_mass: [f64; 3],
+    /// Largest distance of a vertex from the centre of mass.
+    pub radius: f64,
+    /// Lower corner of the bounding box in the local frame.
+    pub lower: [f64; 3],
+    /// Upper corner of the bounding box in the local frame.
+    pub upper: [f64; 3],
+    /// Memory that the shape holds, in bytes, however many share it.
+    pub bytes: usize,
+}
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for ShapeInfo {
+    const NAME: &'static str = "swift_shape_info";
+    const FIRST_SIZE: usize = size_of::<ShapeInfo>();
+}
+
+/// Fills `options` with the defaults, struct_size included.
+///
+/// SWIFT_ERROR_NULL_POINTER: options is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_options_init(options: *mut CShapeOptions) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe { output(options, "options", CShapeOptions::DEFAULT) })
+}
+
+/// Makes a shape from a polygon mesh. The arrays are copied.
+///
+/// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
+/// other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are
+/// triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
+/// unless the options say otherwise. Answers name features by these numbers.
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// `options` may be null for the defaults.
+///
+/// SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
+/// bits. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_create_from_mesh(
+    vertices: *const f64,
+    vertex_count: usize,
+    indices: *const u32,
+    valences: *const u32,
+    face_count: usize,
+    options: *const CShapeOptions,
+    shape: *mut *mut Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let options = read_options(options)?;
+        let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
+        Ok(Shape::from_mesh(&mesh, &options)?)
+    })
+}
+
+/// Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
+/// name vertices by their place in `points` (the first of equal ones).
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// `options` may be null for the defaults, which refuse a hull without interior.
+///
+/// SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate that
+/// is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_NULL_POINTER,
+/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_create_from_points(
+    points: *const f64,
+    point_count: usize,
+    options: *const CShapeOptions,
+    shape: *mut *mut Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let options = read_options(options)?;
+        let points = read_vectors(points, point_count, "points")?;
+        Ok(Shape::from_points(&points, &options)?)
+    })
+}
+
+/// Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
+/// system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file.
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// `options` may be null for the defaults.
+///
+/// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
+/// the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_create_from_file(
+    path: *const c_char,
+    options: *const CShapeOptions,
+    shape: *mut *mut Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let options = read_options(options)?;
+        Ok(Shape::from_file(read_path(path)?, &options)?)
+    })
+}
+
+/// Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.
+///
+/// Always SWIFT_OK.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_retain(shape: *const Shape) -> StatusCode {
+    guard(|| {
+        if !shape.is_null() {
+            // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
+            unsafe { Arc::increment_strong_count(shape) };
+        }
+        Ok(())
+    })
+}
+
+/// Gives back one share of a shape; the last one frees it (scenes hold shares of their own). Safe from any thread. Null is
+/// ignored.
+///
+/// Always SWIFT_OK.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode {
+    guard(|| {
+        if !shape.is_null() {
+            // SAFETY: a live shape by the header's pointer rules, and this share is given up; see swift_shape_retain.
+            unsafe { Arc::decrement_strong_count(shape) };
+        }
+        Ok(())
+    })
+}
+
+/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
+///
+/// SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        let value = ShapeInfo {
+            struct_size: size_of::<ShapeInfo>(),
+            dimension: i32::from(polyhedron.dimension),
+            vertex_count: polyhedron.vertices.len(),
+            edge_count: polyhedron.edges.len(),
+            face_count: polyhedron.faces.len(),
+            triangle_count: polyhedron.triangles.len(),
+            volume: polyhedron.mass.volume,
+            centre_of_mass: polyhedron.mass.centre_of_mass.into(),
+            radius: polyhedron.mass.radius,
+            lower: polyhedron.mass.lower.into(),
+            upper: polyhedron.mass.upper.into(),
+            bytes: size_of::<Shape>() + heap_bytes(polyhedron),
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &value) }
+    })
+}
+
+/// Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
+/// at least swift_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_vertices(
+    shape: *const Shape,
+    vertices: *mut f64,
+    labels: *mut u32,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        check_capacity(vertices, "vertices", capacity, polyhedron.vertices.len())?;
+        for i in 0..polyhedron.vertices.len() {
+            let point: [f64; 3] = polyhedron.local_position(i as u32).into();
+            // SAFETY: not null, and i < capacity.
+            unsafe { vertices.cast::<[f64; 3]>().add(i).write(point) };
+        }
+        if !labels.is_null() {
+            let source = polyhedron.vertex_labels.as_ptr();
+            // SAFETY: as many labels as vertices, at most capacity; the caller's array is not ours.
+            unsafe { labels.copy_from_nonoverlapping(source, polyhedron.vertex_labels.len()) };
+        }
+        Ok(())
+    })
+}
+
+/// Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
+/// swift_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
+/// swift_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
+/// none.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_triangles(
+    shape: *const Shape,
+    corners: *mut u32,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let triangles = &unsafe { input(shape, "shape") }?.polyhedron().triangles;
+        check_capacity(corners, "corners", capacity, triangles.len())?;
+        // SAFETY: not null, room for the triangles, and the caller's array is not ours.
+        unsafe { corners.cast::<[u32; 3]>().copy_from_nonoverlapping(triangles.as_ptr(), triangles.len()) };
+        Ok(())
+    })
+}
+
+// --- What the functions above share --------------------------------------------------------------------------------------
+
+/// Runs `make` in the guard and hands its shape to the caller, or null.
+fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { output(shape, "shape", std::ptr::null_mut()) }?;
+        keep_panics_quiet();
+        let made = Arc::into_raw(Arc::new(make()?)).cast_mut();
+        // SAFETY: as above.
+        unsafe { output(shape, "shape", made) }
+    })
+}
+
+/// The options, or the defaults for null.
+///
+/// # Safety
+/// `options` meets the header's pointer rules.
+pub(super) unsafe fn read_options(options: *const CShapeOptions) -> Checked<ShapeOptions> {
+    // SAFETY: by the caller; any bytes make valid options.
+    unsafe { read_struct(options, CShapeOptions::DEFAULT) }?.checked()
+}
+
+/// A mesh from a caller's arrays.
+///
+/// # Safety
+/// The arrays meet the header's pointer rules.
+pub(super) unsafe fn read_arrays(
+    vertices: *const f64,
+    vertex_count: usize,
+    indices: *const u32,
+    valences: *const u32,
+    face_count: usize,
+) -> Checked<PolygonMesh> {
+    check_count(vertex_count, "vertex_count")?;
+    check_count(face_count, "face_count")?;
+    // SAFETY: by the caller.
+    let given = |pointer| unsafe { array(pointer, face_count, "valences") };
+    let valences = if valences.is_null() { None } else { Some(given(valences)?) };
+    let corners = match valences {
+        None => 3 * face_count as u64,
+        Some(valences) => valences.iter().map(|&valence| u64::from(valence)).sum(),
+    };
+    // Before anything is read: a wrong valence must not make us read beyond the caller's array.
+    let corners = usize::try_from(corners).unwrap_or(usize::MAX);
+    check_count(corners, "the number of indices")?;
+    // SAFETY: by the caller.
+    let (points, indices) =
+        unsafe { (read_vectors(vertices, vertex_count, "vertices")?, array(indices, corners, "indices")?) };
+    Ok(PolygonMesh::new(points, indices.to_vec(), valences)?)
+}
+
+/// Points from a caller's array of coordinates.
+///
+/// # Safety
+/// `coordinates` meets the header's pointer rules.
+unsafe fn read_vectors(coordinates: *const f64, count: usize, name: &str) -> Checked<Vec<Vector>> {
+    check_count(count, "the number of points")?;
+    // SAFETY: by the caller; three doubles are as aligned as one.
+    let points = unsafe { array(coordinates.cast::<[f64; 3]>(), count, name) }?;
+    Ok(points.iter().map(|&point| Vector::from(point)).collect())
+}
+
+/// A path from a caller's string.
+///
+/// # Safety
+/// `path` meets the header's pointer rules.
+pub(super) unsafe fn read_path<'a>(path: *const c_char) -> Checked<&'a Path> {
+    // SAFETY: by the caller.
+    let path = unsafe { string(path, "path") }?;
+    #[cfg(unix)]
+    return Ok(Path::new(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes())));
+    #[cfg(not(unix))]
+    return match path.to_str() {
+        Ok(path) => Ok(Path::new(path)),
+        Err(_) => Err(Failure::new(StatusCode::ErrorInvalidArgument, "the path is not UTF-8")),
+    };
+}
+
+/// The bytes of a polyhedron's arrays. All members are named, so that a new one cannot be forgotten.
+fn heap_bytes(polyhedron: &Polyhedron) -> usize {
+    let Polyhedron {
+        dimension: _,
+        centre: _,
+        radius: _,
+        vertices,
+        neighbours,
+        more_neighbours,
+        triangles,
+        edges,
+        faces,
+        sides,
+        more_sides,
+        bevels,
+        face_of_triangle,
+        vertex_labels,
+        face_labels,
+        face_label_starts,
+        polygon_corners,
+        polygon_starts,
+        mass: _,
+    } = polyhedron;
+    size_of_val(&vertices[..])
+        + size_of_val(&neighbours[..])
+        + size_of_val(&more_neighbours[..])
+        + size_of_val(&triangles[..])
+        + size_of_val(&edges[..])
+        + size_of_val(&faces[..])
+        + size_of_val(&sides[..])
+        + size_of_val(&more_sides[..])
+        + size_of_val(&bevels[..])
+        + size_of_val(&face_of_triangle[..])
+        + size_of_val(&vertex_labels[..])
+        + size_of_val(&face_labels[..])
+        + size_of_val(&face_label_starts[..])
+        + size_of_val(&polygon_corners[..])
+        + size_of_val(&polygon_starts[..])
+}
+
+/// Refuses counts that do not fit 32 bits before anything is read: they are overflows or negative numbers of the caller.
+fn check_count(count: usize, name: &str) -> Checked<()> {
+    if count > u32::MAX as usize {
+        let message = format!("{name} is {count}, more than the limit of {}", u32::MAX);
+        return Err(Failure::new(StatusCode::ErrorLimit, message));
+    }
+    Ok(())
+}
+
+/// Refuses null or too little room.
+fn check_capacity<T>(pointer: *mut T, name: &str, capacity: usize, needed: usize) -> Checked<()> {
+    if pointer.is_null() {
+        return Err(Failure::null(name));
+    }
+    if capacity < needed {
+        let message = format!("`{name}` has room for {capacity}, {needed} are needed");
+        return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+    }
+    Ok(())
+}

@@ -1,0 +1,261 @@
+//! The C functions as C calls them, where Rust can look behind them: struct sizes, shares of shapes, messages by thread, the log,
+//! any bytes in what a caller hands in. Bad input in general is `c_tests/bad_input.c`, which runs under valgrind, too.
+
+#![allow(unsafe_code, reason = "the C functions are unsafe to call")]
+
+use std::ffi::{CStr, c_char, c_void};
+use std::mem::MaybeUninit;
+use std::ptr::{null, null_mut};
+use std::sync::Mutex;
+
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::library::*;
+use swiftprox::ffi::pair::*;
+use swiftprox::ffi::scene::*;
+use swiftprox::ffi::shape::*;
+use swiftprox::object::ObjectId;
+use swiftprox::pair::{Outcome, PairAnswer, PairConfig};
+use swiftprox::shape::Shape;
+
+const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
+const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
+
+fn last_message() -> String {
+    // SAFETY: never null, terminated, unchanged until the next failure of this thread.
+    unsafe { CStr::from_ptr(swift_library_last_error_message()) }.to_string_lossy().into_owned()
+}
+
+/// A tetrahedron with one share, the caller's.
+fn tetrahedron() -> *mut Shape {
+    let mut shape = null_mut();
+    // SAFETY: arrays of the sizes that are given, and room for the shape.
+    let status =
+        unsafe { swift_shape_create_from_mesh(CORNERS.as_ptr(), 4, FACES.as_ptr(), null(), 4, null(), &mut shape) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
+    shape
+}
+
+fn release(shape: *const Shape) {
+    // SAFETY: a living shape whose share is given up.
+    assert_eq!(unsafe { swift_shape_release(shape) }, StatusCode::Ok);
+}
+
+/// The identity moved along x.
+fn moved(x: f64) -> [f64; 12] {
+    [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]
+}
+
+/// The distance of a tetrahedron and its copy moved by 3 along x, which is 2.
+fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const PairConfig) -> (StatusCode, PairAnswer) {
+    // Bytes that no answer has, as C leaves them.
+    let mut answer = MaybeUninit::<PairAnswer>::uninit();
+    // SAFETY: every pointer is valid; what the answer holds is not looked at before it is written.
+    unsafe {
+        answer.as_mut_ptr().cast::<u8>().write_bytes(0xa5, size_of::<PairAnswer>());
+        let poses = [moved(0.0), moved(3.0)];
+        let status =
+            swift_pair_distance(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), cache, config, answer.as_mut_ptr());
+        (status, answer.assume_init())
+    }
+}
+
+#[test]
+fn a_pair_is_answered_whatever_is_in_the_cache_and_the_answer() {
+    let shape = tetrahedron();
+    let mut state = 1_u64;
+    for round in 0..2000 {
+        let mut cache = CPairCache::default();
+        for word in &mut cache.words {
+            // Knuth's multiplier; small words now and then, which look like indices.
+            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
+            *word = (state >> 33) as u32 >> (round % 32);
+        }
+        let (status, answer) = distance(shape, &mut cache, null());
+        assert_eq!(status, StatusCode::Ok, "{}", last_message());
+        assert_eq!(answer.outcome, Outcome::Separated);
+        assert!(answer.lower <= 2.0 && 2.0 <= answer.upper, "{answer:?}");
+    }
+    release(shape);
+}
+
+#[test]
+fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
+    #[repr(C)]
+    struct Newer {
+        config: PairConfig,
+        unknown: [u8; 16],
+    }
+    let shape = tetrahedron();
+    let mut newer = Newer { config: PairConfig::default(), unknown: [0; 16] };
+    newer.config.struct_size = size_of::<Newer>();
+    newer.config.distance_tolerance = 1.0;
+    let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
+    assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{}", last_message());
+
+    newer.unknown[5] = 1;
+    let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
+    assert_eq!((status, answer.outcome), (StatusCode::ErrorStructSize, Outcome::None));
+    assert!(last_message().contains("swift_pair_config"), "{}", last_message());
+
+    for size in [0, 8, size_of::<PairConfig>() - 1, 1 << 20, usize::MAX] {
+        let config = PairConfig { struct_size: size, ..PairConfig::default() };
+        let (status, _) = distance(shape, &mut CPairCache::default(), &config);
+        assert_eq!(status, StatusCode::ErrorStructSize, "{size}");
+    }
+    release(shape);
+}
+
+#[test]
+fn unknown_enumerators_are_refused() {
+    let shape = tetrahedron();
+    // SAFETY: every pointer is valid; the structs are written as bytes and never read here.
+    unsafe {
+        let mut config = MaybeUninit::<PairConfig>::uninit();
+        assert_eq!(swift_pair_config_init(config.as_mut_ptr()), StatusCode::Ok);
+        (&raw mut (*config.as_mut_ptr()).bounds).cast::<i32>().write(2);
+        assert_eq!(distance(shape, &mut CPairCache::default(), config.as_ptr()).0, StatusCode::ErrorInvalidArgument);
+        assert!(last_message().contains("bounds is 2"), "{}", last_message());
+
+        let (_, answer) = distance(shape, &mut CPairCache::default(), null());
+        let poses = [moved(0.0), moved(3.0)];
+        let verify = |answer| swift_pair_verify(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), answer);
+        assert_eq!(verify(&answer), StatusCode::Ok, "{}", last_message());
+        let mut changed = MaybeUninit::new(answer);
+        (&raw mut (*changed.as_mut_ptr()).outcome).cast::<i32>().write(-1);
+        assert_eq!(verify(changed.as_ptr()), StatusCode::ErrorInvalidArgument);
+        let wrong = PairAnswer { lower: 2.5, distance: 2.5, upper: 2.5, ..answer };
+        assert_eq!(verify(&wrong), StatusCode::ErrorUnverified);
+
+        let mut shape_options = MaybeUninit::<CShapeOptions>::uninit();
+        assert_eq!(swift_shape_options_init(shape_options.as_mut_ptr()), StatusCode::Ok);
+        let mut shape_options = shape_options.assume_init();
+        shape_options.input = 3;
+        let mut made = shape;
+        let status = swift_shape_create_from_points(CORNERS.as_ptr(), 4, &shape_options, &mut made);
+        assert_eq!(status, StatusCode::ErrorInvalidArgument);
+        assert!(made.is_null());
+    }
+    release(shape);
+}
+
+#[test]
+fn info_is_cut_to_the_size_that_the_caller_has() {
+    let shape = tetrahedron();
+    // SAFETY: every pointer is valid; the info is all zero first.
+    unsafe {
+        let mut info = MaybeUninit::<ShapeInfo>::zeroed().assume_init();
+        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::ErrorStructSize);
+        info.struct_size = size_of::<ShapeInfo>();
+        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::Ok, "{}", last_message());
+        assert_eq!((info.dimension, info.vertex_count, info.edge_count), (3, 4, 6));
+        assert_eq!((info.face_count, info.triangle_count), (4, 4));
+        assert!((info.volume - 1.0 / 6.0).abs() < 1e-15 && info.bytes > 1000, "{info:?}");
+        assert_eq!((info.lower, info.upper), ([0.0; 3], [1.0; 3]));
+
+        let (mut vertices, mut labels, mut corners) = ([f64::NAN; 12], [9; 4], [9; 12]);
+        let status = swift_shape_copy_vertices(shape, vertices.as_mut_ptr(), labels.as_mut_ptr(), 4);
+        assert_eq!(status, StatusCode::Ok);
+        for (vertex, &label) in vertices.chunks(3).zip(&labels) {
+            assert_eq!(vertex, &CORNERS[3 * label as usize..][..3]);
+        }
+        assert_eq!(swift_shape_copy_triangles(shape, corners.as_mut_ptr(), 4), StatusCode::Ok);
+        assert!(corners.iter().all(|&corner| corner < 4));
+        let status = swift_shape_copy_triangles(shape, corners.as_mut_ptr(), 3);
+        assert_eq!(status, StatusCode::ErrorInvalidArgument);
+    }
+    release(shape);
+}
+
+#[test]
+fn a_scene_holds_shares_of_its_own() {
+    let shape = tetrahedron();
+    // SAFETY: every pointer is valid, and the scene is used by this thread only.
+    unsafe {
+        let mut scene = null_mut();
+        assert_eq!(swift_scene_create(null(), &mut scene), StatusCode::Ok);
+        let mut options = MaybeUninit::<CObjectOptions>::uninit();
+        assert_eq!(swift_object_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        let mut options = options.assume_init();
+        let mut ids = [ObjectId::NULL; 2];
+        for (i, id) in ids.iter_mut().enumerate() {
+            options.user_data = 10 + i as u64;
+            options.pose = moved(3.0 * i as f64);
+            let pieces = [shape.cast_const(); 2];
+            assert_eq!(swift_scene_add_object(scene, pieces.as_ptr(), 2, &options, id), StatusCode::Ok);
+        }
+        // The scene's shares outlive the caller's.
+        release(shape);
+        let mut answer = MaybeUninit::<CSceneAnswer>::uninit();
+        assert_eq!(swift_scene_query_exact_distance(scene, null(), answer.as_mut_ptr()), StatusCode::Ok);
+        let answer = answer.assume_init();
+        assert_eq!((answer.count, answer.intersecting), (4, 0));
+        for (k, pair) in std::slice::from_raw_parts(answer.pairs, answer.count).iter().enumerate() {
+            assert_eq!([pair.object1, pair.object2], ids);
+            assert_eq!([pair.user_data1, pair.user_data2], [10, 11]);
+            assert_eq!([pair.piece1, pair.piece2], [k as u32 / 2, k as u32 % 2]);
+            assert!(pair.answer.lower <= 2.0 && 2.0 <= pair.answer.upper, "{pair:?}");
+        }
+
+        let mut piece = null();
+        assert_eq!(swift_scene_get_piece(scene, ids[0], 1, &mut piece), StatusCode::Ok);
+        assert_eq!(piece, shape.cast_const());
+        assert_eq!(swift_shape_retain(piece), StatusCode::Ok);
+        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+        // And the caller's share outlives the scene.
+        assert_eq!(distance(piece, &mut CPairCache::default(), null()).0, StatusCode::Ok);
+        release(piece);
+    }
+}
+
+#[test]
+fn messages_belong_to_their_thread() {
+    std::thread::scope(|threads| {
+        for i in 0..4_u32 {
+            threads.spawn(move || {
+                assert_eq!(last_message(), "");
+                for _ in 0..100 {
+                    assert_eq!(swift_library_check_version(9, i as i32, 0), StatusCode::ErrorVersion);
+                    assert!(last_message().contains(&format!("9.{i}.0")), "{}", last_message());
+                    assert_eq!(
+                        swift_library_check_version(VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH),
+                        StatusCode::Ok
+                    );
+                    assert!(last_message().contains(&format!("9.{i}.0")), "a success leaves the message");
+                }
+            });
+        }
+    });
+}
+
+#[test]
+fn the_log_hears_of_every_failure() {
+    static HEARD: Mutex<Vec<(i32, String)>> = Mutex::new(Vec::new());
+    unsafe extern "C" fn hear(status: i32, message: *const c_char, user: *mut c_void) {
+        // SAFETY: the library hands a message that lives during the call.
+        let message = unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned();
+        // Other tests of this process fail on purpose meanwhile; this one tells its failures by a number.
+        if message.contains("7331") && user.addr() == 42 {
+            HEARD.lock().unwrap().push((status, message));
+        }
+    }
+    swift_library_set_log(Some(hear), std::ptr::without_provenance_mut(42));
+    swift_library_check_version(7331, 0, 0);
+    swift_library_set_log(None, null_mut());
+    swift_library_check_version(7331, 1, 0);
+    let heard = HEARD.lock().unwrap();
+    assert_eq!(heard.len(), 1, "{heard:?}");
+    assert_eq!(heard[0].0, StatusCode::ErrorVersion as i32);
+}
+
+#[test]
+fn every_status_has_words_of_its_own() {
+    let words = |status: i32| {
+        // SAFETY: never null, terminated, valid for ever.
+        unsafe { CStr::from_ptr(swift_library_status_string(status)) }.to_string_lossy().into_owned()
+    };
+    let all: Vec<String> = (0..=StatusCode::ErrorUnverified as i32).map(words).collect();
+    assert!(!all.contains(&words(-1)) && words(-1) == words(i32::MAX));
+    for (i, one) in all.iter().enumerate() {
+        assert!(!all[..i].contains(one), "{one}");
+    }
+}
