@@ -1,0 +1,67 @@
+# make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
+# make test                   everything that is tested: lint, test-rust and test-c
+# make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
+# make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
+# make build                  the libraries, tools and examples, in build/
+# make clean                  removes what was built
+
+export PATH := $(PATH):$(HOME)/.cargo/bin
+MAKEFLAGS += --no-print-directory
+BUILD = build
+MODELS =
+CASES =
+ANSWERS =
+TESTING = OFF
+# gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
+CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
+PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
+RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
+
+.PHONY: build demo test lint test-rust test-c bench cases clean
+
+build:
+	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
+	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=$(TESTING)
+	cmake --build $(BUILD)
+
+demo: build
+	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
+
+test: lint test-rust test-c
+
+lint:
+	@scripts/require.sh $(CC_PACKAGES)
+	cargo fmt --check
+	cargo clippy --locked --all-targets -- -D warnings
+
+# Optimised as for release, with overflow checks and debug assertions on.
+test-rust:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils
+	cargo test --locked --profile checked
+
+# Without valgrind or the peers their tests are left out; CMake says so. Where the peers differ from the exact answer is printed
+# in the end: it fails no test, but nobody should have to look for it.
+test-c:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	-@scripts/require.sh valgrind=valgrind $(PEERS)
+	$(MAKE) build TESTING=ON
+	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
+	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
+
+# Without FCL, or pkg-config to find it, FCL is left out.
+bench:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
+	mkdir -p $(dir $(RESULTS))
+	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --csv $(RESULTS)
+	python3 benches/plot.py $(RESULTS)
+
+cases:
+	$(if $(CASES),,$(error make cases CASES=DIR: the folder of cases is missing))
+	$(MAKE) build
+	@scripts/require.sh python3=python3
+	python3 scripts/cases.py $(BUILD)/tools/swiftprox-query $(CASES) $(if $(ANSWERS),--answers $(ANSWERS))
+
+clean:
+	cargo clean
+	rm -rf $(BUILD) benches/compare/target

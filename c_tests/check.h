@@ -1,0 +1,38 @@
+/* Checks for test programs: a failed one prints where and lets the program go on; check_report ends it. */
+#ifndef CHECK_H
+#define CHECK_H
+
+#include <stdio.h>
+
+#include "swiftprox.h"
+
+static int check_count, check_failures;
+
+/* Says no more than this many times what failed: one cause often fails a million checks. */
+enum { CHECK_MOST_MESSAGES = 20 };
+
+/* Checks that a condition holds. */
+#define CHECK(condition) check_that((condition) ? 1 : 0, #condition, "", __FILE__, __LINE__)
+
+/* Checks that a call to the library succeeds; says its message if not. */
+#define CHECK_OK(call)                                                                             \
+    check_that((call) == SWIFT_OK, #call, swift_library_last_error_message(), __FILE__, __LINE__)
+
+static int check_that(int holds, const char *what, const char *why, const char *file, int line)
+{
+    ++check_count;
+    if (!holds && ++check_failures <= CHECK_MOST_MESSAGES) {
+        fflush(stdout);
+        fprintf(stderr, "%s:%d: failed: %s %s\n", file, line, what, why);
+    }
+    return holds;
+}
+
+/* Prints the outcome; the exit status of the program. */
+static int check_report(const char *program)
+{
+    printf("%s: %d checks, %d failed\n", program, check_count, check_failures);
+    return check_failures == 0 ? 0 : 1;
+}
+
+#endif

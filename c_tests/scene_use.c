@@ -1,0 +1,156 @@
+/* What a scene is for, through C: objects by every way of adding, moved in every form, pairs switched on and off in every form,
+ * and each query's list. Unit cubes in a row along x, so that every distance is known; that answers are right in general is
+ * tested elsewhere, this is about arguments and results arriving where they belong. */
+#include <math.h>
+#include <string.h>
+
+#include "check.h"
+
+static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+static const uint32_t VALENCES[6] = {4, 4, 4, 4, 4, 4};
+/* A quarter turn about z: x to y. It and its transpose differ, so a transposed or shifted matrix is seen. */
+static const double QUARTER[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
+
+static void set_pose_at(double pose[12], double x)
+{
+    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    memcpy(pose, identity, sizeof identity);
+    pose[3] = x;
+}
+
+/* Adds a cube whose lower corner is at x, its user data ten times x. */
+static swift_object_id add_cube(swift_scene *scene, double x)
+{
+    swift_object_options options;
+    swift_object_id id;
+    CHECK_OK(swift_object_options_init(&options));
+    options.user_data = (uint64_t)(10 * x);
+    set_pose_at(options.pose, x);
+    CHECK_OK(swift_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
+    return id;
+}
+
+/* Whether the exact query lists these distances in this order; 0 stands for an intersecting pair. */
+static int lists(swift_scene *scene, size_t count, const double *distances)
+{
+    swift_scene_answer answer;
+    int right = CHECK_OK(swift_scene_query_exact_distance(scene, NULL, &answer)) && answer.count == count;
+    for (size_t i = 0; right && i < count; ++i)
+        right = fabs(answer.pairs[i].answer.distance - distances[i]) < 1e-13 &&
+                (answer.pairs[i].answer.outcome == SWIFT_OUTCOME_INTERSECTING) == (distances[i] == 0);
+    return right;
+}
+
+static void queries(void)
+{
+    swift_scene *scene;
+    swift_scene_query query;
+    swift_scene_answer answer;
+    CHECK_OK(swift_scene_create(NULL, &scene));
+    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+
+    CHECK_OK(swift_scene_query_intersection(scene, NULL, &answer));
+    CHECK(answer.intersecting == 1 && answer.count == 1);
+    CHECK(answer.pairs[0].object1 == a && answer.pairs[0].object2 == b);
+    CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
+
+    CHECK_OK(swift_scene_query_init(&query));
+    query.distance_tolerance = 1.75;
+    CHECK_OK(swift_scene_query_tolerance(scene, &query, &answer));
+    CHECK(answer.count == 2 && answer.pairs[1].object1 == b && answer.pairs[1].object2 == c);
+
+    CHECK_OK(swift_scene_query_contacts(scene, &query, &answer));
+    CHECK(answer.count == 2);
+    /* Points on both, in both frames, and the normal from object 2 to object 1. */
+    const swift_pair_answer *apart = &answer.pairs[1].answer;
+    CHECK(fabs(apart->world1[0] - 1.5) < 1e-13 && fabs(apart->world2[0] - 3) < 1e-13 && apart->normal[0] == -1);
+    CHECK(fabs(apart->local1[0] - 1) < 1e-13 && fabs(apart->local2[0]) < 1e-13);
+    CHECK(isfinite(answer.pairs[0].answer.world1[0]) && isfinite(answer.pairs[0].answer.normal[0]));
+
+    query.early_exit = 1;
+    CHECK_OK(swift_scene_query_exact_distance(scene, &query, &answer));
+    CHECK(answer.intersecting == 1 && answer.count == 0 && answer.pairs == NULL);
+
+    swift_scene_statistics statistics;
+    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK(statistics.queries == 5 && statistics.pairs > 0 && statistics.failed == 0);
+    CHECK_OK(swift_scene_reset_statistics(scene));
+    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK(statistics.queries == 0 && statistics.pairs == 0);
+    CHECK_OK(swift_scene_destroy(scene));
+}
+
+static void motion(void)
+{
+    swift_scene *scene;
+    swift_object_info info;
+    double pose[12], poses[24];
+    CHECK_OK(swift_scene_create(NULL, &scene));
+    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5);
+
+    set_pose_at(pose, 3);
+    CHECK_OK(swift_scene_set_pose(scene, b, pose));
+    CHECK(lists(scene, 1, (const double[]){2}));
+
+    /* Turned about its own corner, the cube at 4 reaches down to 3. */
+    const double at_4[3] = {4, 0, 0};
+    CHECK_OK(swift_scene_set_transform(scene, b, QUARTER, at_4));
+    CHECK(lists(scene, 1, (const double[]){2}));
+    info.struct_size = sizeof info;
+    CHECK_OK(swift_scene_get_object_info(scene, b, &info));
+    CHECK(info.pose[1] == -1 && info.pose[3] == 4 && info.pose[4] == 1 && info.user_data == 5 && info.piece_count == 1);
+
+    set_pose_at(poses, 1);
+    set_pose_at(poses + 12, 6);
+    CHECK_OK(swift_scene_set_all_poses(scene, poses, 2));
+    CHECK(lists(scene, 1, (const double[]){4}));
+
+    const double identity_and_quarter[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 1, 0, 0, 0, 0, 1};
+    const double translations[6] = {-1, 0, 0, 4, 0, 0};
+    CHECK_OK(swift_scene_set_all_transforms(scene, identity_and_quarter, translations, 2));
+    CHECK(lists(scene, 1, (const double[]){3}));
+
+    /* A copy stands where its original does. */
+    swift_object_id copy;
+    CHECK_OK(swift_scene_copy_object(scene, a, &copy));
+    CHECK(lists(scene, 3, (const double[]){3, 0, 3}));
+    CHECK_OK(swift_scene_remove_object(scene, a));
+    CHECK(lists(scene, 1, (const double[]){3}));
+    CHECK_OK(swift_scene_destroy(scene));
+}
+
+static void activation(void)
+{
+    swift_scene *scene;
+    int32_t active;
+    CHECK_OK(swift_scene_create(NULL, &scene));
+    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 2), c = add_cube(scene, 5);
+    CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
+
+    CHECK_OK(swift_scene_deactivate_pair(scene, c, a));
+    CHECK_OK(swift_scene_is_pair_active(scene, a, c, &active));
+    CHECK(active == 0 && lists(scene, 2, (const double[]){1, 2}));
+    CHECK_OK(swift_scene_activate_pair(scene, a, c));
+    CHECK_OK(swift_scene_is_pair_active(scene, a, c, &active));
+    CHECK(active == 1 && lists(scene, 3, (const double[]){1, 4, 2}));
+
+    CHECK_OK(swift_scene_deactivate_object(scene, b));
+    CHECK(lists(scene, 1, (const double[]){4}));
+    CHECK_OK(swift_scene_deactivate_all(scene));
+    CHECK(lists(scene, 0, NULL));
+    CHECK_OK(swift_scene_activate_object(scene, b));
+    CHECK(lists(scene, 2, (const double[]){1, 2}));
+    CHECK_OK(swift_scene_activate_all(scene));
+    CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
+    CHECK_OK(swift_scene_destroy(scene));
+}
+
+int main(void)
+{
+    queries();
+    motion();
+    activation();
+    return check_report("scene_use");
+}
