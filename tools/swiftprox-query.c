@@ -1,0 +1,453 @@
+/* swiftprox-query: two meshes and a file of poses in, one certified answer a line out. It is a user of the C interface like
+ * any other, and knows nothing that swiftprox.h does not say. */
+#include <errno.h>
+#include <fenv.h>
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <swiftprox.h>
+
+#include "poses.h"
+
+enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
+
+static const char USAGE[] =
+    "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
+    "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
+    "                       [--input strict|flat|hull] [--bounds tight|verdict] [--count N]\n"
+    "                       [--bench PASSES]\n";
+
+static const char HELP[] =
+    "\n"
+    "Answers proximity queries between the convex polyhedra A and B, one for each line of POSES.\n"
+    "\n"
+    "  A, B    mesh files: TRI, POLY, OFF, OBJ or STL, told by extension, else by content\n"
+    "  POSES   one query a line, 24 numbers: the row-major 3x4 [R|T] of A, then of B; blank lines and lines\n"
+    "          that start with # are skipped; - is the standard input. What one query learned starts the next.\n"
+    "\n"
+    "  --query contact       distance, witness points and normal, also where the objects touch or intersect\n"
+    "                        (the default)\n"
+    "  --query distance      the same for disjoint objects; the verdict alone for intersecting ones\n"
+    "  --query intersection  the verdict alone; lower and upper are not tight\n"
+    "  --query approximate   not available yet, nor are --error, --start and --levels\n"
+    "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
+    "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
+    "  --input hull          take the convex hull of the vertices\n"
+    "  --bounds tight        the tightest interval that double precision allows (the default)\n"
+    "  --bounds verdict      the cheapest interval that still proves the verdict\n"
+    "  --count N             answer the first N queries only\n"
+    "  --bench PASSES        print times instead of answers, see below\n"
+    "  --help, --version     print this text, the version\n"
+    "\n"
+    "Each answer is a line of 15 fields, numbers with 17 significant digits:\n"
+    "  distance depth  ax ay az  bx by bz  nx ny nz  lower upper  status steps\n"
+    "  distance       best estimate; 0 when the objects touch or intersect\n"
+    "  depth          nan: penetration depth is not computed yet\n"
+    "  a, b           witness points on A and on B in the world frame\n"
+    "  n              unit normal in the world frame, from B to A\n"
+    "  lower, upper   the true distance lies between them, rounding included (lower is printed rounded down\n"
+    "                 and upper rounded up, so this holds for the printed decimals); both 0 when intersecting\n"
+    "  status         how the query was decided: marched, coherent, fallback or exact\n"
+    "  steps          how many steps that took\n"
+    "What a query does not say is nan.\n"
+    "\n"
+    "With --bench the output is one line of two numbers: the best and the median nanoseconds a query over the\n"
+    "passes, everything from the 24 numbers to the answer. The poses are read beforehand, one pass runs untimed\n"
+    "first, and each pass starts cold.\n"
+    "\n"
+    "Exit status: 0, or 2 when a mesh or pose file is bad (the message names the line), or 1 for anything else.\n";
+
+/* ---- the command line ---- */
+
+typedef swift_status pair_query(const swift_shape *, const double *, const swift_shape *, const double *,
+                                swift_pair_cache *, const swift_pair_config *, swift_pair_answer *);
+
+struct arguments {
+    const char *files[3]; /* A, B, POSES */
+    pair_query *query;
+    swift_input input;
+    swift_bounds bounds;
+    size_t count;
+    size_t passes; /* 0: answers, not times */
+};
+
+static bool wrong_usage(const char *problem, const char *what)
+{
+    fprintf(stderr, "swiftprox-query: %s%s\n%sswiftprox-query --help tells more\n", problem, what, USAGE);
+    return false;
+}
+
+/* The position of `word` in `choices`, or -1. */
+static int choose(const char *word, const char *const choices[], int count)
+{
+    for (int i = 0; i < count; i++) {
+        if (strcmp(word, choices[i]) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+/* A whole number from 1 on. */
+static bool parse_count(const char *word, size_t *count)
+{
+    char *end;
+    errno = 0;
+    const unsigned long long value = strtoull(word, &end, 10);
+    if (word[strspn(word, "0123456789")] != '\0' || end == word || errno || value == 0 || value > SIZE_MAX) {
+        return false;
+    }
+    *count = (size_t)value;
+    return true;
+}
+
+static bool parse_option(const char *name, const char *value, struct arguments *arguments)
+{
+    static const char *const QUERIES[] = {"contact", "distance", "intersection"};
+    static pair_query *const QUERY_FUNCTIONS[] = {swift_pair_contact, swift_pair_distance, swift_pair_intersection};
+    static const char *const INPUTS[] = {"strict", "flat", "hull"};
+    static const swift_input INPUT_VALUES[] = {SWIFT_INPUT_STRICT, SWIFT_INPUT_FLAT, SWIFT_INPUT_HULL};
+    static const char *const BOUNDS[] = {"tight", "verdict"};
+    static const swift_bounds BOUNDS_VALUES[] = {SWIFT_BOUNDS_TIGHT, SWIFT_BOUNDS_VERDICT};
+
+    int choice;
+    if (strcmp(name, "--query") == 0) {
+        if (strcmp(value, "approximate") == 0) {
+            return wrong_usage("--query approximate is not available yet", "");
+        }
+        if ((choice = choose(value, QUERIES, 3)) < 0) {
+            return wrong_usage("--query does not know ", value);
+        }
+        arguments->query = QUERY_FUNCTIONS[choice];
+    } else if (strcmp(name, "--input") == 0) {
+        if ((choice = choose(value, INPUTS, 3)) < 0) {
+            return wrong_usage("--input does not know ", value);
+        }
+        arguments->input = INPUT_VALUES[choice];
+    } else if (strcmp(name, "--bounds") == 0) {
+        if ((choice = choose(value, BOUNDS, 2)) < 0) {
+            return wrong_usage("--bounds does not know ", value);
+        }
+        arguments->bounds = BOUNDS_VALUES[choice];
+    } else if (strcmp(name, "--count") == 0) {
+        return parse_count(value, &arguments->count) || wrong_usage("--count wants a number from 1 on, not ", value);
+    } else if (strcmp(name, "--bench") == 0) {
+        return parse_count(value, &arguments->passes) || wrong_usage("--bench wants a number from 1 on, not ", value);
+    } else {
+        return wrong_usage(name, " is not available yet");
+    }
+    return true;
+}
+
+static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
+{
+    static const char *const WITH_VALUE[] = {"--query", "--input",  "--bounds", "--count",
+                                             "--bench", "--error", "--start",  "--levels"};
+    *arguments = (struct arguments){.query = swift_pair_contact,
+                                    .input = SWIFT_INPUT_STRICT,
+                                    .bounds = SWIFT_BOUNDS_TIGHT,
+                                    .count = SIZE_MAX};
+    int files = 0;
+    for (int i = 1; i < argc; i++) {
+        if (strncmp(argv[i], "--", 2) != 0) {
+            if (files == 3) {
+                return wrong_usage("one file too many: ", argv[i]);
+            }
+            arguments->files[files++] = argv[i];
+        } else if (choose(argv[i], WITH_VALUE, 8) < 0) {
+            return wrong_usage("unknown option ", argv[i]);
+        } else if (i + 1 == argc) {
+            return wrong_usage(argv[i], " wants a value");
+        } else if (!parse_option(argv[i], argv[i + 1], arguments)) {
+            return false;
+        } else {
+            i++;
+        }
+    }
+    return files == 3 || wrong_usage("two meshes and a pose file are needed", "");
+}
+
+/* ---- progress ---- */
+
+/* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
+enum { QUERIES_A_LOOK = 64, OUTPUT_BUFFER = 1 << 16 };
+
+struct progress {
+    bool shown; /* only to a person at a terminal */
+    bool shares_terminal; /* with the answers */
+    size_t total;
+    double next; /* when to draw again */
+};
+
+static double seconds(void)
+{
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+static struct progress progress_start(size_t total)
+{
+    return (struct progress){.shown = isatty(STDERR_FILENO),
+                             .shares_terminal = isatty(STDOUT_FILENO),
+                             .total = total,
+                             .next = seconds() + 0.5};
+}
+
+static void progress_erase(const struct progress *progress)
+{
+    if (progress->shown) {
+        fputs("\r\033[K", stderr);
+    }
+}
+
+static void progress_look(struct progress *progress, size_t done)
+{
+    enum { WIDTH = 40 };
+    if (!progress->shown) {
+        return;
+    }
+    const double now = seconds();
+    const bool due = now >= progress->next;
+    if (progress->shares_terminal) { /* the answers so far go above the bar, never into it */
+        progress_erase(progress);
+        fflush(stdout);
+    }
+    if (due) {
+        const int filled = (int)((double)WIDTH * (double)done / (double)progress->total);
+        fprintf(stderr, "\r[%.*s%*s] %zu of %zu", filled, "########################################", WIDTH - filled,
+                "", done, progress->total);
+        fflush(stderr);
+        progress->next = progress->shares_terminal ? now : now + 0.1;
+    }
+}
+
+/* ---- queries ---- */
+
+struct job {
+    const swift_shape *shapes[2];
+    struct pose_list poses;
+    const char *pose_path;
+    pair_query *query;
+    swift_pair_config config;
+};
+
+static swift_status answer_query(const struct job *job, size_t index, swift_pair_cache *cache, swift_pair_answer *answer)
+{
+    const struct pose_pair *pair = &job->poses.pairs[index];
+    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, cache, &job->config, answer);
+}
+
+/* What the library refused, with the line of the pose file; the exit status. */
+static int refused(const struct job *job, size_t index, swift_status status)
+{
+    fprintf(stderr, "%s:%zu: %s\n", job->pose_path, job->poses.lines[index], swift_library_last_error_message());
+    return status == SWIFT_ERROR_POSE ? BAD_FILE : FAILED;
+}
+
+static const char *status_word(swift_pair_status status)
+{
+    switch (status) {
+    case SWIFT_PAIR_STATUS_MARCHED:
+        return "marched";
+    case SWIFT_PAIR_STATUS_COHERENT:
+        return "coherent";
+    case SWIFT_PAIR_STATUS_FALLBACK:
+        return "fallback";
+    case SWIFT_PAIR_STATUS_EXACT:
+        return "exact";
+    default:
+        return "none";
+    }
+}
+
+/* The sign bit of a NaN says nothing, but printf shows it. */
+static void print_number(double value)
+{
+    if (isnan(value)) {
+        fputs("nan ", stdout);
+    } else {
+        printf("%.17g ", value);
+    }
+}
+
+static void print_vector(const double vector[3])
+{
+    for (int i = 0; i < 3; i++) {
+        print_number(vector[i]);
+    }
+}
+
+/* 17 digits round a double; printf rounds as the floating-point environment says, so that the printed bounds are bounds. */
+static void print_rounded(double value, int direction)
+{
+    const int before = fegetround();
+    fesetround(direction);
+    print_number(value);
+    fesetround(before);
+}
+
+static void print_answer(const struct job *job, const swift_pair_answer *answer)
+{
+    static const double NOTHING[3] = {NAN, NAN, NAN};
+    /* The verdict's query needs some direction and says which, but it is not the normal at nearest points. */
+    const bool verdict_only = job->query == swift_pair_intersection && answer->outcome == SWIFT_OUTCOME_SEPARATED;
+    const swift_statistics *statistics = &answer->statistics;
+    print_number(verdict_only ? NAN : answer->distance);
+    print_number(NAN); /* depth */
+    print_vector(verdict_only ? NOTHING : answer->world1);
+    print_vector(verdict_only ? NOTHING : answer->world2);
+    print_vector(verdict_only ? NOTHING : answer->normal);
+    print_rounded(answer->lower, FE_DOWNWARD);
+    print_rounded(answer->upper, FE_UPWARD);
+    printf("%s %llu\n", status_word(answer->status),
+           (unsigned long long)statistics->marching_steps + statistics->fallback_iterations + statistics->exact_iterations);
+}
+
+static int print_answers(const struct job *job)
+{
+    const size_t count = job->poses.count;
+    struct progress progress = progress_start(count);
+    swift_pair_cache cache = {0};
+    static char buffer[OUTPUT_BUFFER];
+    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
+    for (size_t i = 0; i < count; i++) {
+        swift_pair_answer answer;
+        const swift_status status = answer_query(job, i, &cache, &answer);
+        if (status != SWIFT_OK) {
+            progress_erase(&progress);
+            fflush(stdout);
+            return refused(job, i, status);
+        }
+        print_answer(job, &answer);
+        if (i % QUERIES_A_LOOK == QUERIES_A_LOOK - 1) {
+            progress_look(&progress, i + 1);
+        }
+    }
+    progress_erase(&progress);
+    return GOOD;
+}
+
+static int run_pass(const struct job *job)
+{
+    swift_pair_cache cache = {0};
+    swift_pair_answer answer;
+    for (size_t i = 0; i < job->poses.count; i++) {
+        const swift_status status = answer_query(job, i, &cache, &answer);
+        if (status != SWIFT_OK) {
+            return refused(job, i, status);
+        }
+    }
+    return GOOD;
+}
+
+static int ascending(const void *left, const void *right)
+{
+    const double a = *(const double *)left;
+    const double b = *(const double *)right;
+    return (a > b) - (a < b);
+}
+
+static int print_times(const struct job *job, size_t passes)
+{
+    if (job->poses.count == 0) {
+        fprintf(stderr, "%s: no queries to time\n", job->pose_path);
+        return BAD_FILE;
+    }
+    double *times = passes <= SIZE_MAX / sizeof *times ? malloc(passes * sizeof *times) : NULL;
+    if (!times) {
+        fputs("swiftprox-query: no memory for the times of so many passes\n", stderr);
+        return FAILED;
+    }
+    struct progress progress = progress_start(passes);
+    int result = run_pass(job);
+    for (size_t pass = 0; pass < passes && result == GOOD; pass++) {
+        const double start = seconds();
+        result = run_pass(job);
+        times[pass] = 1e9 * (seconds() - start) / (double)job->poses.count;
+        progress_look(&progress, pass + 1);
+    }
+    progress_erase(&progress);
+    if (result == GOOD) {
+        qsort(times, passes, sizeof *times, ascending);
+        const double median = 0.5 * (times[(passes - 1) / 2] + times[passes / 2]);
+        printf("%.17g %.17g\n", times[0], median);
+    }
+    free(times);
+    return result;
+}
+
+/* ---- the program ---- */
+
+static bool load_shape(const char *path, const swift_shape_options *options, swift_shape **shape)
+{
+    const swift_status status = swift_shape_create_from_file(path, options, shape);
+    if (status == SWIFT_OK) {
+        return true;
+    }
+    /* Only the message about the file as a file names it. */
+    const bool named = status == SWIFT_ERROR_FILE;
+    fprintf(stderr, "%s%s%s\n", named ? "" : path, named ? "" : ": ", swift_library_last_error_message());
+    return false;
+}
+
+/* One shape for both objects when both are one file. */
+static bool load_shapes(const struct arguments *arguments, swift_shape *shapes[2])
+{
+    swift_shape_options options;
+    swift_shape_options_init(&options);
+    options.input = arguments->input;
+    if (!load_shape(arguments->files[0], &options, &shapes[0])) {
+        return false;
+    }
+    if (strcmp(arguments->files[0], arguments->files[1]) == 0) {
+        swift_shape_retain(shapes[0]);
+        shapes[1] = shapes[0];
+        return true;
+    }
+    return load_shape(arguments->files[1], &options, &shapes[1]);
+}
+
+static int run(const struct arguments *arguments)
+{
+    swift_shape *shapes[2] = {NULL, NULL};
+    struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
+    swift_pair_config_init(&job.config);
+    job.config.bounds = arguments->bounds;
+
+    int result = BAD_FILE;
+    if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {
+        job.shapes[0] = shapes[0];
+        job.shapes[1] = shapes[1];
+        result = arguments->passes ? print_times(&job, arguments->passes) : print_answers(&job);
+    }
+    pose_list_free(&job.poses);
+    swift_shape_release(shapes[0]);
+    swift_shape_release(shapes[1]);
+    if ((fflush(stdout) != 0 || ferror(stdout)) && result == GOOD) {
+        fprintf(stderr, "swiftprox-query: the output cannot be written: %s\n", strerror(errno));
+        return FAILED;
+    }
+    return result;
+}
+
+int main(int argc, char **argv)
+{
+    for (int i = 1; i < argc; i++) {
+        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
+            printf("%s%s", USAGE, HELP);
+            return GOOD;
+        }
+        if (strcmp(argv[i], "--version") == 0) {
+            printf("swiftprox-query %s\n", swift_library_version());
+            return GOOD;
+        }
+    }
+    struct arguments arguments;
+    return parse_arguments(argc, argv, &arguments) ? run(&arguments) : FAILED;
+}

@@ -1,0 +1,212 @@
+#!/usr/bin/env python3
+"""Tests swiftprox-query from outside, and scripts/cases.py, which judges it:  test_query.py TOOL"""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+from decimal import Decimal, getcontext
+
+getcontext().prec = 40
+TOOL = sys.argv.pop(1)
+ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
+BOX = os.path.join(ROOT, "examples", "models", "box.off")  # half sides 0.8, 0.5, 0.3
+PRISM = os.path.join(ROOT, "examples", "models", "prism.obj")
+SPHERE = os.path.join(ROOT, "examples", "models", "sphere.stl")
+
+
+def pose(x, y, z):
+    return "1 0 0 %s 0 1 0 %s 0 0 1 %s" % (x, y, z)
+
+
+HERE = pose(0, 0, 0)
+APART = HERE + " " + pose(2, 0, 0)
+DIAGONAL = HERE + " " + pose("2.6", "2", 0)  # 1 along x and 1 along y, not quite: 2.6 and 0.8 are rounded
+INTERSECTING = HERE + " " + pose(0.5, 0.5, 0)
+
+
+class Query(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, name, content):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "wb") as out:
+            out.write(content if isinstance(content, bytes) else content.encode())
+        return path
+
+    def run_tool(self, *arguments, stdin=None):
+        return subprocess.run([TOOL, *arguments], input=stdin, capture_output=True, text=True, timeout=60)
+
+    def answers(self, poses, *options, meshes=(BOX, BOX)):
+        done = self.run_tool(*meshes, self.file("poses", poses), *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        rows = [line.split() for line in done.stdout.splitlines()]
+        for row in rows:
+            self.assertEqual(len(row), 15)
+            self.assertEqual(row[1], "nan")
+            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact"))
+            self.assertGreaterEqual(int(row[14]), 0)
+        return rows
+
+    def refused(self, status, message, *arguments):
+        done = self.run_tool(*arguments)
+        self.assertEqual(done.returncode, status)
+        self.assertIn(message, done.stderr)
+        self.assertEqual(done.stdout, "")
+
+    # -- answers --
+
+    def test_a_separated_pair(self):
+        row = self.answers(APART)[0]
+        # The boxes end at the double next to 0.8.
+        true = 2 - 2 * Decimal(0.8)
+        self.assertLessEqual(Decimal(row[11]), true)
+        self.assertLessEqual(true, Decimal(row[12]))
+        self.assertAlmostEqual(float(row[0]), 0.4)
+        self.assertEqual(float(row[2]), 0.8)
+        self.assertEqual(float(row[5]), 1.2)
+        self.assertEqual([float(x) for x in row[8:11]], [-1, 0, 0])
+
+    def test_printed_bounds_hold_as_decimals(self):
+        row = self.answers(DIAGONAL)[0]
+        along_x = Decimal(2.6) - 2 * Decimal(0.8)
+        true = (along_x * along_x + 1).sqrt()
+        self.assertLessEqual(Decimal(row[11]), true)
+        self.assertLessEqual(true, Decimal(row[12]))
+        self.assertLess(Decimal(row[12]) - Decimal(row[11]), Decimal("1e-13"))
+
+    def test_an_intersecting_pair(self):
+        for query in ("contact", "distance", "intersection"):
+            row = self.answers(INTERSECTING, "--query", query)[0]
+            self.assertEqual([row[0], row[11], row[12]], ["0", "0", "0"])
+
+    def test_a_contact_has_points_and_a_normal(self):
+        row = [float(x) for x in self.answers(INTERSECTING)[0][2:11]]
+        self.assertAlmostEqual(sum(x * x for x in row[6:]), 1.0)
+
+    def test_the_verdict_alone(self):
+        row = self.answers(APART, "--query", "intersection")[0]
+        self.assertEqual([row[0]] + row[2:11], ["nan"] * 10)
+        self.assertGreater(float(row[11]), 0)
+
+    def test_verdict_bounds(self):
+        row = self.answers(APART, "--bounds", "verdict")[0]
+        self.assertTrue(0 < float(row[11]) <= 0.4 <= float(row[12]))
+
+    def test_all_formats(self):
+        for mesh in (BOX, PRISM, SPHERE):
+            self.assertEqual(len(self.answers(APART, meshes=(BOX, mesh))), 1)
+
+    def test_a_hull_of_points(self):
+        points = self.file("points.off", "OFF\n2 0 0\n0 0 0\n1 0 0\n")
+        row = self.answers(HERE + " " + pose(0, 0, 2), "--input", "hull", meshes=(points, points))[0]
+        self.assertTrue(float(row[11]) <= 2 <= float(row[12]))
+        self.refused(2, "points.off", points, points, self.file("poses", APART))
+
+    # -- pose files --
+
+    def test_comments_blank_lines_and_line_ends(self):
+        text = "# a comment\r\n\n  \t\r\n" + APART + "\r\n  # another\n" + " " * 100000 + APART
+        self.assertEqual(len(self.answers(text)), 2)
+        self.assertEqual(self.answers(""), [])
+
+    def test_count_looks_no_further(self):
+        self.assertEqual(len(self.answers(APART + "\n" + APART + "\nrubbish\n", "--count", "2")), 2)
+
+    def test_the_standard_input(self):
+        done = self.run_tool(BOX, BOX, "-", stdin=APART + "\n")
+        self.assertEqual((done.returncode, len(done.stdout.splitlines())), (0, 1))
+
+    def test_bad_lines_are_named(self):
+        for bad, message in ((b"1 2 3", "3 numbers"), (APART.encode() + b" 7", "25 numbers"),
+                             (APART.encode()[:-1] + b"nan", "not finite"), (APART.encode()[:-1] + b"-inf", "not finite"),
+                             (APART.encode()[:-1] + b"1e999", "not finite"), (b"1 2x 3", "'2x' is not a number"),
+                             (b"\x00\xff", "not a number")):
+            poses = self.file("bad.poses", APART.encode() + b"\n# comment\n" + bad + b"\n")
+            self.refused(2, "bad.poses:3: ", BOX, BOX, poses)
+            self.refused(2, message, BOX, BOX, poses)
+
+    def test_a_pose_that_the_library_refuses_is_named(self):
+        sheared = "1 1 0 0 0 1 0 0 0 0 1 0 " + pose(2, 0, 0)
+        done = self.run_tool(BOX, BOX, self.file("sheared.poses", APART + "\n\n" + sheared + "\n" + APART + "\n"))
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("sheared.poses:3: ", done.stderr)
+        self.assertEqual(len(done.stdout.splitlines()), 1)
+
+    # -- other files --
+
+    def test_bad_meshes_are_named(self):
+        poses = self.file("poses", APART)
+        self.refused(2, "none.off", BOX, "none.off", poses)
+        broken = self.file("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 rubbish 0\n3 0 1 2\n")
+        self.refused(2, "broken.off", broken, BOX, poses)
+        self.refused(2, "5", broken, BOX, poses)
+        self.refused(2, "none.poses", BOX, BOX, "none.poses")
+
+    # -- the command line --
+
+    def test_help_and_version(self):
+        self.assertIn("--bench", self.run_tool("--help").stdout)
+        self.assertRegex(self.run_tool("--version").stdout, r"^swiftprox-query \d+\.\d+\.\d+\n$")
+
+    def test_what_is_not_there_yet_is_refused(self):
+        poses = self.file("poses", APART)
+        for option in (("--query", "approximate"), ("--error", "1"), ("--start", "auto"), ("--levels", "none")):
+            self.refused(1, "not available yet", BOX, BOX, poses, *option)
+
+    def test_wrong_usage_is_refused(self):
+        poses = self.file("poses", APART)
+        for wrong in ((), (BOX, BOX), (BOX, BOX, poses, poses), (BOX, BOX, poses, "--query"),
+                      (BOX, BOX, poses, "--query", "x"), (BOX, BOX, poses, "--input", "x"),
+                      (BOX, BOX, poses, "--bounds", "x"), (BOX, BOX, poses, "--count", "-1"),
+                      (BOX, BOX, poses, "--bench", "0"), (BOX, BOX, poses, "--count", "9" * 30), (BOX, BOX, poses, "--x")):
+            self.refused(1, "usage: ", *wrong)
+
+    def test_times(self):
+        done = self.run_tool(BOX, BOX, self.file("poses", (APART + "\n") * 50), "--bench", "3")
+        best, median = map(float, done.stdout.split())
+        self.assertTrue(0 < best <= median)
+        self.refused(2, "no queries", BOX, BOX, self.file("poses", ""), "--bench", "3")
+
+
+class Cases(unittest.TestCase):
+    """The referee passes what is right and finds what is wrong."""
+
+    ROOT_2 = "1.4142135623730950488016887242096980785697"
+
+    def judge(self, lo, hi, poses=HERE + " 1 0 0 2 0 1 0 2 0 0 1 0", mesh="0 0 0\n1 0 0\n0 1 0\n1 1 0\n"):
+        with tempfile.TemporaryDirectory() as root:
+            family = os.path.join(root, "family")
+            os.mkdir(family)
+            for name, text in (("square.off", "OFF\n4 0 0\n" + mesh), ("c0.poses", poses + "\n"),
+                               ("c0.truth", lo + " " + hi + " 0" * 11 + "\n"),
+                               ("cases.txt", "square.off square.off c0.poses c0.truth\n")):
+                with open(os.path.join(family, name), "w") as out:
+                    out.write(text)
+            script = os.path.join(ROOT, "scripts", "cases.py")
+            return subprocess.run([sys.executable, script, TOOL, root], capture_output=True, text=True, timeout=60)
+
+    def test_the_truth_passes(self):
+        done = self.judge(self.ROOT_2, self.ROOT_2)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_a_wrong_verdict_fails(self):
+        done = self.judge("0", "0")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("wrong: ", done.stderr)
+
+    def test_a_missed_interval_fails(self):
+        done = self.judge("1.41421356237", "1.41421356238".replace("8", "7"))
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("missed: ", done.stderr)
+
+    def test_a_refusal_fails(self):
+        done = self.judge(self.ROOT_2, self.ROOT_2, poses="1 2 3")
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("refused: ", done.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()
