@@ -1,0 +1,85 @@
+//! Models: convex polyhedra as polygon meshes, outward faces counter-clockwise.
+
+use swiftprox::error::Result;
+use swiftprox::hull_build::convex_hull;
+use swiftprox::math::Vector;
+use swiftprox::mesh::PolygonMesh;
+
+use super::random::Random;
+
+/// The three ellipsoids of Ehmann & Lin (2000), section 6: their names and half axes.
+pub const ELLIPSOIDS: [(&str, [f64; 3]); 3] =
+    [("fat", [1.0, 1.0, 1.0]), ("plate", [1.0, 1.0, 0.1]), ("long", [1.0, 0.1, 0.1])];
+
+/// Hull of `n` random points on an ellipsoid, its centre of mass at the origin, its bounding radius 1.
+pub fn ellipsoid(half_axes: [f64; 3], n: usize) -> Result<PolygonMesh> {
+    let seed = half_axes.iter().fold(n as u64, |seed, a| seed.rotate_left(21) ^ a.to_bits());
+    let mut random = Random::new(seed);
+    let half_axes = Vector::from(half_axes);
+    let points: Vec<Vector> = (0..n).map(|_| random.direction().component_mul(&half_axes)).collect();
+    let mut mesh = hull_mesh(&points)?;
+    let centre = centre_of_mass(&mesh);
+    let radius = mesh.vertices.iter().map(|v| (v - centre).norm()).fold(0.0, f64::max);
+    for v in &mut mesh.vertices {
+        *v = (*v - centre) / radius;
+    }
+    Ok(mesh)
+}
+
+/// Hull of `n` random points in the unit ball: vertices of very different valence and edges of very different length.
+pub fn random_hull(n: usize, seed: u64) -> Result<PolygonMesh> {
+    let mut random = Random::new(seed);
+    let points: Vec<Vector> = (0..n).map(|_| random.direction() * random.uniform(0.0, 1.0).cbrt()).collect();
+    hull_mesh(&points)
+}
+
+/// A box around the origin, six quadrilaterals.
+pub fn cuboid(half_extents: [f64; 3]) -> Result<PolygonMesh> {
+    let [x, y, z] = half_extents;
+    let corner = |i: usize| {
+        let side = |bit: usize, h: f64| if i & bit == 0 { -h } else { h };
+        Vector::new(side(1, x), side(2, y), side(4, z))
+    };
+    let faces = [0, 4, 6, 2, 1, 3, 7, 5, 0, 1, 5, 4, 2, 6, 7, 3, 0, 2, 3, 1, 4, 5, 7, 6];
+    PolygonMesh::new((0..8).map(corner).collect(), faces.to_vec(), Some(&[4; 6]))
+}
+
+/// A right prism around the z axis over a regular polygon of `sides` corners on the unit circle.
+pub fn prism(sides: u32, half_height: f64) -> Result<PolygonMesh> {
+    let corner = |i: u32| {
+        let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
+        Vector::new(angle.cos(), angle.sin(), if i < sides { -half_height } else { half_height })
+    };
+    let mut indices: Vec<u32> = (0..sides).rev().chain(sides..2 * sides).collect();
+    let mut valences = vec![sides; 2];
+    for i in 0..sides {
+        let next = (i + 1) % sides;
+        indices.extend([i, next, sides + next, sides + i]);
+        valences.push(4);
+    }
+    PolygonMesh::new((0..2 * sides).map(corner).collect(), indices, Some(&valences))
+}
+
+/// The hull of points as a mesh over the hull's own vertices.
+fn hull_mesh(points: &[Vector]) -> Result<PolygonMesh> {
+    let hull = convex_hull(points)?;
+    let mut own = vec![0; points.len()];
+    for (new, &old) in (0..).zip(&hull.vertices) {
+        own[old as usize] = new;
+    }
+    let vertices = hull.vertices.iter().map(|&i| points[i as usize]).collect();
+    let indices = hull.triangles.iter().flatten().map(|&i| own[i as usize]).collect();
+    PolygonMesh::new(vertices, indices, None)
+}
+
+/// The volume centre of mass of a closed triangle mesh: the sum over the tetrahedra with the origin.
+fn centre_of_mass(mesh: &PolygonMesh) -> Vector {
+    let (mut volume, mut moment) = (0.0, Vector::zeros());
+    for f in 0..mesh.face_count() {
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.vertices[mesh.face(f)[k] as usize]);
+        let sixfold = a.dot(&b.cross(&c));
+        volume += sixfold;
+        moment += (a + b + c) * (sixfold / 4.0);
+    }
+    moment / volume
+}

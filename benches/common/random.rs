@@ -1,0 +1,54 @@
+//! SplitMix64 (Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators") and what is drawn from it.
+
+use swiftprox::math::{Matrix, Vector};
+
+/// A generator; equal seeds give equal sequences everywhere, up to the rounding of the machine's `ln`, `cos` and `sin`.
+pub struct Random(u64);
+
+impl Random {
+    pub fn new(seed: u64) -> Random {
+        Random(seed)
+    }
+
+    pub fn next_u64(&mut self) -> u64 {
+        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
+        let mut z = self.0;
+        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+        z ^ (z >> 31)
+    }
+
+    /// Uniform in [low, high).
+    pub fn uniform(&mut self, low: f64, high: f64) -> f64 {
+        let unit = (self.next_u64() >> 11) as f64 * (1.0 / (1u64 << 53) as f64);
+        low + (high - low) * unit
+    }
+
+    /// Standard normal (Box & Muller 1958).
+    pub fn normal(&mut self) -> f64 {
+        let radius = (-2.0 * (1.0 - self.uniform(0.0, 1.0)).ln()).sqrt();
+        radius * self.uniform(0.0, std::f64::consts::TAU).cos()
+    }
+
+    /// Uniform on the unit sphere.
+    pub fn direction(&mut self) -> Vector {
+        loop {
+            let v = Vector::new(self.normal(), self.normal(), self.normal());
+            if v.norm() > 1e-3 {
+                return v.normalize();
+            }
+        }
+    }
+
+    /// A turn by an angle uniform in [0, 2π) about an axis uniform on the sphere.
+    pub fn rotation(&mut self) -> Matrix {
+        let axis = self.direction();
+        rotation(&axis, self.uniform(0.0, std::f64::consts::TAU))
+    }
+}
+
+/// The matrix that turns by `angle` radians about a unit axis (Rodrigues' formula).
+pub fn rotation(axis: &Vector, angle: f64) -> Matrix {
+    let k = axis.cross_matrix();
+    Matrix::identity() + k * angle.sin() + k * k * (1.0 - angle.cos())
+}

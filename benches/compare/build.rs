@@ -1,0 +1,38 @@
+//! Notes the compiler, and compiles the FCL shim where pkg-config finds FCL (Debian: libfcl-dev); without it the comparison leaves FCL out.
+
+use std::process::Command;
+
+fn main() {
+    println!("cargo:rerun-if-changed=src/fcl.cpp");
+    println!("cargo:rustc-env=COMPILER={}", compiler());
+    println!("cargo:rustc-check-cfg=cfg(fcl)");
+    let Some(flags) = pkg_config("--cflags") else {
+        println!("cargo:warning=pkg-config finds no fcl (Debian: libfcl-dev): compared without it");
+        return;
+    };
+    let mut build = cc::Build::new();
+    // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
+    build.cpp(true).std("c++14").opt_level(3).define("NDEBUG", None).warnings(false).file("src/fcl.cpp");
+    for flag in flags.split_whitespace() {
+        build.flag(flag);
+    }
+    build.compile("fcl_shim");
+    for flag in pkg_config("--libs").unwrap_or_default().split_whitespace() {
+        println!("cargo:rustc-link-arg={flag}");
+    }
+    println!("cargo:rustc-cfg=fcl");
+}
+
+/// For the head of result files: `rustc --version` and the code generation flags in force.
+fn compiler() -> String {
+    let rustc = std::env::var("RUSTC").unwrap_or_else(|_| "rustc".into());
+    let version = Command::new(rustc).arg("--version").output().ok();
+    let version = version.map(|o| String::from_utf8_lossy(&o.stdout).trim().to_string()).unwrap_or_default();
+    let flags = std::env::var("CARGO_ENCODED_RUSTFLAGS").unwrap_or_default().replace('\x1f', " ");
+    if flags.is_empty() { version } else { format!("{version}, {flags}") }
+}
+
+fn pkg_config(what: &str) -> Option<String> {
+    let output = Command::new("pkg-config").args([what, "fcl"]).output().ok()?;
+    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+}

@@ -1,0 +1,108 @@
+//! Exact distance with witness points: every method on every scene.
+
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::Bounds;
+
+use crate::method::{Method, Reply};
+use crate::options::Options;
+use crate::ours::Ours;
+use crate::parry::{Parry, Turning};
+use crate::report::{self, Row};
+use crate::timing::{median, time_methods};
+use crate::{model, motion};
+
+/// Answers farther apart than this, relative to the distance, are counted as disagreement.
+const AGREEMENT: f64 = 1e-6;
+
+pub fn run(options: &Options) -> Result<(), String> {
+    // A workload's models have the number of vertices that they have.
+    let sizes = if options.workload.is_some() { vec![0] } else { options.vertices.clone() };
+    let mut rows = Vec::new();
+    for n in sizes {
+        for name in &options.models {
+            let mesh = model(options, name, n)?;
+            let mut methods = methods(&mesh, &options.methods)?;
+            for orbit in &options.orbits {
+                for &step in &options.steps {
+                    let poses = motion(options, orbit, step)?;
+                    for method in &mut methods {
+                        method.load(&poses);
+                    }
+                    let replies: Vec<_> =
+                        methods.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
+                    let times = time_methods(&mut methods, poses.len(), options.passes);
+                    for (m, method) in methods.iter().enumerate() {
+                        let scene = (name.as_str(), mesh.vertices.len(), orbit.as_str(), step);
+                        let accuracy = Accuracy::of(&replies[m], &replies[0]);
+                        rows.push(Row::new(scene, method.name(), &replies[m], times[m], accuracy));
+                    }
+                    eprintln!("{name} {} {orbit} {step} done", mesh.vertices.len());
+                }
+            }
+        }
+    }
+    report::print_distance(&rows);
+    if let Some(path) = &options.csv {
+        report::write(path, options.passes, &report::distance_csv(&rows))?;
+    }
+    Ok(())
+}
+
+/// The methods asked for that are there, in the order of `--help`.
+fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>, String> {
+    let mut all: Vec<Box<dyn Method>> = Vec::new();
+    for bounds in [Bounds::Tight, Bounds::Verdict] {
+        all.push(Box::new(Ours::new(mesh, bounds).map_err(|e| e.to_string())?));
+    }
+    for turning in [Turning::Quaternion, Turning::Matrix] {
+        all.push(Box::new(Parry::new(mesh, turning)));
+    }
+    #[cfg(fcl)]
+    for tolerance in [1e-6, 1e-10] {
+        match crate::fcl::Fcl::new(mesh, tolerance) {
+            Some(fcl) => all.push(Box::new(fcl)),
+            None => eprintln!("FCL refuses this model: compared without it"),
+        }
+    }
+    all.retain(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name()));
+    if all.is_empty() { Err("--methods: none of these is there".into()) } else { Ok(all) }
+}
+
+/// One pass, coherence flowing.
+fn replies(method: &mut dyn Method, count: usize) -> Vec<Reply> {
+    method.forget();
+    let mut reply = |i| {
+        method.ask(i);
+        method.reply()
+    };
+    (0..count).map(&mut reply).collect()
+}
+
+/// How a method's answers differ from the reference's.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// Another verdict, a distance off by more than [`AGREEMENT`], or no answer.
+    pub disagreements: usize,
+    /// Of |distance − reference|, where both separate; models have radius 1.
+    pub median_error: f64,
+    pub worst_error: f64,
+}
+
+impl Accuracy {
+    fn of(replies: &[Reply], reference: &[Reply]) -> Accuracy {
+        let (mut disagreements, mut errors) = (0, Vec::new());
+        for (reply, reference) in replies.iter().zip(reference) {
+            let error = (reply.distance - reference.distance).abs();
+            let same_verdict = (reply.distance > 0.0) == (reference.distance > 0.0);
+            // Negated, so that NaN disagrees.
+            if !(same_verdict && error <= AGREEMENT * reference.distance) {
+                disagreements += 1;
+            }
+            if reply.distance > 0.0 && reference.distance > 0.0 {
+                errors.push(error);
+            }
+        }
+        let median_error = median(&mut errors);
+        Accuracy { disagreements, median_error, worst_error: errors.last().copied().unwrap_or(f64::NAN) }
+    }
+}

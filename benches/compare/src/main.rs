@@ -1,0 +1,60 @@
+//! `compare --help`.
+
+mod build_time;
+mod distance;
+#[cfg(fcl)]
+mod fcl;
+mod method;
+mod options;
+mod ours;
+mod parry;
+mod report;
+#[path = "../../common/mod.rs"]
+mod scenes;
+mod timing;
+
+use std::process::ExitCode;
+
+use options::Options;
+use scenes::PosePair;
+use scenes::models::{ELLIPSOIDS, ellipsoid};
+use scenes::orbits::{ORBITS, Orbit, Step, poses};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::mesh_io::read_mesh;
+
+fn main() -> ExitCode {
+    let run = || {
+        let options = options::parse(std::env::args().skip(1))?;
+        if options.help {
+            print!("{}", options::HELP);
+            return Ok(());
+        }
+        if options.build { build_time::run(&options) } else { distance::run(&options) }
+    };
+    match run() {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            let message: String = message;
+            eprintln!("compare: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+/// The model of that name with `n` vertices, or the workload's.
+fn model(options: &Options, name: &str, n: usize) -> Result<PolygonMesh, String> {
+    if let Some(directory) = &options.workload {
+        return read_mesh(&directory.join(format!("{name}.off"))).map_err(|e| e.to_string());
+    }
+    let known = ELLIPSOIDS.iter().find(|(known, _)| *known == name);
+    let (_, half_axes) = known.ok_or_else(|| format!("{name}: no such model"))?;
+    ellipsoid(*half_axes, n).map_err(|e| e.to_string())
+}
+
+fn motion(options: &Options, orbit: &str, step: Step) -> Result<Vec<PosePair>, String> {
+    if let Some(directory) = &options.workload {
+        return scenes::files::read_poses(&directory.join(format!("{orbit}_{step}.poses")), options.count);
+    }
+    let known: Option<&Orbit> = ORBITS.iter().find(|known| known.name == orbit);
+    Ok(poses(*known.ok_or_else(|| format!("{orbit}: no such orbit"))?, step, options.count))
+}

@@ -1,0 +1,47 @@
+//! What is compared: a method answers distance queries about one model against itself, pose after pose.
+
+use std::hint::black_box;
+use std::ops::Range;
+
+use crate::scenes::PosePair;
+
+/// What a method says about one pose.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Reply {
+    /// 0 when intersecting; NaN when the method failed.
+    pub distance: f64,
+    /// Width of the guaranteed interval; NaN for a method that guarantees none.
+    pub width: f64,
+    /// Work done, in the method's own unit; NaN when it does not say.
+    pub steps: f64,
+    /// A tier beyond the usual one had to decide.
+    pub fallback: bool,
+    /// Integer arithmetic had to decide.
+    pub exact: bool,
+}
+
+/// A distance query with witness points, its coherence and its last answer.
+pub trait Method {
+    /// A word for tables and files.
+    fn name(&self) -> &str;
+
+    /// Takes over the poses of a scene, in whatever form the method wants them. Not timed.
+    fn load(&mut self, poses: &[PosePair]);
+
+    /// Drops all coherence.
+    fn forget(&mut self);
+
+    /// Answers the query at pose `i`; the answer stays in the method.
+    fn ask(&mut self, i: usize);
+
+    /// The last answer.
+    fn reply(&self) -> Reply;
+
+    /// What is timed: one virtual call for many queries, each query inlined into the loop.
+    fn run(&mut self, queries: Range<usize>) {
+        for i in queries {
+            self.ask(i);
+            black_box(&mut *self);
+        }
+    }
+}

@@ -1,0 +1,81 @@
+//! The command line.
+
+use std::path::PathBuf;
+
+use crate::scenes::models::ELLIPSOIDS;
+use crate::scenes::orbits::{ORBITS, STEPS, Step};
+
+pub const HELP: &str = "\
+Speed and accuracy of exact distance: swiftprox beside parry3d-f64 and FCL, on ellipsoids that orbit one another.
+
+usage: compare [options]
+  --n LIST          vertices of the models (1002)
+  --models LIST     of fat, plate, long (all)
+  --orbits LIST     of small, large, deep (all)
+  --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
+  --methods LIST    of swiftprox, swiftprox-verdict, parry-hc, parry-hc-matrix, fcl-1e-6, fcl-1e-10 (all); answers
+                    are compared with those of the first of them
+  --count N         poses a scene (3600)
+  --passes N        timed passes over each scene (9)
+  --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
+  --build           time the building of shapes instead
+  --csv FILE        write the results there, too
+lists are separated by commas
+";
+
+pub struct Options {
+    pub vertices: Vec<usize>,
+    pub models: Vec<String>,
+    pub orbits: Vec<String>,
+    pub steps: Vec<Step>,
+    /// Empty: all.
+    pub methods: Vec<String>,
+    pub count: usize,
+    pub passes: usize,
+    pub workload: Option<PathBuf>,
+    pub build: bool,
+    pub csv: Option<PathBuf>,
+    pub help: bool,
+}
+
+/// # Errors
+/// A message about the first argument that is not understood.
+pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, String> {
+    let mut options = Options {
+        vertices: vec![1002],
+        models: ELLIPSOIDS.iter().map(|(name, _)| name.to_string()).collect(),
+        orbits: ORBITS.iter().map(|orbit| orbit.name.to_string()).collect(),
+        steps: STEPS.to_vec(),
+        methods: Vec::new(),
+        count: 3600,
+        passes: 9,
+        workload: None,
+        build: false,
+        csv: None,
+        help: false,
+    };
+    let mut arguments = arguments.into_iter();
+    while let Some(name) = arguments.next() {
+        let mut value = || arguments.next().ok_or_else(|| format!("{name}: a value is missing"));
+        let number = |text: &str| text.parse().map_err(|_| format!("{name}: {text} is not a number"));
+        match name.as_str() {
+            "--n" => options.vertices = list(&value()?).map(number).collect::<Result<_, _>>()?,
+            "--models" => options.models = list(&value()?).map(str::to_string).collect(),
+            "--orbits" => options.orbits = list(&value()?).map(str::to_string).collect(),
+            "--steps" => options.steps = list(&value()?).map(str::parse).collect::<Result<_, _>>()?,
+            "--methods" => options.methods = list(&value()?).map(str::to_string).collect(),
+            "--count" => options.count = number(&value()?)?.max(1),
+            "--passes" => options.passes = number(&value()?)?.max(1),
+            "--workload" => options.workload = Some(value()?.into()),
+            "--build" => options.build = true,
+            "--csv" => options.csv = Some(value()?.into()),
+            "--help" => options.help = true,
+            _ => return Err(format!("{name}: no such option (see --help)")),
+        }
+    }
+    Ok(options)
+}
+
+fn list(text: &str) -> impl Iterator<Item = &str> {
+    text.split(',').filter(|item| !item.is_empty())
+}
