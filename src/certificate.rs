@@ -49,7 +49,7 @@ pub struct Minimum<L> {
     /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
     /// closer look tells.
     pub beyond: f64,
-    /// How far the points may lie out of their bodies, both together; +∞ as above.
+    /// How far the points may lie out of their bodies, both together; holds where `beyond` is finite.
     pub outside: f64,
     /// Value of the face plane at the vertex in a vertex-face state, else 0.
     pub height: f64,

@@ -97,7 +97,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         let placed1 = Placed::<L>::new(poses[0]);
         let placed2 = Placed::<L>::new(poses[1]);
         let (mut usual, mut skewed) = (true, [false; 2]);
-        if !Placed::are_rigid(&placed1, &placed2) {
+        // A limit below what counts as rigid is the caller's to set.
+        if rotation_limit < RIGID || !Placed::are_rigid(&placed1, &placed2) {
             (usual, skewed) = look_closer(poses, rotation_limit);
         }
         let [radius1, radius2] = [polyhedron1.radius, polyhedron2.radius];
