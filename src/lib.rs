@@ -19,6 +19,7 @@ pub mod face_merge;
 pub mod face_labels;
 pub mod mass;
 pub mod polyhedron_build;
+pub mod quadric;
 pub mod shape;
 pub mod state;
 pub mod voronoi;
