@@ -259,6 +259,46 @@ impl Polyhedron {
         let count = (face.side_count as usize).saturating_sub(3).div_ceil(4);
         &self.more_sides[face.first_more as usize..face.first_more as usize + count]
     }
+
+    /// Memory held, in bytes. All members are named, so that a new one cannot be forgotten.
+    pub fn heap_bytes(&self) -> usize {
+        let Polyhedron {
+            dimension: _,
+            centre: _,
+            radius: _,
+            vertices,
+            neighbours,
+            more_neighbours,
+            triangles,
+            edges,
+            faces,
+            sides,
+            more_sides,
+            bevels,
+            face_of_triangle,
+            vertex_labels,
+            face_labels,
+            face_label_starts,
+            polygon_corners,
+            polygon_starts,
+            mass: _,
+        } = self;
+        size_of_val(&vertices[..])
+            + size_of_val(&neighbours[..])
+            + size_of_val(&more_neighbours[..])
+            + size_of_val(&triangles[..])
+            + size_of_val(&edges[..])
+            + size_of_val(&faces[..])
+            + size_of_val(&sides[..])
+            + size_of_val(&more_sides[..])
+            + size_of_val(&bevels[..])
+            + size_of_val(&face_of_triangle[..])
+            + size_of_val(&vertex_labels[..])
+            + size_of_val(&face_labels[..])
+            + size_of_val(&face_label_starts[..])
+            + size_of_val(&polygon_corners[..])
+            + size_of_val(&polygon_starts[..])
+    }
 }
 
 impl PlaneBlock {

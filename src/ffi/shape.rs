@@ -10,7 +10,6 @@ use super::{
 };
 use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
-use crate::polyhedron::Polyhedron;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
 /// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
@@ -241,7 +240,7 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
             radius: polyhedron.mass.radius,
             lower: polyhedron.mass.lower.into(),
             upper: polyhedron.mass.upper.into(),
-            bytes: size_of::<Shape>() + heap_bytes(polyhedron),
+            bytes: size_of::<Shape>() + polyhedron.heap_bytes(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }
@@ -376,46 +375,6 @@ pub(super) unsafe fn read_path<'a>(path: *const c_char) -> Checked<&'a Path> {
         Ok(path) => Ok(Path::new(path)),
         Err(_) => Err(Failure::new(StatusCode::ErrorInvalidArgument, "the path is not UTF-8")),
     };
-}
-
-/// The bytes of a polyhedron's arrays. All members are named, so that a new one cannot be forgotten.
-fn heap_bytes(polyhedron: &Polyhedron) -> usize {
-    let Polyhedron {
-        dimension: _,
-        centre: _,
-        radius: _,
-        vertices,
-        neighbours,
-        more_neighbours,
-        triangles,
-        edges,
-        faces,
-        sides,
-        more_sides,
-        bevels,
-        face_of_triangle,
-        vertex_labels,
-        face_labels,
-        face_label_starts,
-        polygon_corners,
-        polygon_starts,
-        mass: _,
-    } = polyhedron;
-    size_of_val(&vertices[..])
-        + size_of_val(&neighbours[..])
-        + size_of_val(&more_neighbours[..])
-        + size_of_val(&triangles[..])
-        + size_of_val(&edges[..])
-        + size_of_val(&faces[..])
-        + size_of_val(&sides[..])
-        + size_of_val(&more_sides[..])
-        + size_of_val(&bevels[..])
-        + size_of_val(&face_of_triangle[..])
-        + size_of_val(&vertex_labels[..])
-        + size_of_val(&face_labels[..])
-        + size_of_val(&face_label_starts[..])
-        + size_of_val(&polygon_corners[..])
-        + size_of_val(&polygon_starts[..])
 }
 
 /// Refuses counts that do not fit 32 bits before anything is read: they are overflows or negative numbers of the caller.

@@ -1,0 +1,86 @@
+//! Making a level bound the body: translation and scaling (Ehmann & Lin 2000, §4.3), rounded outward, the result proved.
+
+use crate::containment::contains;
+use crate::error::Result;
+use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron_build::build;
+
+/// Growing a level that rounding left too small: so many times, each by four times as much as before.
+const ATTEMPTS: u32 = 16;
+
+/// Moves points by a translation.
+pub fn translated(points: &[Vector], by: &Vector) -> Vec<Vector> {
+    points.iter().map(|p| p + by).collect()
+}
+
+/// The hull of the points if it contains `base` as it is, else scaled about `centre` so that it barely does; decided exactly
+/// ([`contains`]). All in the centred coordinates of `base`, whose `centre` is 0. `None` if the hull has no interior or `centre` lies too
+/// near its surface, or outside.
+///
+/// The factor is the largest over the faces of the height of the body's extreme vertex over that of the face, both above `centre`, and a
+/// margin for the rounding of planes and vertices: each of a few u·ρ, so 64uρ over the least height, and four times as much each time
+/// that it does not do.
+///
+/// # Errors
+/// None that a caller can cause.
+pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Scaling) -> Result<Option<Polyhedron>> {
+    let hull = build(points, None)?;
+    let offset = hull.centre;
+    if hull.dimension < 3 {
+        return Ok(None);
+    }
+    if scale == Scaling::WhereNeeded && hull.centre == base.centre && contains(&hull, base) {
+        return Ok(Some(hull));
+    }
+    let from_centre: Vec<Vector> = hull.vertices.iter().map(|v| v.position + offset - centre).collect();
+    let (mut factor, mut least) = (0.0_f64, f64::INFINITY);
+    let mut start = 0;
+    for face in faces_in_order(&hull) {
+        let face = &hull.faces[face as usize];
+        let height = face.normal.dot(&from_centre[face.vertex as usize]);
+        start = base.support(&face.normal, start).0;
+        let reach = face.normal.dot(&(base.vertices[start as usize].position - centre));
+        least = least.min(height);
+        factor = factor.max(reach / height);
+    }
+    if !(least > 0.0 && factor > 0.0 && factor.is_finite()) {
+        return Ok(None);
+    }
+    let mut margin = 64.0 * UNIT_ROUNDOFF * (hull.mass.radius + base.radius / factor) / least;
+    for _ in 0..ATTEMPTS {
+        if !(margin < 1.0) {
+            break;
+        }
+        let grown = factor * (1.0 + margin);
+        let points: Vec<Vector> = from_centre.iter().map(|p| centre + p * grown).collect();
+        let level = build(&points, None)?;
+        if level.centre == base.centre && contains(&level, base) {
+            return Ok(Some(level));
+        }
+        margin *= 4.0;
+    }
+    Ok(None)
+}
+
+/// When [`bounding`] scales.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Scaling {
+    /// Only where the hull does not contain the body yet.
+    WhereNeeded,
+    /// Always, down where the hull is larger than need be.
+    Always,
+}
+
+/// The faces of a polyhedron, neighbours near each other: by their lowest vertex, as the vertices are in such an order.
+pub fn faces_in_order(polyhedron: &Polyhedron) -> Vec<u32> {
+    let mut lowest = vec![u32::MAX; polyhedron.faces.len()];
+    for (corners, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
+        for &v in corners {
+            lowest[face as usize] = lowest[face as usize].min(v);
+        }
+    }
+    let mut order: Vec<u32> = (0..polyhedron.faces.len() as u32).collect();
+    order.sort_by_key(|face| lowest[*face as usize]);
+    order
+}

@@ -1,0 +1,285 @@
+//! Levels of detail: ever simpler convex polyhedra P₁ … P_k around a body P₀, each of which provably contains it, with how far it
+//! stands off and which features of neighbouring levels belong together (Ehmann & Lin 2000, §3 and §4).
+//!
+//! The makers (quadric error simplification, Dobkin-Kirkpatrick, cutting planes) propose points; what all have in common is here. A
+//! level is the *exact* hull of its points, laid out like P₀, so all that runs on a body runs on its levels.
+//!
+//! This module stands above the pair machinery, which its deviations need: the distance of a level's vertex from P₀ is an ordinary
+//! certified query with a one-vertex body, and a second, lower way to a certified distance would be one more to trust.
+
+mod bounding;
+mod correspondence;
+
+use std::borrow::Cow;
+
+use crate::error::{Error, Result};
+use crate::math::Vector;
+use crate::point_distance::PointDistance;
+use crate::polyhedron::Polyhedron;
+use crate::progress::Progress;
+use crate::state::FeatureId;
+use bounding::{Scaling, bounding, translated};
+use correspondence::{Correspondence, by_position};
+
+/// How the levels of a body are made.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum HierarchyKind {
+    /// There are none.
+    #[default]
+    None = 0,
+    /// Simplified by quadric error (Garland & Heckbert 1997), then translated and scaled until they contain the body.
+    Quadric = 1,
+    /// Dobkin and Kirkpatrick's, without sharp vertices, scaled about the centre of mass and drawn back vertex by vertex.
+    DobkinKirkpatrick = 2,
+    /// Cut out of a box by planes that touch the body: tight on thin bodies, too.
+    OuterCuts = 3,
+    /// The caller's, translated and scaled until they contain the body.
+    Given = 4,
+}
+
+/// What levels to make.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct HierarchyOptions {
+    /// How.
+    pub kind: HierarchyKind,
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Dobkin and
+    /// Kirkpatrick's own way of building decides for theirs.
+    pub decimation: f64,
+    /// No level has fewer triangles.
+    pub minimum_triangles: usize,
+    /// No more levels than these.
+    pub most_levels: usize,
+}
+
+impl Default for HierarchyOptions {
+    /// No levels; for other kinds a quarter of the triangles from level to level, at least 50, at most 32 levels.
+    fn default() -> Self {
+        HierarchyOptions { kind: HierarchyKind::None, decimation: 0.25, minimum_triangles: 50, most_levels: 32 }
+    }
+}
+
+impl HierarchyOptions {
+    /// # Errors
+    /// [`Error::Argument`] for an option out of range, and for [`HierarchyKind::Given`].
+    pub fn check(&self) -> Result<()> {
+        if !(self.decimation > 0.0 && self.decimation < 1.0) {
+            return Err(Error::Argument(format!("the decimation {} is not between 0 and 1", self.decimation)));
+        }
+        if self.kind == HierarchyKind::Given {
+            return Err(Error::Argument("levels of kind Given are given, not built".into()));
+        }
+        Ok(())
+    }
+}
+
+/// For each feature of a polyhedron one of a neighbouring level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Links {
+    /// For each vertex.
+    pub vertices: Vec<FeatureId>,
+    /// For each edge.
+    pub edges: Vec<FeatureId>,
+    /// For each face.
+    pub faces: Vec<FeatureId>,
+}
+
+impl Links {
+    /// All to vertex 0.
+    fn new(polyhedron: &Polyhedron) -> Links {
+        let links = |count: usize| vec![FeatureId::Vertex(0); count];
+        Links {
+            vertices: links(polyhedron.vertices.len()),
+            edges: links(polyhedron.edges.len()),
+            faces: links(polyhedron.faces.len()),
+        }
+    }
+
+    /// What a feature is linked to.
+    #[inline]
+    pub fn of(&self, feature: FeatureId) -> FeatureId {
+        match feature {
+            FeatureId::Vertex(v) => self.vertices[v as usize],
+            FeatureId::Edge(e) => self.edges[e as usize],
+            FeatureId::Face(f) => self.faces[f as usize],
+        }
+    }
+
+    /// Memory held, in bytes.
+    pub fn heap_bytes(&self) -> usize {
+        let Links { vertices, edges, faces } = self;
+        size_of_val(&vertices[..]) + size_of_val(&edges[..]) + size_of_val(&faces[..])
+    }
+}
+
+/// One level.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Level {
+    /// Contains P₀, exactly as the doubles of both give them. Its `centre` is that of P₀, its vertex labels mean nothing.
+    pub polyhedron: Polyhedron,
+    /// An upper bound, rounding included, of the largest distance of a point of this level from P₀, in P₀'s frame. A pose that is not
+    /// quite orthonormal stretches it by at most ‖R‖₂.
+    pub deviation: f64,
+    /// The child of each feature of this level: a feature of the next finer one (P₀ for the finest level).
+    pub children: Links,
+    /// The parent of each feature of the next *finer* level: a feature of this one.
+    pub parents: Links,
+}
+
+/// The levels of a body.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Hierarchy {
+    /// How they were made.
+    pub kind: HierarchyKind,
+    /// P₁ … P_k, the finest first. P₀ is not among them.
+    pub levels: Vec<Level>,
+}
+
+impl Hierarchy {
+    /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is moved so that
+    /// its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains P₀.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`] for a level without interior or so thin that no rounding makes it contain P₀, [`Error::Argument`] for a
+    /// coordinate that is not finite or a body too small or too large (2^±200), [`Error::Cancelled`].
+    pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
+        let centred = centred(base);
+        let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
+        if !levels.is_empty() && !builder.is_of_usual_size() {
+            return Err(Error::Argument("levels need a body of a size between 2^-200 and 2^200".into()));
+        }
+        for (i, points) in levels.iter().enumerate() {
+            let done = |k: usize| k as f64 / levels.len() as f64;
+            let mut part = progress.part(done(i), done(i + 1));
+            part.report(0.0)?;
+            if let Some(p) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
+                return Err(Error::Argument(format!(
+                    "vertex {p} of level {i} is not finite: {:?}",
+                    points[p].as_slice()
+                )));
+            }
+            let points = translated(points, &-base.centre);
+            if !builder.add_in_general(&points, &mut part)? {
+                return Err(Error::Mesh(format!(
+                    "level {i} has no interior, or too little to be made to bound the body"
+                )));
+            }
+        }
+        Ok(builder.finish(base))
+    }
+
+    /// Memory held, in bytes.
+    pub fn heap_bytes(&self) -> usize {
+        let of_level = |level: &Level| {
+            let Level { polyhedron, deviation: _, children, parents } = level;
+            size_of::<Level>() + polyhedron.heap_bytes() + children.heap_bytes() + parents.heap_bytes()
+        };
+        self.levels.iter().map(of_level).sum()
+    }
+}
+
+/// A polyhedron in its own centred coordinates.
+fn centred(polyhedron: &Polyhedron) -> Cow<'_, Polyhedron> {
+    if polyhedron.centre == Vector::zeros() {
+        return Cow::Borrowed(polyhedron);
+    }
+    let mut centred = polyhedron.clone();
+    shift(&mut centred, &-polyhedron.centre);
+    centred.centre = Vector::zeros();
+    Cow::Owned(centred)
+}
+
+/// Moves the frame of a polyhedron; its centred coordinates stay.
+fn shift(polyhedron: &mut Polyhedron, by: &Vector) {
+    polyhedron.centre += by;
+    polyhedron.mass.centre_of_mass += by;
+    polyhedron.mass.lower += by;
+    polyhedron.mass.upper += by;
+}
+
+/// Levels under construction, all in the centred coordinates of P₀.
+struct Builder<'a> {
+    base: &'a Polyhedron,
+    distance: PointDistance<'a>,
+    hierarchy: Hierarchy,
+    /// For each vertex of the coarsest level so far a vertex of P₀ near by.
+    near: Vec<u32>,
+}
+
+impl<'a> Builder<'a> {
+    fn new(base: &'a Polyhedron, kind: HierarchyKind) -> Result<Builder<'a>> {
+        Ok(Builder {
+            base,
+            distance: PointDistance::new(base)?,
+            hierarchy: Hierarchy { kind, levels: Vec::new() },
+            near: (0..base.vertices.len() as u32).collect(),
+        })
+    }
+
+    /// Whether planes and squares of this body neither over- nor underflow.
+    fn is_of_usual_size(&self) -> bool {
+        const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
+        (1.0 / LARGEST..=LARGEST).contains(&self.base.radius)
+    }
+
+    /// P_{i−1} for the next P_i.
+    fn below(&self) -> &Polyhedron {
+        self.hierarchy.levels.last().map_or(self.base, |level| &level.polyhedron)
+    }
+
+    /// Adds the next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `false` if they cannot
+    /// be made to bound the body.
+    fn add_in_general(&mut self, points: &[Vector], progress: &mut Progress) -> Result<bool> {
+        let hull = crate::polyhedron_build::build(points, None)?;
+        let centre = self.below().mass.centre_of_mass;
+        let points: Vec<Vector> = (0..hull.vertices.len() as u32).map(|v| hull.local_position(v)).collect();
+        let points = translated(&points, &(centre - hull.mass.centre_of_mass));
+        progress.report(0.25)?;
+        match bounding(&points, &centre, self.base, Scaling::Always)? {
+            Some(level) => self.add(level, progress).map(|()| true),
+            None => Ok(false),
+        }
+    }
+
+    /// Adds a level that contains the body, linked by position.
+    fn add(&mut self, polyhedron: Polyhedron, progress: &mut Progress) -> Result<()> {
+        progress.report(0.5)?;
+        let below = PointDistance::new(self.below())?;
+        let correspondence = by_position(&below, &polyhedron)?;
+        progress.report(0.75)?;
+        self.add_linked(polyhedron, correspondence);
+        progress.report(1.0)
+    }
+
+    /// Adds a level that contains the body.
+    fn add_linked(&mut self, polyhedron: Polyhedron, correspondence: Correspondence) {
+        let Correspondence { children, parents } = correspondence;
+        let mut deviation = 0.0_f64;
+        let mut near = Vec::with_capacity(polyhedron.vertices.len());
+        for (vertex, child) in polyhedron.vertices.iter().zip(&children.vertices) {
+            let hint = match *child {
+                FeatureId::Vertex(v) => self.near[v as usize],
+                _ => 0,
+            };
+            // The distance from a convex body is a convex function: over a polyhedron it is largest at a vertex.
+            match self.distance.nearest(&vertex.position, hint) {
+                Some(nearest) => {
+                    deviation = deviation.max(nearest.upper);
+                    near.push(nearest.vertex);
+                }
+                None => near.push(hint),
+            }
+        }
+        self.near = near;
+        self.hierarchy.levels.push(Level { polyhedron, deviation, children, parents });
+    }
+
+    /// The levels in the frame of `base`.
+    fn finish(self, base: &Polyhedron) -> Hierarchy {
+        let mut hierarchy = self.hierarchy;
+        if base.centre != Vector::zeros() {
+            hierarchy.levels.iter_mut().for_each(|level| shift(&mut level.polyhedron, &base.centre));
+        }
+        hierarchy
+    }
+}
