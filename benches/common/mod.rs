@@ -6,6 +6,7 @@
 #![allow(dead_code)] // every program that includes this uses a part of it
 
 pub mod files;
+pub mod hard;
 pub mod models;
 pub mod orbits;
 pub mod random;

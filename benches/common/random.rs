@@ -24,6 +24,43 @@ impl Random {
         low + (high - low) * unit
     }
 
+    /// Uniform in [-1, 1).
+    pub fn signed(&mut self) -> f64 {
+        self.uniform(-1.0, 1.0)
+    }
+
+    /// Uniform in 0..n.
+    pub fn below(&mut self, n: usize) -> usize {
+        (self.next_u64() % n as u64) as usize
+    }
+
+    /// One of the items.
+    pub fn pick<T: Copy>(&mut self, items: &[T]) -> T {
+        items[self.below(items.len())]
+    }
+
+    /// Every component uniform in [-1, 1).
+    pub fn vector(&mut self) -> Vector {
+        Vector::new(self.signed(), self.signed(), self.signed())
+    }
+
+    /// An integer vector with components in -n..=n.
+    pub fn lattice(&mut self, n: usize) -> Vector {
+        let mut component = || self.below(2 * n + 1) as f64 - n as f64;
+        Vector::new(component(), component(), component())
+    }
+
+    /// One of the 24 rotations of the cube: exact in doubles.
+    pub fn quarter_turns(&mut self) -> Matrix {
+        let x = Matrix::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
+        let y = Matrix::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
+        let mut turn = Matrix::identity();
+        for _ in 0..self.below(6) {
+            turn *= if self.below(2) == 0 { x } else { y };
+        }
+        turn
+    }
+
     /// Standard normal (Box & Muller 1958).
     pub fn normal(&mut self) -> f64 {
         let radius = (-2.0 * (1.0 - self.uniform(0.0, 1.0)).ln()).sqrt();

@@ -1,0 +1,193 @@
+//! Writes the catalogue of hard families to a folder, each pose with its exact truth, in the form that `make cases` reads:
+//!
+//!   cargo run --release --example hard_cases -- DIR [--seed N] [--count N] [--family NAME]...
+//!
+//! DIR/FAMILY/README says why the family is hard, with sources; DIR/FAMILY/cases.txt has a line `A.off B.off POSES TRUTH` for each
+//! of `--count` sequences (6). A pose is a line of 24 doubles, the row-major 3x4 `[R|T]` of A and of B, each with 17 digits. A
+//! truth is a line of 13 numbers a pose:
+//!
+//!   lo hi  ax ay az  bx by bz  depth_lo depth_hi  nx ny nz
+//!
+//! The distance lies in [lo, hi], both 0 when the closed bodies meet. Disjoint: a and b are nearest points, n runs from A to B.
+//! Intersecting: the depth, which is the least translation that leaves the interiors disjoint, lies in [depth_lo, depth_hi]; 0 means
+//! touching. Moving B by depth·n separates; a and b are a deepest pair, a − b = depth·n, or a common point when touching, or `nan`
+//! where the bodies have too many vertices for the depth to be followed to the end. The bodies are the hulls of R·v + T exactly as
+//! the doubles say. Every verdict and distance is computed in integers and rationals with nothing of the library
+//! (`tests/oracle/any_size`): the nearest points prove one bound, a supporting plane over all vertices the other.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+use std::process::ExitCode;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+
+#[path = "../tests/oracle/any_size/mod.rs"]
+mod any_size;
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use any_size::decimal::{direction, root_enclosure, rounded};
+use any_size::depth::depth;
+use any_size::integers::{Placed, place};
+use any_size::nearest::nearest;
+use common::PosePair;
+use common::hard::{Family, Sequence, families, triangles};
+use swiftprox::mesh::PolygonMesh;
+
+/// Vertices of the difference body that are looked for to bound a depth, when the bodies are large.
+const DEPTH_LIMIT: usize = 150;
+
+/// The sum of the bodies' vertices up to which a depth is followed to its end.
+const SMALL: usize = 120;
+
+struct Arguments {
+    folder: PathBuf,
+    seed: u64,
+    count: usize,
+    families: Vec<String>,
+}
+
+fn main() -> ExitCode {
+    match arguments().and_then(|arguments| write_all(&arguments)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(message) => {
+            eprintln!("hard_cases: {message}");
+            ExitCode::from(2)
+        }
+    }
+}
+
+fn arguments() -> Result<Arguments, String> {
+    let usage = "hard_cases DIR [--seed N] [--count N] [--family NAME]...";
+    let mut words = std::env::args().skip(1);
+    let folder = words.next().filter(|word| !word.starts_with('-')).ok_or(usage)?;
+    let mut arguments = Arguments { folder: folder.into(), seed: 1, count: 6, families: Vec::new() };
+    while let Some(word) = words.next() {
+        let value = words.next().ok_or(format!("{word}: a value is missing; {usage}"))?;
+        let number = || value.parse::<u64>().map_err(|_| format!("{value}: not a number"));
+        match word.as_str() {
+            "--seed" => arguments.seed = number()?,
+            "--count" => arguments.count = number()? as usize,
+            "--family" => arguments.families.push(value),
+            _ => return Err(format!("{word}: unknown; {usage}")),
+        }
+    }
+    Ok(arguments)
+}
+
+fn write_all(arguments: &Arguments) -> Result<(), String> {
+    if let Some(unknown) = arguments.families.iter().find(|name| families().all(|family| family.name != **name)) {
+        return Err(format!("{unknown}: no such family"));
+    }
+    let wanted =
+        |family: &&Family| arguments.families.is_empty() || arguments.families.contains(&family.name.to_string());
+    let mut poses = 0;
+    for family in families().filter(wanted) {
+        let folder = arguments.folder.join(family.name);
+        let written = write_family(family, &folder, arguments).map_err(|e| format!("{}: {e}", folder.display()))?;
+        println!("{}: {} sequences, {written} poses", family.name, arguments.count);
+        poses += written;
+    }
+    println!("{poses} poses");
+    Ok(())
+}
+
+/// Returns the number of poses.
+fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> std::io::Result<usize> {
+    fs::create_dir_all(folder)?;
+    let sources = family.sources.join(", ");
+    let Arguments { seed, count, .. } = arguments;
+    let truth = "truth: exact integers and rationals, without the library (tests/oracle/any_size)";
+    fs::write(
+        folder.join("README"),
+        format!("{}: {}\nsources: {sources}\nseed {seed}, {count} sequences\n{truth}\n", family.name, family.why),
+    )?;
+    let (mut list, mut written) = (String::new(), 0);
+    for index in 0..*count {
+        let sequence = family.sequence(*seed, index);
+        let stem = format!("c{index}_{}", sequence.name);
+        let meshes = [format!("m{}.off", 2 * index), format!("m{}.off", 2 * index + 1)];
+        for (name, body) in meshes.iter().zip(&sequence.bodies) {
+            fs::write(folder.join(name), off(body))?;
+        }
+        fs::write(folder.join(format!("{stem}.poses")), pose_lines(&sequence.poses))?;
+        fs::write(folder.join(format!("{stem}.truth")), truths(&sequence))?;
+        list += &format!("{} {} {stem}.poses {stem}.truth\n", meshes[0], meshes[1]);
+        written += sequence.poses.len();
+    }
+    fs::write(folder.join("cases.txt"), list)?;
+    Ok(written)
+}
+
+fn off(body: &PolygonMesh) -> String {
+    let triangles = triangles(body);
+    let mut text = format!("OFF\n{} {} 0\n", body.vertices.len(), triangles.len());
+    for v in &body.vertices {
+        text += &format!("{:.16e} {:.16e} {:.16e}\n", v.x, v.y, v.z);
+    }
+    for [a, b, c] in triangles {
+        text += &format!("3 {a} {b} {c}\n");
+    }
+    text
+}
+
+fn pose_lines(poses: &[PosePair]) -> String {
+    let line = |pair: &PosePair| pair.map(|x| format!("{x:.16e}")).join(" ") + "\n";
+    poses.iter().map(line).collect()
+}
+
+/// A line of truth a pose, two threads taking pose after pose.
+fn truths(sequence: &Sequence) -> String {
+    let points =
+        sequence.bodies.each_ref().map(|body| body.vertices.iter().map(|&v| v.into()).collect::<Vec<[f64; 3]>>());
+    let next = AtomicUsize::new(0);
+    let lines = Mutex::new(vec![String::new(); sequence.poses.len()]);
+    let work = || {
+        loop {
+            let index = next.fetch_add(1, Ordering::Relaxed);
+            let Some(pair) = sequence.poses.get(index) else { return };
+            let line = truth(&place(&points[0], &points[1], pair));
+            lines.lock().expect("no panic")[index] = line;
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        work();
+    });
+    lines.into_inner().expect("no panic").concat()
+}
+
+fn truth(placed: &Placed) -> String {
+    let e = placed.exponent;
+    let written = |point: &[RBig; 3]| point.each_ref().map(|x| rounded(x, e)).join(" ");
+    let found = nearest(placed);
+    let [a, b] = [found.point(&placed.a, 0), found.point(&placed.b, 1)];
+    if !found.square.is_zero() {
+        let [lo, hi] = root_enclosure(&found.square, e);
+        let towards_b = [0, 1, 2].map(|k| &b[k] - &a[k]);
+        return format!(
+            "{lo} {hi} {} {} 0 0 {}\n",
+            written(&a),
+            written(&b),
+            direction(&integers(&towards_b)).join(" ")
+        );
+    }
+    let limit = if placed.a.len() + placed.b.len() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
+    let depth = depth(placed, limit);
+    let [[lo, _], [_, hi]] = [&depth.lower_square, &depth.upper_square].map(|square| root_enclosure(square, e));
+    let points = if hi == "0" {
+        format!("{} {}", written(&a), written(&b))
+    } else {
+        depth.points.map_or("nan nan nan nan nan nan".to_string(), |[a, b]| format!("{} {}", written(&a), written(&b)))
+    };
+    format!("0 0 {points} {lo} {hi} {}\n", direction(&depth.direction).join(" "))
+}
+
+/// A vector with rational components times their common denominator.
+fn integers(v: &[RBig; 3]) -> [IBig; 3] {
+    let product = v.iter().fold(IBig::ONE, |product, x| product * IBig::from(x.denominator().clone()));
+    v.each_ref().map(|x| x.numerator() * (&product / IBig::from(x.denominator().clone())))
+}
