@@ -21,6 +21,7 @@ pub mod mass;
 pub mod polyhedron_build;
 pub mod progress;
 pub mod quadric;
+pub mod dobkin_kirkpatrick;
 pub mod state;
 pub mod voronoi;
 pub mod frame;

@@ -16,7 +16,7 @@ pub fn translated(points: &[Vector], by: &Vector) -> Vec<Vector> {
 
 /// The hull of the points if it contains `base` as it is, else scaled about `centre` so that it barely does; decided exactly
 /// ([`contains`]). All in the centred coordinates of `base`, whose `centre` is 0. `None` if the hull has no interior or `centre` lies too
-/// near its surface, or outside.
+/// near its surface, or outside. The vertex labels of the result are indices of `points`.
 ///
 /// The factor is the largest over the faces of the height of the body's extreme vertex over that of the face, both above `centre`, and a
 /// margin for the rounding of planes and vertices: each of a few u·ρ, so 64uρ over the least height, and four times as much each time
@@ -54,7 +54,10 @@ pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Sc
         }
         let grown = factor * (1.0 + margin);
         let points: Vec<Vector> = from_centre.iter().map(|p| centre + p * grown).collect();
-        let level = build(&points, None)?;
+        let mut level = build(&points, None)?;
+        for label in &mut level.vertex_labels {
+            *label = hull.vertex_labels[*label as usize];
+        }
         if level.centre == base.centre && contains(&level, base) {
             return Ok(Some(level));
         }

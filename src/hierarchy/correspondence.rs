@@ -56,6 +56,113 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
     Ok(Correspondence { children, parents })
 }
 
+/// The scheme of a hierarchy whose levels have vertices of the body, moved: what is kept corresponds to itself, a new edge or face to the
+/// vertex that was removed there, and that to what replaces it, by position. `ids` gives for the vertices of `below` and of `above`
+/// which of the body they are, `filled` for the new triangles the removed vertex.
+///
+/// The paper says so for children; its parents "are different", no more. What is removed gets a neighbour that is kept, the faces around
+/// it the vertex that is extreme along their normals.
+pub fn by_identity(
+    [below, above]: [&Polyhedron; 2],
+    ids: [&[u32]; 2],
+    filled: &[([u32; 3], u32)],
+    count: usize,
+) -> Correspondence {
+    let [in_below, in_above] = ids.map(|ids| index_of(ids, count));
+    let vertex_below = |id: u32| in_below[id as usize];
+
+    // A vertex of the level below may have been left out there, where rounding put it into a face.
+    let nearest_below = |v: u32| nearest_vertex_by_walking(below, &above.vertices[v as usize].position, 0);
+    let mut children = Links::new(above);
+    for (v, id) in (0..).zip(ids[1]) {
+        let kept = vertex_below(*id);
+        children.vertices[v as usize] = FeatureId::Vertex(if kept == NONE { nearest_below(v) } else { kept });
+    }
+    let triangles_below = triangles_by_ids(below, ids[0]);
+    let removed_at = |corners: &[u32; 3]| {
+        let found = filled.binary_search_by_key(corners, |(corners, _)| *corners).ok();
+        found.map(|i| vertex_below(filled[i].1)).filter(|v| *v != NONE)
+    };
+    for (corners, face) in triangles_by_ids(above, ids[1]) {
+        let kept = triangles_below.binary_search_by_key(&corners, |(corners, _)| *corners).ok();
+        children.faces[face as usize] = match (kept, removed_at(&corners)) {
+            (Some(i), _) => FeatureId::Face(triangles_below[i].1),
+            (None, Some(removed)) => FeatureId::Vertex(removed),
+            // Neither: rounding has turned a diagonal over.
+            (None, None) => children.vertices[in_above[corners[0] as usize] as usize],
+        };
+    }
+    for (edge, child) in above.edges.iter().zip(&mut children.edges) {
+        let ends = [edge.tail, edge.head].map(|v| vertex_below(ids[1][v as usize]));
+        let removed = [edge.left, edge.right].map(|f| children.faces[f as usize]).into_iter();
+        *child = match edge_between(below, ends) {
+            Some(kept) => FeatureId::Edge(kept),
+            None => removed
+                .filter(|child| matches!(child, FeatureId::Vertex(_)))
+                .next_back()
+                .unwrap_or(children.vertices[edge.tail as usize]),
+        };
+    }
+
+    let mut parents = Links::new(below);
+    for (parent, extreme) in parents.faces.iter_mut().zip(extreme_vertices(below, above)) {
+        *parent = FeatureId::Vertex(extreme);
+    }
+    for (edge, parent) in below.edges.iter().zip(&mut parents.edges) {
+        *parent = parents.faces[edge.right as usize];
+    }
+    for (v, id) in (0..).zip(ids[0]) {
+        let kept = in_above[*id as usize];
+        let position = |w: u32| above.vertices[w as usize].position;
+        let distance = |w: &u32| (position(*w) - below.vertices[v as usize].position).norm_squared();
+        let neighbours = below.neighbour_blocks(v).flat_map(|block| block.head);
+        let near = neighbours.map(|w| in_above[ids[0][w as usize] as usize]).filter(|w| *w != NONE);
+        let nearest = || near.min_by(|a, b| distance(a).total_cmp(&distance(b))).unwrap_or(0);
+        parents.vertices[v as usize] = FeatureId::Vertex(if kept == NONE { nearest() } else { kept });
+    }
+    for (f, child) in (0..).zip(&children.faces) {
+        if let FeatureId::Face(below) = *child {
+            parents.faces[below as usize] = FeatureId::Face(f);
+        }
+    }
+    for (e, child) in (0..).zip(&children.edges) {
+        if let FeatureId::Edge(below) = *child {
+            parents.edges[below as usize] = FeatureId::Edge(e);
+        }
+    }
+    Correspondence { children, parents }
+}
+
+/// Where each id is in a list of some of 0..`count`; NONE for the others.
+fn index_of(ids: &[u32], count: usize) -> Vec<u32> {
+    let mut index = vec![NONE; count];
+    for (i, id) in (0..).zip(ids) {
+        index[*id as usize] = i;
+    }
+    index
+}
+
+/// The triangles of a polyhedron by the ids of their corners, ascending, and the faces that they are part of; in order.
+fn triangles_by_ids(polyhedron: &Polyhedron, ids: &[u32]) -> Vec<([u32; 3], u32)> {
+    let by_ids = |(corners, face): (&[u32; 3], &u32)| {
+        let mut corners = corners.map(|v| ids[v as usize]);
+        corners.sort_unstable();
+        (corners, *face)
+    };
+    let mut triangles: Vec<_> = polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle).map(by_ids).collect();
+    triangles.sort_unstable();
+    triangles
+}
+
+/// The edge from one vertex to another, if there is one; they may be NONE.
+fn edge_between(polyhedron: &Polyhedron, [tail, head]: [u32; 2]) -> Option<u32> {
+    if tail == NONE || head == NONE {
+        return None;
+    }
+    let lanes = polyhedron.neighbour_blocks(tail).flat_map(|block| block.head.into_iter().zip(block.edge));
+    lanes.filter(|(_, edge)| *edge != NONE).find(|(neighbour, _)| *neighbour == head).map(|(_, edge)| edge)
+}
+
 /// The vertex of `above` that is extreme along the normal of each face of `below`.
 pub fn extreme_vertices(below: &Polyhedron, above: &Polyhedron) -> Vec<u32> {
     let mut extreme = vec![NONE; below.faces.len()];

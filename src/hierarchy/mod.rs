@@ -12,14 +12,17 @@ mod correspondence;
 
 use std::borrow::Cow;
 
+use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
 use crate::error::{Error, Result};
 use crate::math::Vector;
 use crate::point_distance::PointDistance;
 use crate::polyhedron::Polyhedron;
+use crate::polyhedron_build::build;
 use crate::progress::Progress;
+use crate::quadric::simplify;
 use crate::state::FeatureId;
 use bounding::{Scaling, bounding, translated};
-use correspondence::{Correspondence, by_position};
+use correspondence::{Correspondence, by_identity, by_position};
 
 /// How the levels of a body are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -136,6 +139,28 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
+    /// Builds levels. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large (2^±200),
+    /// and where each would be no simpler than the next finer one: a box or a tetrahedron gets none. Otherwise so many until one
+    /// more would fall below the minimum of triangles, would have no interior, or be so thin that no rounding makes it contain P₀.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].
+    pub fn build(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
+        options.check()?;
+        let centred = centred(base);
+        let mut builder = Builder::new(&centred, options.kind)?;
+        if base.dimension == 3 && builder.is_of_usual_size() {
+            match options.kind {
+                HierarchyKind::None | HierarchyKind::Given => {}
+                HierarchyKind::Quadric => builder.add_quadric(options, progress)?,
+                HierarchyKind::DobkinKirkpatrick => builder.add_dobkin_kirkpatrick(options, progress)?,
+                HierarchyKind::OuterCuts => {}
+            }
+        }
+        progress.report(1.0)?;
+        Ok(builder.finish(base))
+    }
+
     /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is moved so that
     /// its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains P₀.
     ///
@@ -227,10 +252,55 @@ impl<'a> Builder<'a> {
         self.hierarchy.levels.last().map_or(self.base, |level| &level.polyhedron)
     }
 
+    /// Levels by quadric error simplification: each has a constant fraction of the triangles of the one below.
+    fn add_quadric(&mut self, options: &HierarchyOptions, progress: &mut Progress) -> Result<()> {
+        let mut remaining = 1.0; // of the work
+        while self.hierarchy.levels.len() < options.most_levels {
+            let below = self.below();
+            let target = (below.triangles.len() as f64 * options.decimation) as usize;
+            if target < options.minimum_triangles.max(4) {
+                break;
+            }
+            let positions: Vec<Vector> = below.vertices.iter().map(|v| v.position).collect();
+            let mut part = progress.part(1.0 - remaining, 1.0 - remaining * options.decimation);
+            remaining *= options.decimation;
+            let mut simplifying = part.part(0.0, 0.5);
+            let points = simplify(&positions, &below.triangles, target, &mut |f| simplifying.report(f).is_ok())?.points;
+            if !self.add_in_general(&points, &mut part.part(0.5, 1.0))? {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Levels by Dobkin and Kirkpatrick's construction.
+    fn add_dobkin_kirkpatrick(&mut self, options: &HierarchyOptions, progress: &mut Progress) -> Result<()> {
+        let mut removing = DobkinKirkpatrick::new(self.base)?;
+        let count = self.base.vertices.len();
+        let mut ids: Vec<u32> = (0..count as u32).collect();
+        // Every level costs about as much: the vertices of the body take part in all of them.
+        let minimum = options.minimum_triangles.max(4);
+        let levels_to = |left: usize| (left as f64 / minimum as f64).max(1.0).ln();
+        let all = levels_to(self.base.triangles.len());
+        let done = |left: usize| if all > 0.0 { 1.0 - levels_to(left) / all } else { 0.0 };
+        while self.hierarchy.levels.len() < options.most_levels {
+            let start = done(removing.triangle_count());
+            let mut part = progress.part(start, start + 0.1 * (1.0 - start));
+            let Some(Removal { vertices, points, filled }) = removing.next(minimum, &mut part)? else { break };
+            let centre = self.base.mass.centre_of_mass;
+            let Some(level) = bounding(&points, &centre, self.base, Scaling::WhereNeeded)? else { break };
+            let ids_above: Vec<u32> = level.vertex_labels.iter().map(|label| vertices[*label as usize]).collect();
+            let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &filled, count);
+            self.add_linked(level, correspondence);
+            ids = ids_above;
+        }
+        Ok(())
+    }
+
     /// Adds the next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `false` if they cannot
     /// be made to bound the body.
     fn add_in_general(&mut self, points: &[Vector], progress: &mut Progress) -> Result<bool> {
-        let hull = crate::polyhedron_build::build(points, None)?;
+        let hull = build(points, None)?;
         let centre = self.below().mass.centre_of_mass;
         let points: Vec<Vector> = (0..hull.vertices.len() as u32).map(|v| hull.local_position(v)).collect();
         let points = translated(&points, &(centre - hull.mass.centre_of_mass));

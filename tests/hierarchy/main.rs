@@ -8,7 +8,7 @@ mod validate;
 
 use bodies::bodies;
 use swiftprox::error::Error;
-use swiftprox::hierarchy::{Hierarchy, HierarchyKind};
+use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::Vector;
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
@@ -40,4 +40,31 @@ fn given_levels_are_made_to_bound() {
         }
     }
     assert!(with_levels > 15, "{with_levels}");
+}
+
+/// The kinds that are built.
+const KINDS: [HierarchyKind; 2] = [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick];
+
+fn built(base: &Polyhedron, options: &HierarchyOptions) -> Hierarchy {
+    Hierarchy::build(base, options, &mut Progress::new(&mut |_| true)).unwrap()
+}
+
+#[test]
+fn built_levels_bound_and_shrink() {
+    for kind in KINDS {
+        for decimation in [0.25, 0.5] {
+            let options = HierarchyOptions { kind, decimation, minimum_triangles: 20, most_levels: 40 };
+            for (name, body) in bodies(&[10, 102, 1002]) {
+                let hierarchy = built(&body, &options);
+                let counts: Vec<usize> =
+                    hierarchy.levels.iter().map(|level| level.polyhedron.triangles.len()).collect();
+                let deviations: Vec<f64> =
+                    hierarchy.levels.iter().map(|level| level.deviation / body.mass.radius).collect();
+                println!("{name} {kind:?} {decimation}: {} {counts:?} {deviations:.3?}", body.triangles.len());
+                validate(&name, &body, &hierarchy);
+                let all: Vec<usize> = [body.triangles.len()].into_iter().chain(counts).collect();
+                assert!(all.windows(2).all(|pair| pair[1] < pair[0]), "{name}, {kind:?}: {all:?}");
+            }
+        }
+    }
 }

@@ -19,8 +19,10 @@ pub fn validate(name: &str, base: &Polyhedron, hierarchy: &Hierarchy) {
         check_deviation(&name, base, level);
         check_ranges(&name, above, below, &level.children);
         check_ranges(&name, below, above, &level.parents);
-        check_children(&name, above, below, &level.children);
-        if hierarchy.kind != HierarchyKind::DobkinKirkpatrick {
+        if hierarchy.kind == HierarchyKind::DobkinKirkpatrick {
+            check_rays(&name, base, above, below, &level.children);
+        } else {
+            check_children(&name, above, below, &level.children);
             check_parents(&name, below, above, &level.parents);
         }
         below = above;
@@ -102,6 +104,34 @@ fn check_children(name: &str, above: &Polyhedron, below: &Polyhedron, children: 
             assert!(vertices_of(&[edge.tail, edge.head]).contains(child), "{name}");
         }
     }
+}
+
+/// Dobkin and Kirkpatrick's vertices move along rays from the centre of mass: the child of a vertex is on its ray (up to rounding, and all
+/// but a few that rounding has put inside a face of the level below), what is kept has itself for a child.
+fn check_rays(name: &str, base: &Polyhedron, above: &Polyhedron, below: &Polyhedron, children: &Links) {
+    let centre = base.mass.centre_of_mass - base.centre;
+    let mut aside = 0;
+    for (vertex, child) in above.vertices.iter().zip(&children.vertices) {
+        let FeatureId::Vertex(child) = *child else { panic!("{name}: the child of a vertex is {child:?}") };
+        let [a, b] = [vertex.position, below.vertices[child as usize].position].map(|p| p - centre);
+        let sine = a.cross(&b).norm() / (a.norm() * b.norm());
+        aside += usize::from(!(sine <= 1e-9 && a.dot(&b) > 0.0));
+    }
+    assert!(aside <= above.vertices.len() / 20, "{name}: {aside} of {}", above.vertices.len());
+    let mut kept = 0;
+    for (edge, child) in above.edges.iter().zip(&children.edges) {
+        if let FeatureId::Edge(child) = *child {
+            let child = &below.edges[child as usize];
+            let ends = [edge.tail, edge.head].map(|v| children.vertices[v as usize]);
+            assert!(
+                ends == [child.tail, child.head].map(FeatureId::Vertex)
+                    || ends == [child.head, child.tail].map(FeatureId::Vertex),
+                "{name}"
+            );
+            kept += 1;
+        }
+    }
+    assert!(kept > 0, "{name}");
 }
 
 /// The parent of a face is extreme along its normal, that of an edge or a vertex that of a face around it.

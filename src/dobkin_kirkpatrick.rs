@@ -1,0 +1,424 @@
+//! Levels after D. P. Dobkin and D. G. Kirkpatrick ("Determining the Separation of Preprocessed Polyhedra: A Unified Approach", ICALP
+//! 1990), as Ehmann & Lin 2000, §4.4, make bounding volumes of them.
+//!
+//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the vertices around
+//! it: what is left is the exact hull of a part of the body's vertices, and the next removal begins there. For its bounding volume the
+//! vertices move outward along rays from the body's centre of mass c, all by one factor at first (scaling), and then back one by one as
+//! far as the volume stays convex and bounds the body (relaxation).
+//!
+//! On those rays both conditions are *linear*. Let r = p − c for each vertex, and let the level have its vertices at r/x. A point q of
+//! the body lies in the cone of one triangle, its centre-of-mass region: r_q = α·r_a + β·r_b + γ·r_c with α, β, γ ≥ 0. It is below the
+//! plane through the moved corners exactly if α·x_a + β·x_b + γ·x_c ≤ 1. The vertex d beyond the edge of a triangle (a, b, c) is below its
+//! plane exactly if α·x_a + β·x_b + γ·x_c ≤ x_d, with r_d = α·r_a + β·r_b + γ·r_c. Neither the cones nor their coefficients
+//! change while vertices slide.
+//!
+//! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
+//! (see `hierarchy`).
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use crate::error::Result;
+use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::normal::{area_vector, normal_of};
+use crate::polyhedron::{NONE, Polyhedron};
+use crate::predicates::ExactPoints;
+use crate::progress::Progress;
+use crate::triangulation::Triangulation;
+
+/// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin 2000, §4.4).
+/// A corner of a box has importance 3, so a box gets no level.
+const MOST_IMPORTANT: f64 = 1.0;
+
+/// Vertices of more neighbours stay: filling their holes takes time in proportion to the square. No level would be without the tip of a
+/// cone anyway.
+const LARGEST_VALENCE: usize = 100;
+
+/// A level that saves less than one triangle in sixteen is not worth its memory; without such a limit a body of which only a vertex at
+/// a time can go would fill it.
+const LEAST_SAVING: usize = 16;
+
+/// Sliding ends where no vertex gains more than this fraction of the body's radius.
+const LEAST_SLIDE: f64 = 1e-6;
+
+/// The levels of a body, one after the other.
+pub struct DobkinKirkpatrick<'a> {
+    base: &'a Polyhedron,
+    exact: ExactPoints,
+    /// The body's vertices as seen from its centre of mass.
+    rays: Vec<Vector>,
+    /// Some are free, to be reused.
+    triangles: Vec<Triangle>,
+    free: Vec<u32>,
+    /// For each vertex that is left one of its triangles; NONE for the others.
+    triangle_at: Vec<u32>,
+    triangle_count: usize,
+}
+
+/// A triangle of the hull of the vertices that are left.
+struct Triangle {
+    /// Counter-clockwise from outside; vertices of the body.
+    corners: [u32; 3],
+    /// `neighbours[k]` is across the edge from `corners[k]` to `corners[(k + 1) % 3]`.
+    neighbours: [u32; 3],
+    /// Unit outward normal.
+    normal: Vector,
+    /// The removed vertices of the body in this triangle's centre-of-mass region.
+    region: Vec<u32>,
+    is_free: bool,
+}
+
+/// The next level as it comes from here.
+pub struct Removal {
+    /// The vertices of the body that are left, ascending.
+    pub vertices: Vec<u32>,
+    /// Where they are on this level, in the centred coordinates of the body.
+    pub points: Vec<Vector>,
+    /// The triangles that fill holes: their corners, ascending, and the removed vertex. Ordered by the corners.
+    pub filled: Vec<([u32; 3], u32)>,
+}
+
+impl<'a> DobkinKirkpatrick<'a> {
+    /// Begins with a body of dimension 3.
+    ///
+    /// # Errors
+    /// None that a caller can cause.
+    pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
+        let positions: Vec<Vector> = base.vertices.iter().map(|v| v.position).collect();
+        let centre = base.mass.centre_of_mass - base.centre;
+        let normals: Vec<Vector> = base.triangles.iter().map(|corners| normal(&positions, *corners)).collect();
+        let surface = Triangulation::new(base.triangles.clone(), &normals, positions.len())?;
+        let mut triangle_at = vec![NONE; positions.len()];
+        let mut triangles = Vec::with_capacity(base.triangles.len());
+        for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
+            let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
+            triangles.push(Triangle { corners, neighbours, normal, region: Vec::new(), is_free: false });
+            for v in corners {
+                triangle_at[v as usize] = t as u32;
+            }
+        }
+        Ok(DobkinKirkpatrick {
+            base,
+            exact: ExactPoints::new(&positions),
+            rays: positions.iter().map(|p| p - centre).collect(),
+            triangle_count: triangles.len(),
+            triangles,
+            free: Vec::new(),
+            triangle_at,
+        })
+    }
+
+    /// Triangles that are left.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// The next level, of at least `minimum` triangles. `None` where the construction ends: a tetrahedron or the minimum is reached,
+    /// hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Cancelled`].
+    pub fn next(&mut self, minimum: usize, progress: &mut Progress) -> Result<Option<Removal>> {
+        let set = self.independent_set(minimum.max(4));
+        if set.is_empty() || 2 * LEAST_SAVING * set.len() < self.triangle_count {
+            return Ok(None);
+        }
+        progress.report(0.1)?;
+        let mut filled = Vec::new();
+        for &v in &set {
+            if !self.remove(v, &mut filled) {
+                return Ok(None);
+            }
+        }
+        filled.sort_unstable();
+        progress.report(0.3)?;
+        let x = self.relaxed(self.scaling());
+        progress.report(0.9)?;
+
+        let vertices: Vec<u32> =
+            (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE).collect();
+        // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
+        let radius = self.base.mass.radius;
+        let least = (0..self.triangles.len()).filter(|t| !self.triangles[*t].is_free).map(|t| self.height(t as u32));
+        let grown = 1.0 + 64.0 * UNIT_ROUNDOFF * radius / least.fold(radius, f64::min);
+        if !(1.0..2.0).contains(&grown) {
+            return Ok(None);
+        }
+        let centre = self.base.mass.centre_of_mass - self.base.centre;
+        let place = |v: &u32| centre + self.rays[*v as usize] * (grown / x[*v as usize]);
+        let points = vertices.iter().map(place).collect();
+        progress.report(1.0)?;
+        Ok(Some(Removal { vertices, points, filled }))
+    }
+
+    /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ this is the
+    /// paper's Σ (1 + cos θ). 0 where the surface is flat, 3 at the corner of a box.
+    fn importance(&self, v: u32, star: &[u32]) -> f64 {
+        debug_assert!(star.iter().all(|t| self.triangles[*t as usize].corners.contains(&v)));
+        let normal = |k: usize| &self.triangles[star[k % star.len()] as usize].normal;
+        (0..star.len()).map(|k| 1.0 - normal(k).dot(normal(k + 1))).sum()
+    }
+
+    /// Vertices to be removed, no two of them neighbours: the least important ones first.
+    fn independent_set(&self, minimum: usize) -> Vec<u32> {
+        let mut candidates = Vec::new();
+        let mut star = Vec::new();
+        for v in (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE) {
+            self.star(v, &mut star);
+            let importance = self.importance(v, &star);
+            if importance <= MOST_IMPORTANT && star.len() <= LARGEST_VALENCE {
+                candidates.push((importance, v));
+            }
+        }
+        candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        // Each vertex takes two triangles with it.
+        let most = self.triangle_count.saturating_sub(minimum) / 2;
+        let mut is_taken = vec![false; self.rays.len()];
+        let mut set = Vec::new();
+        for (_, v) in candidates {
+            if set.len() == most {
+                break;
+            }
+            if is_taken[v as usize] {
+                continue;
+            }
+            set.push(v);
+            self.star(v, &mut star);
+            for w in star.iter().flat_map(|t| self.triangles[*t as usize].corners) {
+                is_taken[w as usize] = true;
+            }
+        }
+        set
+    }
+
+    /// The triangles around a vertex, counter-clockwise.
+    fn star(&self, v: u32, star: &mut Vec<u32>) {
+        star.clear();
+        let first = self.triangle_at[v as usize];
+        let mut t = first;
+        loop {
+            star.push(t);
+            let triangle = &self.triangles[t as usize];
+            t = triangle.neighbours[(place_of(triangle, v) + 2) % 3];
+            if t == first {
+                break;
+            }
+        }
+    }
+
+    /// Removes a vertex and fills the hole by the outer hull of the vertices around it. `false` if the centre of mass is not inside
+    /// of all of the filling.
+    fn remove(&mut self, v: u32, filled: &mut Vec<([u32; 3], u32)>) -> bool {
+        let mut star = Vec::new();
+        self.star(v, &mut star);
+        let mut ring = Vec::with_capacity(star.len());
+        let mut outer = Vec::with_capacity(star.len());
+        let mut region = vec![v];
+        for &t in &star {
+            let triangle = &mut self.triangles[t as usize];
+            let next = (place_of(triangle, v) + 1) % 3;
+            ring.push(triangle.corners[next]);
+            outer.push(triangle.neighbours[next]);
+            region.append(&mut triangle.region);
+            triangle.is_free = true;
+        }
+        self.free.extend_from_slice(&star);
+        self.triangle_at[v as usize] = NONE;
+        self.triangle_count -= 2;
+        let filling = self.fill(&ring, &outer);
+        let is_inside = filling.iter().all(|t| self.height(*t) > 64.0 * UNIT_ROUNDOFF * self.base.mass.radius);
+        for &t in &filling {
+            let mut corners = self.triangles[t as usize].corners;
+            corners.sort_unstable();
+            filled.push((corners, v));
+        }
+        for q in region {
+            // The cones of the filling are those of the hole: q is in one of them, up to rounding.
+            let inside = |t: &u32| self.cone(*t, q).into_iter().fold(f64::INFINITY, f64::min);
+            let best = filling.iter().copied().max_by(|s, t| inside(s).total_cmp(&inside(t)));
+            if let Some(t) = best {
+                self.triangles[t as usize].region.push(q);
+            }
+        }
+        is_inside
+    }
+
+    /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from `ring[k]`), wrapping
+    /// each part of the ring like a gift: over the chord from its first to its last vertex the one above which no other lies. Returns the
+    /// new triangles. Time in proportion to the square of the ring at worst.
+    fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Vec<u32> {
+        let mut filling = Vec::with_capacity(ring.len() - 2);
+        // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is outer.
+        let last = ring.len() - 1;
+        let mut parts = vec![(0, last, outer[last], NONE)];
+        while let Some((i, j, beyond, side)) = parts.pop() {
+            let (tail, head) = (ring[i], ring[j]);
+            if i + 1 == j {
+                // An edge of the ring; `beyond` is a new triangle.
+                self.triangles[beyond as usize].neighbours[side as usize] = outer[i];
+                self.join(outer[i], head, beyond);
+                continue;
+            }
+            let mut apex = i + 1;
+            let mut plane = self.exact.plane([tail, ring[apex], head]);
+            for k in i + 2..j {
+                if self.exact.height(&plane, ring[k]) > 0.0 {
+                    apex = k;
+                    plane = self.exact.plane([tail, ring[apex], head]);
+                }
+            }
+            let t = self.add([tail, ring[apex], head], beyond);
+            if side == NONE {
+                self.join(beyond, tail, t);
+            } else {
+                self.triangles[beyond as usize].neighbours[side as usize] = t;
+            }
+            filling.push(t);
+            parts.push((i, apex, t, 0));
+            parts.push((apex, j, t, 1));
+        }
+        filling
+    }
+
+    /// Makes `other` the neighbour of a triangle across the edge that begins at `from`, seen from that triangle.
+    fn join(&mut self, triangle: u32, from: u32, other: u32) {
+        let triangle = &mut self.triangles[triangle as usize];
+        let place = place_of(triangle, from);
+        triangle.neighbours[place] = other;
+    }
+
+    /// A new triangle; `across` is beyond the edge from its last corner to its first.
+    fn add(&mut self, corners: [u32; 3], across: u32) -> u32 {
+        let normal = normal(&self.rays, corners);
+        let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: Vec::new(), is_free: false };
+        let t = match self.free.pop() {
+            Some(t) => {
+                self.triangles[t as usize] = new;
+                t
+            }
+            None => {
+                self.triangles.push(new);
+                self.triangles.len() as u32 - 1
+            }
+        };
+        for v in corners {
+            self.triangle_at[v as usize] = t;
+        }
+        t
+    }
+
+    /// How far the plane of a triangle is from the centre of mass.
+    fn height(&self, t: u32) -> f64 {
+        let triangle = &self.triangles[t as usize];
+        triangle.normal.dot(&self.rays[triangle.corners[0] as usize])
+    }
+
+    /// α, β, γ with r_q = α·r_a + β·r_b + γ·r_c for the corners of a triangle.
+    fn cone(&self, t: u32, q: u32) -> [f64; 3] {
+        let [a, b, c] = self.triangles[t as usize].corners.map(|v| &self.rays[v as usize]);
+        let q = &self.rays[q as usize];
+        let normal = b.cross(c);
+        let volume = normal.dot(a);
+        [normal.dot(q) / volume, c.cross(a).dot(q) / volume, a.cross(b).dot(q) / volume]
+    }
+
+    /// The factor about the centre of mass that makes the hull of the vertices that are left bound the body.
+    fn scaling(&self) -> f64 {
+        let mut factor = 1.0_f64;
+        for (t, triangle) in self.triangles.iter().enumerate().filter(|(_, triangle)| !triangle.is_free) {
+            for &q in &triangle.region {
+                factor = factor.max(self.cone(t as u32, q).iter().sum());
+            }
+        }
+        factor
+    }
+
+    /// The x of each vertex that is left (see the head of this file) after relaxation: from 1/`factor` for all, again and again the
+    /// vertex that can slide farthest does.
+    fn relaxed(&self, factor: f64) -> Vec<f64> {
+        let mut x = vec![1.0 / factor; self.rays.len()];
+        let least = LEAST_SLIDE * self.base.mass.radius;
+        let slide = |x: &[f64], v: u32| {
+            let limit = self.limit(x, v);
+            (self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit), limit)
+        };
+        let entry = |slide: f64, v: u32| (slide.to_bits(), Reverse(v)); // a slide is ≥ 0, so its bits are in order
+        let left: Vec<u32> = (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE).collect();
+        let mut heap: BinaryHeap<(u64, Reverse<u32>)> = left.iter().map(|v| entry(slide(&x, *v).0, *v)).collect();
+        let mut star = Vec::new();
+        // Each slide makes neighbours come again; in practice two or three slides a vertex are all.
+        for _ in 0..32 * left.len() {
+            let Some((known, Reverse(v))) = heap.pop() else { break };
+            if f64::from_bits(known) <= least {
+                break;
+            }
+            let (now, limit) = slide(&x, v);
+            if now.to_bits() != known {
+                // It was changed by a neighbour's slide.
+                if now > least && now < f64::from_bits(known) {
+                    heap.push(entry(now, v));
+                }
+                continue;
+            }
+            x[v as usize] = limit;
+            self.star(v, &mut star);
+            for &t in &star {
+                let triangle = &self.triangles[t as usize];
+                let next = (place_of(triangle, v) + 1) % 3;
+                let beyond = triangle.neighbours[next];
+                let opposite = self.opposite(beyond, triangle.corners[(next + 1) % 3]);
+                for w in [triangle.corners[next], opposite] {
+                    let (gain, _) = slide(&x, w);
+                    if gain > least {
+                        heap.push(entry(gain, w));
+                    }
+                }
+            }
+        }
+        x
+    }
+
+    /// The largest x of a vertex that the others allow, at least its own.
+    fn limit(&self, x: &[f64], v: u32) -> f64 {
+        let at = |w: u32| x[w as usize];
+        let mut limit = 1.0_f64;
+        let mut star = Vec::new();
+        self.star(v, &mut star);
+        for &t in &star {
+            let triangle = &self.triangles[t as usize];
+            let [k, next, last] = [0, 1, 2].map(|step| (place_of(triangle, v) + step) % 3);
+            let [b, c] = [next, last].map(|k| at(triangle.corners[k]));
+            for &q in &triangle.region {
+                let cone = self.cone(t, q);
+                if cone[k] > 0.0 {
+                    limit = limit.min((1.0 - cone[next] * b - cone[last] * c) / cone[k]);
+                }
+            }
+            // The vertex beyond the edge to `next` stays below this triangle. Both triangles of an edge say the same.
+            let d = self.opposite(triangle.neighbours[k], triangle.corners[next]);
+            let cone = self.cone(t, d);
+            if cone[k] > 0.0 {
+                limit = limit.min((at(d) - cone[next] * b - cone[last] * c) / cone[k]);
+            }
+        }
+        // Not f64::max: a NaN of a degenerate cone must not spread.
+        if limit > at(v) { limit } else { at(v) }
+    }
+
+    /// The corner of a triangle opposite to its edge that begins at `from`.
+    fn opposite(&self, t: u32, from: u32) -> u32 {
+        let triangle = &self.triangles[t as usize];
+        triangle.corners[(place_of(triangle, from) + 2) % 3]
+    }
+}
+
+/// Which corner of a triangle a vertex is.
+fn place_of(triangle: &Triangle, v: u32) -> usize {
+    triangle.corners.iter().position(|w| *w == v).unwrap_or(0)
+}
+
+/// The unit normal of a triangle.
+fn normal(positions: &[Vector], corners: [u32; 3]) -> Vector {
+    let [a, b, c] = corners.map(|v| positions[v as usize]);
+    normal_of(&area_vector(&a, &b, &c), &a, &b, &c)
+}
