@@ -94,12 +94,11 @@ pub fn by_identity(
     }
     for (edge, child) in above.edges.iter().zip(&mut children.edges) {
         let ends = [edge.tail, edge.head].map(|v| vertex_below(ids[1][v as usize]));
-        let removed = [edge.left, edge.right].map(|f| children.faces[f as usize]).into_iter();
+        let mut beside = [edge.right, edge.left].map(|f| children.faces[f as usize]).into_iter();
         *child = match edge_between(below, ends) {
             Some(kept) => FeatureId::Edge(kept),
-            None => removed
-                .filter(|child| matches!(child, FeatureId::Vertex(_)))
-                .next_back()
+            None => beside
+                .find(|child| matches!(child, FeatureId::Vertex(_)))
                 .unwrap_or(children.vertices[edge.tail as usize]),
         };
     }
