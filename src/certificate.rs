@@ -46,6 +46,8 @@ pub struct Minimum<L> {
     /// A world direction from body 2 to body 1, of any length: the difference of the nearest points, or where the features
     /// define it a normal, which keeps its digits at the smallest distance.
     pub direction: L,
+    /// The direction's reciprocal length, see [`reciprocal_length`].
+    pub inverse: f64,
     /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
     /// closer look tells.
     pub beyond: f64,
@@ -55,57 +57,50 @@ pub struct Minimum<L> {
     pub height: f64,
 }
 
-/// The nearest points of a minimum with their interval.
-#[derive(Clone, Copy)]
-pub struct Certified<L> {
-    /// The minimum.
-    pub minimum: Minimum<L>,
+impl<L: Lanes> Minimum<L> {
     /// x − y of its points.
-    difference: L,
-    /// What follows from it.
-    pub gap: Gap,
+    #[inline(always)]
+    fn difference(&self, frame: &Frame<L>) -> L {
+        self.rotated[0].add(frame.bodies[0].offset).sub(self.rotated[1])
+    }
+
+    /// What follows from it, as far as a quick look tells.
+    #[inline(always)]
+    pub fn gap(&self, frame: &Frame<L>) -> Gap {
+        gap(frame, self.difference(frame), self.direction, self.inverse, self.beyond, self.outside)
+    }
+
+    /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the rim of a cone, skewed
+    /// rotations.
+    #[inline(always)]
+    fn gap_closely(&self, frame: &Frame<L>, state: State) -> Gap {
+        let towards = [
+            frame.bodies[0].rotate_back(self.direction).negate().to_vector(),
+            frame.bodies[1].rotate_back(self.direction).to_vector(),
+        ];
+        let points = [self.points[0].to_vector(), self.points[1].to_vector()];
+        let defect = closely(frame.polyhedra(), state, points, towards, self.height);
+        let beyond = defect.beyond * self.inverse;
+        gap(frame, self.difference(frame), self.direction, self.inverse, beyond, defect.outside)
+    }
 }
 
-impl<L: Lanes> Certified<L> {
-    /// Nothing certified yet.
-    #[inline(always)]
-    pub fn nothing() -> Certified<L> {
-        let zero = L::splat(0.0);
-        let nothing = f64::NAN;
-        Certified {
-            minimum: Minimum {
-                points: [zero; 2],
-                rotated: [zero; 2],
-                direction: zero,
-                beyond: nothing,
-                outside: nothing,
-                height: nothing,
-            },
-            difference: zero,
-            gap: Gap { distance: nothing, inverse: nothing, interval: Interval { lower: nothing, upper: nothing } },
-        }
-    }
+/// What becomes of a minimum that marching finds. It is called where the kinds of the features are known to the compiler.
+pub trait Certify<L: Lanes> {
+    /// Looks whether a minimum is good enough, and puts it where it belongs.
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>);
+}
 
-    /// Takes down a minimum and its interval, as far as a quick look tells.
-    #[inline(always)]
-    pub fn set(&mut self, frame: &Frame<L>, minimum: Minimum<L>) {
-        self.difference = minimum.rotated[0].add(frame.bodies[0].offset).sub(minimum.rotated[1]);
-        self.gap = gap(frame, self.difference, minimum.direction, minimum.beyond, minimum.outside);
-        self.minimum = minimum;
-    }
+/// A closer look at every minimum; the last one is kept.
+pub struct CloserLook<L> {
+    /// The minimum and what follows from it.
+    pub found: Option<(Minimum<L>, Gap)>,
+}
 
-    /// The interval by a closer look, for what the quick one leaves open: ties, sharp edges, skewed rotations.
+impl<L: Lanes> Certify<L> for CloserLook<L> {
     #[inline(always)]
-    pub fn look_closer(&mut self, frame: &Frame<L>, state: State) {
-        let Minimum { points, direction, height, .. } = self.minimum;
-        let towards = [
-            frame.bodies[0].rotate_back(direction).negate().to_vector(),
-            frame.bodies[1].rotate_back(direction).to_vector(),
-        ];
-        let points = [points[0].to_vector(), points[1].to_vector()];
-        let defect = closely(frame.polyhedra(), state, points, towards, height);
-        let beyond = defect.beyond * self.gap.inverse;
-        self.gap = gap(frame, self.difference, direction, beyond, defect.outside);
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        self.found = Some((*minimum, minimum.gap_closely(frame, state)));
     }
 }
 
@@ -142,14 +137,12 @@ pub fn edge_rounding(polyhedron: &Polyhedron) -> f64 {
     8.0 * U * polyhedron.radius
 }
 
-/// A quick δ/|U| of an edge's point, for a blunt edge and g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound
-/// of all rounding: g = c₁n₁ + c₂n₂ + r with c₁ + c₂ ≤ √2|g| (the normals are at most a right angle apart), |r| ≤ misfit·|U|.
-/// |g| ≤ 1.02|U| for any R, less than 1.06·√2 = 1.5. A sharp edge needs a closer look.
+/// A quick δ/|U| of an edge's point, for g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound of all rounding:
+/// g = c₁n₁ + c₂n₂ + r with |r| ≤ misfit·|U| and c₁ + c₂ ≤ √2|g|, as the normals are at most a right angle apart; the cone of a
+/// sharp edge is halved by its bevel, whose normal then stands for one of them. |g| ≤ 1.02|U| for any R, less than 1.06·√2 = 1.5.
 #[inline(always)]
-pub fn of_blunt_edge(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64 {
-    let slack = if edge.slacks[0] > edge.slacks[1] { edge.slacks[0] } else { edge.slacks[1] };
-    let beyond = 1.5 * (slack + edge_rounding(polyhedron)) + 2.0 * polyhedron.radius * misfit;
-    if edge.bevel == NONE { beyond } else { f64::INFINITY }
+pub fn of_edge_in_cone(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64 {
+    1.5 * (edge.slack + edge_rounding(polyhedron)) + 2.0 * polyhedron.radius * misfit
 }
 
 /// A quick δ/|U| of a point in a face, projected from `height` over it, for g = RᵀU equal to the face's unit normal up to `misfit`.
@@ -164,17 +157,15 @@ pub fn face_rounding(polyhedron: &Polyhedron, height: f64) -> f64 {
     16.0 * U * (polyhedron.radius + height)
 }
 
-/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 3·(8u + 4u) for the defect of R and the rounding with which it was
+/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which it was
 /// measured, 5.4u for the product; and 12u for what the planes and directions of a feature miss each other by.
 pub const RIGID_MISFIT: f64 = 56.0 * U;
 
-/// A rigorous interval and what else its computation yields.
+/// A rigorous interval and |D| beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Gap {
     /// |D|, the computed distance of the points.
     pub distance: f64,
-    /// 1/|U|.
-    pub inverse: f64,
     /// The interval.
     pub interval: Interval,
 }
@@ -183,20 +174,23 @@ pub struct Gap {
 /// less than 2⁻⁶⁰⁰ of it, far below the error bound of any [usual](Frame::usual) pair.
 const SHORTEST_SQUARE: f64 = f64::from_bits((1023 - 800) << 52);
 
-/// The interval from the difference D of two points, of which the bodies reach at most `beyond` farther along the direction U/|U|
-/// and which lie at most `outside` out of the bodies.
+/// 1/|U| from U·U; NaN, which proves nothing, for a direction too short for products with it.
 #[inline(always)]
-pub fn gap<L: Lanes>(frame: &Frame<L>, difference: L, direction: L, beyond: f64, outside: f64) -> Gap {
+pub fn reciprocal_length(square: f64) -> f64 {
+    if square >= SHORTEST_SQUARE { 1.0 / square.sqrt() } else { f64::NAN }
+}
+
+/// The interval from the difference D of two points, of which the bodies reach at most `beyond` farther along the direction U/|U|
+/// and which lie at most `outside` out of the bodies; `inverse` is 1/|U|.
+#[inline(always)]
+pub fn gap<L: Lanes>(frame: &Frame<L>, difference: L, direction: L, inverse: f64, beyond: f64, outside: f64) -> Gap {
     let distance = difference.dot(difference).sqrt();
     let along = direction.dot(difference);
-    let square = direction.dot(direction);
-    // A NaN proves nothing.
-    let inverse = if square >= SHORTEST_SQUARE { 1.0 / square.sqrt() } else { f64::NAN };
     let error = frame.difference_error(distance);
     // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; beyond has been summed with as much.
     let lower = (along * inverse - beyond * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
     let upper = (distance * (1.0 + 4.0 * U) + error + outside) * (1.0 + 4.0 * U);
-    Gap { distance, inverse, interval: Interval { lower, upper } }
+    Gap { distance, interval: Interval { lower, upper } }
 }
 
 /// How far a body misses the assumptions at a point of a feature.

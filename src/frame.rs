@@ -7,16 +7,15 @@
 
 use crate::double_double::{two_product, two_sum};
 use crate::math::{Pose, UNIT_ROUNDOFF, Vector};
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::simd::Lanes;
-
-/// Magnitudes outside [2⁻²⁰⁰, 2²⁰⁰] are left to integers: the rounding-error bounds ignore underflow and overflow.
-const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
-const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
 
 /// A rotation is taken for rigid when no entry of RᵀR − I exceeds this; the rounding of an orthonormal matrix to doubles leaves
 /// a few u.
-pub const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
+const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
+
+/// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at: then |RᵀR − I| ≤ √6·10u < 3·8u + u.
+pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
 
 /// One placed body.
 #[derive(Clone, Copy)]
@@ -76,7 +75,7 @@ pub struct Frame<'a, L> {
     /// Whether the poses are acceptable and the magnitudes such that double precision's error bounds cover them; a cold path
     /// finds out which is not.
     pub usual: bool,
-    /// Whether both rotations are orthonormal up to rounding: |RᵀR − I| ≤ 8u in every entry, as computed.
+    /// Whether both rotations are orthonormal up to rounding, see [`RIGID_TOGETHER`].
     pub rigid: bool,
     /// Body 1 and body 2.
     pub bodies: [Body<'a, L>; 2],
@@ -93,52 +92,62 @@ impl<'a, L: Lanes> Frame<'a, L> {
     /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is good for nothing unless it is `usual`.
     #[inline(always)]
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
-        let [polyhedron1, polyhedron2] = polyhedra;
-        let placed1 = Placed::<L>::new(poses[0]);
-        let placed2 = Placed::<L>::new(poses[1]);
+        let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
         let (mut usual, mut skewed) = (true, [false; 2]);
         // A limit below what counts as rigid is the caller's to set.
-        if rotation_limit < RIGID || !Placed::are_rigid(&placed1, &placed2) {
+        if rotation_limit < RIGID_TOGETHER || !Placed::are_rigid(&placed) {
             (usual, skewed) = look_closer(poses, rotation_limit);
         }
-        let [radius1, radius2] = [polyhedron1.radius, polyhedron2.radius];
-        let larger = if radius1 > radius2 { radius1 } else { radius2 };
-        usual &= (SMALLEST..=LARGEST).contains(&larger);
-        let [columns1, columns2] = [placed1.columns, placed2.columns];
-        let mut offset = columns1[3].sub(columns2[3]);
-        let [mut translation1, mut translation2] = [columns1[3], columns2[3]];
-        let mut cancelled = 0.0;
-        let zero = L::splat(0.0);
-        let [centre1, centre2] = [L::from_vector(&polyhedron1.centre), L::from_vector(&polyhedron2.centre)];
-        if !L::all_within([(centre1, zero), (centre2, zero)]) {
+        let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
+        usual &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
+        let mut origins = Origins {
+            offset: placed[0].columns[3].sub(placed[1].columns[3]),
+            cancelled: 0.0,
+            translations: [placed[0].columns[3], placed[1].columns[3]],
+        };
+        if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
             let centred = centred(polyhedra, poses);
-            offset = L::load(&centred.offset);
-            cancelled = centred.cancelled;
-            translation1 = L::load(&centred.translations[0]);
-            translation2 = L::load(&centred.translations[1]);
+            origins = Origins {
+                offset: L::load(&centred.offset),
+                cancelled: centred.cancelled,
+                translations: [L::load(&centred.translations[0]), L::load(&centred.translations[1])],
+            };
         }
-        let size = radius1 + radius2;
-        let separation = offset.dot(offset).sqrt() * (1.0 + 8.0 * UNIT_ROUNDOFF) + 16.0 * UNIT_ROUNDOFF * cancelled;
+        Frame::assemble(polyhedra, &placed, &origins, usual, skewed)
+    }
+
+    /// [`Frame::new`] for [ordinary](Polyhedron::ordinary) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only `usual` if both
+    /// poses are rigid and of ordinary magnitude, without a closer look.
+    #[inline(always)]
+    pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
+        let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
+        let [translation1, translation2] = [placed[0].columns[3], placed[1].columns[3]];
+        let origins = Origins {
+            offset: translation1.sub(translation2),
+            cancelled: 0.0,
+            translations: [translation1, translation2],
+        };
+        Frame::assemble(polyhedra, &placed, &origins, Placed::are_rigid(&placed), [false; 2])
+    }
+
+    #[inline(always)]
+    fn assemble(
+        polyhedra: [&'a Polyhedron; 2],
+        placed: &[Placed<L>; 2],
+        origins: &Origins<L>,
+        usual: bool,
+        skewed: [bool; 2],
+    ) -> Frame<'a, L> {
+        let size = polyhedra[0].radius + polyhedra[1].radius;
+        let offset = origins.offset;
+        let separation =
+            offset.dot(offset).sqrt() * (1.0 + 8.0 * UNIT_ROUNDOFF) + 16.0 * UNIT_ROUNDOFF * origins.cancelled;
         Frame {
             usual,
             rigid: !(skewed[0] | skewed[1]),
             bodies: [
-                Body {
-                    polyhedron: polyhedron1,
-                    rows: placed1.rows,
-                    columns: [columns1[0], columns1[1], columns1[2]],
-                    translation: translation1,
-                    offset,
-                    skewed: skewed[0],
-                },
-                Body {
-                    polyhedron: polyhedron2,
-                    rows: placed2.rows,
-                    columns: [columns2[0], columns2[1], columns2[2]],
-                    translation: translation2,
-                    offset: offset.negate(),
-                    skewed: skewed[1],
-                },
+                placed[0].body(polyhedra[0], origins.translations[0], offset, skewed[0]),
+                placed[1].body(polyhedra[1], origins.translations[1], offset.negate(), skewed[1]),
             ],
             size,
             separation,
@@ -196,21 +205,38 @@ impl<L: Lanes> Placed<L> {
         }
     }
 
-    /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both.
+    /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both. The squares
+    /// of four entries at a time are summed, one of each kind of each pose: a NaN passes no comparison.
     #[inline(always)]
-    fn are_rigid(first: &Placed<L>, second: &Placed<L>) -> bool {
-        let (limit, proper, far) = (L::splat(RIGID), L::splat(0.5), L::splat(LARGEST));
-        L::all_within([
-            (first.squares, limit),
-            (first.products, limit),
-            (first.reflection, proper),
-            (first.columns[3], far),
-            (second.squares, limit),
-            (second.products, limit),
-            (second.reflection, proper),
-            (second.columns[3], far),
-        ])
+    fn are_rigid(placed: &[Placed<L>; 2]) -> bool {
+        let [first, second] = placed;
+        let defect = first.squares.mul(first.squares);
+        let defect = second.squares.mul_add(second.squares, defect);
+        let defect = first.products.mul_add(first.products, defect);
+        let defect = second.products.mul_add(second.products, defect);
+        let improper = second.reflection.mul_add(second.reflection, first.reflection.mul(first.reflection));
+        let [far1, far2] = [first.columns[3], second.columns[3]];
+        let far = far2.mul_add(far2, far1.mul(far1));
+        let limits = [L::splat(RIGID_TOGETHER * RIGID_TOGETHER), L::splat(0.25), L::splat(LARGEST * LARGEST)];
+        let within = defect.at_most(limits[0]) & improper.at_most(limits[1]) & far.at_most(limits[2]);
+        within & 0b111 == 0b111
     }
+
+    #[inline(always)]
+    fn body<'a>(&self, polyhedron: &'a Polyhedron, translation: L, offset: L, skewed: bool) -> Body<'a, L> {
+        let [x, y, z, _] = self.columns;
+        Body { polyhedron, rows: self.rows, columns: [x, y, z], translation, offset, skewed }
+    }
+}
+
+/// Where the bodies' centred origins are.
+struct Origins<L> {
+    /// That of body 1 minus that of body 2.
+    offset: L,
+    /// What [`Centred::cancelled`] says.
+    cancelled: f64,
+    /// In the world.
+    translations: [L; 2],
 }
 
 /// For poses that are not both rigid and of ordinary size: whether they are acceptable and of ordinary size, and which are skewed.

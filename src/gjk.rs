@@ -202,8 +202,9 @@ fn supported_interval<L: Lanes>(
         outside += 12.0 * U * polyhedron.radius;
     }
     let difference = frame.difference(&points[0], &points[1]);
-    let unit = beyond / direction.norm();
-    certificate::gap(frame, difference, L::from_vector(direction), unit, outside).interval
+    let direction = L::from_vector(direction);
+    let inverse = certificate::reciprocal_length(direction.dot(direction));
+    certificate::gap(frame, difference, direction, inverse, beyond * inverse, outside).interval
 }
 
 impl Simplex {

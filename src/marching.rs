@@ -8,7 +8,8 @@
 //! finish (a suspected penetration, a cycle, the step limit) is decided elsewhere.
 
 use crate::certificate::{
-    Certified, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_blunt_edge, of_facing_face,
+    Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_in_cone, of_facing_face,
+    reciprocal_length,
 };
 use crate::frame::Frame;
 use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
@@ -16,14 +17,14 @@ use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
 use crate::state::{Kind, State};
 use crate::voronoi::{
-    STRICT, VertexTest, edge_direction, end_of, exit_of_prism, most_negative, most_violated_side, plane_slopes,
-    plane_values, test_vertex,
+    STRICT, VertexTest, edge_direction, end_of, exit_of_prism, most_violated_side, plane_slopes, plane_values,
+    test_vertex,
 };
 
 /// What marching came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum March {
-    /// A minimum at this state, with its certificate.
+    /// A minimum at this state; the judge has seen it.
     Minimum(State),
     /// The step limit was met on the way to this state.
     Limit(State),
@@ -32,8 +33,10 @@ pub enum March {
 }
 
 /// What one state's tests say.
-enum Step {
+pub enum Step {
+    /// To go on from this state.
     Move(State),
+    /// A minimum; the judge has seen it.
     Minimum,
     /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Where to go on.
     Behind(State),
@@ -41,9 +44,23 @@ enum Step {
     Crossing(State),
 }
 
-/// Marches from `start`; a minimum goes to `found`. Returns the number of states visited too.
+/// Tests one state; a minimum goes to `judge`.
 #[inline(always)]
-pub fn march<L: Lanes>(frame: &Frame<L>, start: State, step_limit: u32, found: &mut Certified<L>) -> (March, u32) {
+pub fn visit<L: Lanes, J: Certify<L>>(frame: &Frame<L>, state: State, judge: &mut J) -> Step {
+    let [first, second] = state.indices;
+    match state.kind {
+        Kind::VertexVertex => vertex_vertex(frame, [first, second], judge),
+        Kind::VertexEdge => vertex_edge::<L, J, 0>(frame, first, second, judge),
+        Kind::EdgeVertex => vertex_edge::<L, J, 1>(frame, second, first, judge),
+        Kind::VertexFace => vertex_face::<L, J, 0>(frame, first, second, judge),
+        Kind::FaceVertex => vertex_face::<L, J, 1>(frame, second, first, judge),
+        Kind::EdgeEdge => edge_edge(frame, [first, second], judge),
+    }
+}
+
+/// Marches from `start`; a minimum goes to `judge`. Returns the number of states visited too.
+#[inline(always)]
+pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit: u32, judge: &mut J) -> (March, u32) {
     let mut state = start;
     // Brent's cycle detection: a state seen at a power of two and met again.
     let mut mark = start;
@@ -51,16 +68,7 @@ pub fn march<L: Lanes>(frame: &Frame<L>, start: State, step_limit: u32, found: &
     let mut jumped = false;
     loop {
         steps += 1;
-        let [first, second] = state.indices;
-        let step = match state.kind {
-            Kind::VertexVertex => vertex_vertex(frame, [first, second], found),
-            Kind::VertexEdge => vertex_edge::<L, 0>(frame, first, second, found),
-            Kind::EdgeVertex => vertex_edge::<L, 1>(frame, second, first, found),
-            Kind::VertexFace => vertex_face::<L, 0>(frame, first, second, found),
-            Kind::FaceVertex => vertex_face::<L, 1>(frame, second, first, found),
-            Kind::EdgeEdge => edge_edge(frame, [first, second], found),
-        };
-        let next = match step {
+        let next = match visit(frame, state, judge) {
             Step::Minimum => return (March::Minimum(state), steps),
             Step::Move(next) => next,
             Step::Crossing(at) => return (March::Open(at), steps),
@@ -90,14 +98,15 @@ pub fn march<L: Lanes>(frame: &Frame<L>, start: State, step_limit: u32, found: &
 // ---------------------------------------------------------------------------------------------------------------------
 
 #[inline(always)]
-fn vertex_vertex<L: Lanes>(frame: &Frame<L>, indices: [u32; 2], found: &mut Certified<L>) -> Step {
+fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
     let [body1, body2] = &frame.bodies;
     let point1 = &body1.polyhedron.vertices[indices[0] as usize].position;
     let point2 = &body2.polyhedron.vertices[indices[1] as usize].position;
     let rotated = [body1.rotate(point1), body2.rotate(point2)];
     let direction = rotated[0].add(body1.offset).sub(rotated[1]);
     let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
-    let length = direction.norm1();
+    let square = direction.dot(direction);
+    let length = square.sqrt();
     let test1 = test_vertex(body1.polyhedron, indices[0], towards[0], length, frame.tolerance);
     let test2 = test_vertex(body2.polyhedron, indices[1], towards[1], length, frame.tolerance);
     Step::Move(match (test1, test2) {
@@ -119,22 +128,23 @@ fn vertex_vertex<L: Lanes>(frame: &Frame<L>, indices: [u32; 2], found: &mut Cert
                 points: [L::from_vector(point1), L::from_vector(point2)],
                 rotated,
                 direction,
+                inverse: reciprocal_length(square),
                 beyond: beyond_vertex(test1) + beyond_vertex(test2),
                 outside: 0.0,
                 height: 0.0,
             };
-            found.set(frame, minimum);
+            judge.certify(frame, State::vertex_vertex(indices), &minimum);
             return Step::Minimum;
         }
     })
 }
 
 #[inline(always)]
-fn vertex_edge<L: Lanes, const NEAR: usize>(
+fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     vertex: u32,
     edge: u32,
-    found: &mut Certified<L>,
+    judge: &mut J,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let position = &body.polyhedron.vertices[vertex as usize].position;
@@ -142,16 +152,19 @@ fn vertex_edge<L: Lanes, const NEAR: usize>(
     let point = far.rotate_back(rotated.add(body.offset));
     let record = &far.polyhedron.edges[edge as usize];
     let values = plane_values(&record.planes, point);
-    let outside = L::splat(-frame.tolerance).greater(values);
-    if outside != 0 {
-        return Step::Move(match most_negative(values.to_array(), outside) {
-            0 | 1 => {
-                let end = if most_negative(values.to_array(), outside) == 0 { record.tail } else { record.head };
-                State::vertex_vertex(if NEAR == 0 { [vertex, end] } else { [end, vertex] })
-            }
-            2 => State::vertex_face(NEAR, vertex, record.left),
-            _ => State::vertex_face(NEAR, vertex, record.right),
-        });
+    let inside = values.greater(L::splat(frame.tolerance));
+    if inside != 0b1111 {
+        let outside = L::splat(-frame.tolerance).greater(values);
+        if outside != 0 {
+            let (_, lane) = values.least();
+            let across = [record.tail, record.head, record.left, record.right][lane & 3];
+            let indices = ordered::<NEAR>(vertex, across);
+            return Step::Move(if lane < 2 {
+                State::vertex_vertex(indices)
+            } else {
+                State::vertex_face(NEAR, vertex, across)
+            });
+        }
     }
     let along = edge_direction(&record.planes);
     let tail = &far.polyhedron.vertices[record.tail as usize].position;
@@ -164,45 +177,46 @@ fn vertex_edge<L: Lanes, const NEAR: usize>(
     let across = along.negated_mul_add(L::splat(across.dot(along)), across);
     let direction = far.lift(across);
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(body.polyhedron, vertex, towards_far, direction.norm1(), frame.tolerance);
+    let square = direction.dot(direction);
+    let test = test_vertex(body.polyhedron, vertex, towards_far, square.sqrt(), frame.tolerance);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return Step::Move(if leaving == NONE {
             State::vertex_edge(NEAR, head, edge)
         } else {
-            State::edge_edge(if NEAR == 0 { [leaving, edge] } else { [edge, leaving] })
+            State::edge_edge(ordered::<NEAR>(leaving, edge))
         });
     }
-    // In the cone of the two normals the direction leaves both faces.
-    let outward = L::splat(0.0).greater(plane_slopes(&record.planes, across)) & 0b1100 == 0;
-    let is_plain = frame.rigid & outward;
-    let beyond = if is_plain { of_blunt_edge(far.polyhedron, record, RIGID_MISFIT) } else { f64::INFINITY };
+    // A point inside the last two planes by the tolerance, which pass through the edge, lies across it in the cone of the normals.
+    let is_plain = frame.rigid & (inside & 0b1100 == 0b1100);
+    let beyond = if is_plain { of_edge_in_cone(far.polyhedron, record, RIGID_MISFIT) } else { f64::INFINITY };
     let foot = along.mul_add(L::splat(t), tail);
     let minimum = minimum_of::<L, NEAR>(
         [L::from_vector(position), foot],
         [rotated, far.rotate_lanes(foot)],
         direction,
-        [beyond + beyond_vertex(test), edge_rounding(far.polyhedron), 0.0],
+        [reciprocal_length(square), beyond + beyond_vertex(test), edge_rounding(far.polyhedron), 0.0],
     );
-    found.set(frame, minimum);
+    judge.certify(frame, State::vertex_edge(NEAR, vertex, edge), &minimum);
     Step::Minimum
 }
 
 #[inline(always)]
-fn vertex_face<L: Lanes, const NEAR: usize>(
+fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     vertex: u32,
     face: u32,
-    found: &mut Certified<L>,
+    judge: &mut J,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let position = &body.polyhedron.vertices[vertex as usize].position;
     let rotated = body.rotate(position);
     let point = far.rotate_back(rotated.add(body.offset));
     let record = &far.polyhedron.faces[face as usize];
-    let values = plane_values(&record.planes, point);
     // Lane 0 is the height over the face, lanes 1 to 3 the sides.
-    let outside = L::splat(-frame.tolerance).greater(values) & 0b1110;
-    if (record.side_count > 3) | (outside != 0)
+    let values = plane_values(&record.planes, point);
+    // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
+    let inside = values.greater(L::splat(SIDE_MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
+    if (record.side_count > 3) | !inside
         && let Some(side) = most_violated_side(far.polyhedron, record, values, point, frame.tolerance)
     {
         let edge = far.polyhedron.sides[(record.first_side + side) as usize];
@@ -215,26 +229,37 @@ fn vertex_face<L: Lanes, const NEAR: usize>(
     let normal = L::from_vector(&record.normal);
     let direction = far.lift(normal);
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(body.polyhedron, vertex, towards_far, UNIT_NORM1, STRICT);
+    let test = test_vertex(body.polyhedron, vertex, towards_far, NEARLY_UNIT, STRICT);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], leaving, head);
     }
     let foot = normal.negated_mul_add(L::splat(height), point);
-    let is_plain = frame.rigid & is_inside_sides(far.polyhedron, record, foot);
-    let beyond = if is_plain { of_facing_face(far.polyhedron, record, height, RIGID_MISFIT) } else { f64::INFINITY };
+    let square = direction.dot(direction);
+    let is_plain = frame.rigid && inside && (record.side_count == 3 || is_inside_sides(far.polyhedron, record, foot));
+    let (inverse, beyond) = if is_plain {
+        // |U|² = 1 + ε, |ε| < 100u: one step of Newton's iteration for the reciprocal root.
+        (1.5 - 0.5 * square, of_facing_face(far.polyhedron, record, height, RIGID_MISFIT))
+    } else {
+        (reciprocal_length(square), f64::INFINITY)
+    };
     let outside = record.slack + face_rounding(far.polyhedron, height);
     let minimum = minimum_of::<L, NEAR>(
         [L::from_vector(position), foot],
         [rotated, far.rotate_lanes(foot)],
         direction,
-        [beyond + beyond_vertex(test), outside, height],
+        [inverse, beyond + beyond_vertex(test), outside, height],
     );
-    found.set(frame, minimum);
+    judge.certify(frame, State::vertex_face(NEAR, vertex, face), &minimum);
     Step::Minimum
 }
 
-/// An upper bound of the 1-norm of a vector that is unit up to 1 %.
-const UNIT_NORM1: f64 = 1.75;
+/// A point of a triangle's prism deeper inside its sides than this many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, has its foot inside
+/// by [`is_inside_sides`]: that asks for 64u·ρ, and the foot's values differ from the point's by a few u of the height and of both
+/// points' magnitudes.
+const SIDE_MARGIN: f64 = 3.0;
+
+/// An upper bound of the length of a vector that is unit up to 1 %.
+const NEARLY_UNIT: f64 = 1.02;
 
 /// A vertex over a face descends along an edge towards it: to the edge's end, or to the side of the prism where it leaves.
 #[inline(always)]
@@ -273,7 +298,7 @@ fn walk_over_face<L: Lanes, const NEAR: usize>(
 }
 
 #[inline(always)]
-fn edge_edge<L: Lanes>(frame: &Frame<L>, indices: [u32; 2], found: &mut Certified<L>) -> Step {
+fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
     let [body1, body2] = &frame.bodies;
     let record1 = &body1.polyhedron.edges[indices[0] as usize];
     let record2 = &body2.polyhedron.edges[indices[1] as usize];
@@ -319,27 +344,24 @@ fn edge_edge<L: Lanes>(frame: &Frame<L>, indices: [u32; 2], found: &mut Certifie
     let slack = L::splat(-STRICT * if sine > 2.0 * STRICT { sine } else { 2.0 * STRICT });
     let values1 = plane_slopes(&record1.planes, towards[0]);
     let values2 = plane_slopes(&record2.planes, towards[1]);
-    let (outside1, outside2) = (slack.greater(values1) & 0b1100, slack.greater(values2) & 0b1100);
-    if outside1 | outside2 != 0 {
-        let (values1, values2) = (values1.to_array(), values2.to_array());
-        let (lane1, lane2) = (most_negative(values1, outside1), most_negative(values2, outside2));
-        let worst1 = if outside1 == 0 { 0.0 } else { values1[lane1] };
-        let worst2 = if outside2 == 0 { 0.0 } else { values2[lane2] };
-        return if worst1 < worst2 {
-            let face = if lane1 == 2 { record1.left } else { record1.right };
-            walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane1)
+    let across = L::upper_halves(values1, values2);
+    if slack.greater(across) != 0 {
+        let (_, lane) = across.least();
+        return if lane < 2 {
+            let face = if lane == 0 { record1.left } else { record1.right };
+            walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)
         } else {
-            let face = if lane2 == 2 { record2.left } else { record2.right };
-            walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane2)
+            let face = if lane == 2 { record2.left } else { record2.right };
+            walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
         };
     }
     // Of g = RᵀU, |U| = sine, the part along the edge is the rounding of U and of the rotated unit directions, 12u; across it g
     // is in the cone up to its own rounding.
-    let misfit = 40.0 * UNIT_ROUNDOFF + 16.0 * UNIT_ROUNDOFF / sine;
-    let zero = L::splat(0.0);
-    let is_plain = (zero.greater(values1) | zero.greater(values2)) & 0b1100 == 0;
+    let inverse = reciprocal_length(sine_squared);
+    let misfit = 40.0 * UNIT_ROUNDOFF + 16.0 * UNIT_ROUNDOFF * inverse;
+    let is_plain = L::splat(0.0).greater(across) == 0;
     let beyond = if is_plain {
-        of_blunt_edge(body1.polyhedron, record1, misfit) + of_blunt_edge(body2.polyhedron, record2, misfit)
+        of_edge_in_cone(body1.polyhedron, record1, misfit) + of_edge_in_cone(body2.polyhedron, record2, misfit)
     } else {
         f64::INFINITY
     };
@@ -351,11 +373,12 @@ fn edge_edge<L: Lanes>(frame: &Frame<L>, indices: [u32; 2], found: &mut Certifie
         points,
         rotated: [body1.rotate_lanes(points[0]), body2.rotate_lanes(points[1])],
         direction: normal,
+        inverse,
         beyond,
         outside: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
         height: 0.0,
     };
-    found.set(frame, minimum);
+    judge.certify(frame, State::edge_edge(indices), &minimum);
     Step::Minimum
 }
 
@@ -416,22 +439,28 @@ fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &V
     Step::Behind(State::vertex_vertex(if NEAR == 0 { [vertex, support] } else { [support, vertex] }))
 }
 
-/// A minimum from what the state has as near and far; `direction` is from the far body to the near one; the numbers are `beyond`,
-/// `outside` and `height`.
+/// A minimum from what the state has as near and far; `direction` is from the far body to the near one; the numbers are `inverse`,
+/// `beyond`, `outside` and `height`.
 #[inline(always)]
 fn minimum_of<L: Lanes, const NEAR: usize>(
     [near_point, far_point]: [L; 2],
     [near_rotated, far_rotated]: [L; 2],
     direction: L,
-    [beyond, outside, height]: [f64; 3],
+    [inverse, beyond, outside, height]: [f64; 4],
 ) -> Minimum<L> {
     if NEAR == 0 {
         let (points, rotated) = ([near_point, far_point], [near_rotated, far_rotated]);
-        Minimum { points, rotated, direction, beyond, outside, height }
+        Minimum { points, rotated, direction, inverse, beyond, outside, height }
     } else {
         let (points, rotated) = ([far_point, near_point], [far_rotated, near_rotated]);
-        Minimum { points, rotated, direction: direction.negate(), beyond, outside, height }
+        Minimum { points, rotated, direction: direction.negate(), inverse, beyond, outside, height }
     }
+}
+
+/// The index of body NEAR's feature and that of the other body's, in the order of the bodies.
+#[inline(always)]
+fn ordered<const NEAR: usize>(near: u32, far: u32) -> [u32; 2] {
+    if NEAR == 0 { [near, far] } else { [far, near] }
 }
 
 /// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look has to tell.

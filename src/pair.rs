@@ -1,19 +1,19 @@
 //! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
 
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
-use crate::certificate::{Certified, Gap, Interval};
+use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
 use crate::contact;
 use crate::contact_direction::contact_direction;
 use crate::enclosure::encloses_origin;
 use crate::error::{Error, Result};
 use crate::exact::VertexPair;
-use crate::frame::Frame;
-use crate::marching::{self, March};
+use crate::frame::{Frame, RIGID_TOGETHER};
+use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
-use crate::overlap::{self, Decision, Pairs, Work};
+use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
-use crate::simd::{self, Kernel, Lanes, Portable};
+use crate::simd::{self, Kernel, Lanes, Portable, Work};
 use crate::state::State;
 use crate::voronoi::climb;
 
@@ -168,15 +168,18 @@ fn query(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if !(config.distance_tolerance >= 0.0 && config.rotation_limit >= 0.0) {
-        return Err(bad_config(config));
-    }
+    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
-    let mut kernel =
-        PairQuery { query, polyhedra: [shapes[0].polyhedron(), shapes[1].polyhedron()], poses, cache, config, answer };
-    match simd::dispatch(&mut kernel) {
-        Attempt::Done => Ok(()),
-        attempt => kernel.decide(attempt),
+    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary;
+    // A NaN is not.
+    if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
+        match simd::dispatch(&mut Coherent { pair: &mut pair }) {
+            Attempt::Done => Ok(()),
+            attempt => pair.go_on(attempt),
+        }
+    } else {
+        pair.begin()
     }
 }
 
@@ -192,17 +195,19 @@ fn bad_config(config: &PairConfig) -> Error {
 // The common case: marching, certified
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// What became of the first attempt.
+/// What became of an attempt.
 enum Attempt {
     /// The answer is there.
     Done,
-    /// Marching or its certificate left it open, or the pair intersected the last time: where to go on.
-    Open { hint: Pairs, steps: u32 },
-    /// Poses to be refused, or magnitudes for integers only.
+    /// Marching left it open at this state, or its certificate did at a minimum.
+    Open { at: State, is_minimum: bool, steps: u32 },
+    /// The cache holds no features.
+    Cold,
+    /// Poses that are not rigid or not of ordinary magnitude.
     Unusual,
 }
 
-/// One query; as a kernel, marching from the cache and its certificate, compiled for the machine's vector units.
+/// One query.
 struct PairQuery<'a> {
     query: Query,
     polyhedra: [&'a Polyhedron; 2],
@@ -212,70 +217,175 @@ struct PairQuery<'a> {
     answer: &'a mut PairAnswer,
 }
 
-/// Marching from the cache is given up for a cold start after this many steps, if the pair has jumped.
-const TRIAL_STEPS: u32 = 4;
+/// The common case, for [ordinary](Polyhedron::ordinary) bodies: the cached features still are the nearest. One state, straight
+/// through to the answer, without the loop that would keep so much in registers.
+struct Coherent<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+}
 
-impl Kernel for PairQuery<'_> {
+impl Kernel for Coherent<'_, '_> {
     type Output = Attempt;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
-        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
         if !frame.usual {
             return Attempt::Unusual;
         }
-        let remembered = State::checked(cache.kind, cache.indices, polyhedra);
-        let start = match remembered {
-            Some(state) => state,
-            None => match cache.recall_pairs(polyhedra) {
-                Some(hint) => return Attempt::Open { hint, steps: 0 },
-                None => cold_start(polyhedra, outlook(polyhedra, poses), [0, 0]),
-            },
-        };
-        // A segment or a point has no faces to march over.
-        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
-            return Attempt::Open { hint: Pairs::new(&[start.vertices(polyhedra)]), steps: 0 };
+        let Some(state) = State::checked(cache.kind, cache.indices, polyhedra) else { return Attempt::Cold };
+        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
+        let step = marching::visit(&frame, state, &mut judge);
+        if judge.accepted {
+            judge.answer.statistics = Statistics { marching_steps: 1, fallback_iterations: 0, exact_iterations: 0 };
+            return Attempt::Done;
         }
-        let mut found = Certified::nothing();
-        let mut steps = 0;
-        let mut state = start;
-        let mut limit = if remembered.is_some() { TRIAL_STEPS } else { step_limit(polyhedra) };
+        match step {
+            Step::Minimum => Attempt::Open { at: state, is_minimum: true, steps: 1 },
+            Step::Move(next) | Step::Behind(next) | Step::Crossing(next) => {
+                L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: next, steps: 1, limit: TRIAL_STEPS })
+            }
+        }
+    }
+}
+
+/// Marching from the cache is given up for a cold start after this many steps, if the pair has jumped.
+const TRIAL_STEPS: u32 = 4;
+
+/// Marching from a state to the end.
+struct MarchOn<'a, 'b, L> {
+    pair: &'a mut PairQuery<'b>,
+    frame: Frame<'b, L>,
+    start: State,
+    /// Those made before.
+    steps: u32,
+    /// For the first leg: [`TRIAL_STEPS`] from a cache, else [`step_limit`].
+    limit: u32,
+}
+
+impl<L: Lanes> Work for MarchOn<'_, '_, L> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run(&mut self) -> Attempt {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
+        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
+        let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
+        let frame = self.frame;
         let (at, is_minimum) = loop {
-            let (march, more) = marching::march(&frame, state, limit, &mut found);
+            let (march, more) = marching::march(&frame, state, limit, &mut judge);
             steps += more;
             state = match march {
                 March::Minimum(at) => break (at, true),
                 March::Open(at) => break (at, false),
                 March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
-                March::Limit(at) => go_on(polyhedra, poses, &cache.outlook, at),
+                March::Limit(at) => go_on(polyhedra, poses, &judge.cache.outlook, at),
             };
             limit = step_limit(polyhedra);
         };
-        let loose = query == Query::Intersection || config.bounds == Bounds::Verdict;
-        let is_enough = |gap: &Gap| gap.interval.is_tight(frame.size) || (loose && gap.interval.lower > 0.0);
-        if is_minimum && !is_enough(&found.gap) {
-            found.look_closer(&frame, at);
+        if !judge.accepted {
+            return Attempt::Open { at, is_minimum, steps };
         }
-        if !(is_minimum && is_enough(&found.gap)) {
-            return Attempt::Open { hint: Pairs::new(&[at.vertices(polyhedra)]), steps };
-        }
-        let Certified { minimum, gap, .. } = found;
-        let normal = minimum.direction.mul(L::splat(gap.inverse));
-        cache.remember_state(at);
+        judge.answer.statistics = Statistics { marching_steps: steps, fallback_iterations: 0, exact_iterations: 0 };
         // A pair that stays on its features keeps its old outlook: it is only asked for when marching takes long.
-        if steps > 1 {
-            cache.outlook = bits(&outlook(polyhedra, poses));
+        judge.cache.outlook = bits(&outlook(polyhedra, poses));
+        Attempt::Done
+    }
+}
+
+/// The general case: any bodies, poses and caches.
+struct General<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for General<'_, '_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self.pair;
+        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+        if !frame.usual {
+            return Attempt::Unusual;
         }
+        let (start, limit) = match State::checked(cache.kind, cache.indices, polyhedra) {
+            Some(state) => (state, TRIAL_STEPS),
+            None => (cold_start(polyhedra, outlook(polyhedra, poses), [0, 0]), step_limit(polyhedra)),
+        };
+        // A segment or a point has no faces to march over.
+        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
+            return Attempt::Open { at: start, is_minimum: false, steps: 0 };
+        }
+        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps: 0, limit })
+    }
+}
+
+/// Accepts a minimum whose interval is good enough: answer and cache are then written.
+struct Acceptance<'a> {
+    query: Query,
+    config: &'a PairConfig,
+    cache: &'a mut PairCache,
+    answer: &'a mut PairAnswer,
+    accepted: bool,
+}
+
+impl<L: Lanes> Certify<L> for Acceptance<'_> {
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        let gap = minimum.gap(frame);
+        self.accepted = self.is_enough(frame.size, &gap.interval);
+        if self.accepted {
+            self.fill(frame, state, minimum, &gap);
+        }
+    }
+}
+
+impl Acceptance<'_> {
+    /// Whether an interval answers the query.
+    #[inline(always)]
+    fn is_enough(&self, size: f64, interval: &Interval) -> bool {
+        let loose = self.query == Query::Intersection || self.config.bounds == Bounds::Verdict;
+        interval.is_tight(size) || (loose && interval.lower > 0.0)
+    }
+
+    /// Answer, but for the statistics, and cache from a minimum.
+    #[inline(always)]
+    fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
+        let answer = &mut *self.answer;
+        let normal = minimum.direction.mul(L::splat(minimum.inverse));
+        self.cache.remember_state(state);
         answer.status = Status::Marched;
-        answer.statistics = Statistics { marching_steps: steps, fallback_iterations: 0, exact_iterations: 0 };
-        set_interval(answer, &gap.interval, gap.distance, config);
-        if query != Query::Intersection && answer.outcome == Outcome::Separated {
-            contact::fill_separated(answer, &frame, minimum.points, minimum.rotated, normal, at.features());
+        set_interval(answer, &gap.interval, gap.distance, self.config);
+        if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
+            contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
         } else {
             contact::fill_normal(answer, normal);
         }
-        Attempt::Done
+    }
+}
+
+/// A minimum that a quick look leaves open, looked at more closely.
+struct Closely<'a> {
+    judge: Acceptance<'a>,
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    at: State,
+}
+
+impl Kernel for Closely<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let mut closer = CloserLook { found: None };
+        marching::march(&frame, self.at, 1, &mut closer);
+        if let Some((minimum, gap)) = &closer.found {
+            self.judge.accepted = self.judge.is_enough(frame.size, &gap.interval);
+            if self.judge.accepted {
+                self.judge.fill(&frame, self.at, minimum, gap);
+            }
+        }
     }
 }
 
@@ -362,8 +472,39 @@ fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, con
 // ---------------------------------------------------------------------------------------------------------------------
 
 impl PairQuery<'_> {
+    /// The whole query, for what is not the common case from the start.
+    #[cold]
+    fn begin(&mut self) -> Result<()> {
+        if !(self.config.distance_tolerance >= 0.0 && self.config.rotation_limit >= 0.0) {
+            return Err(bad_config(self.config));
+        }
+        self.go_on(Attempt::Unusual)
+    }
+
+    /// The rest of a query whose first attempt did not answer it.
     #[inline(never)]
-    fn decide(&mut self, attempt: Attempt) -> Result<()> {
+    fn go_on(&mut self, attempt: Attempt) -> Result<()> {
+        let polyhedra = self.polyhedra;
+        let attempt = match attempt {
+            Attempt::Unusual | Attempt::Cold => {
+                if let Some(pairs) = self.cache.recall_pairs(polyhedra) {
+                    return self.decide(pairs, 0);
+                }
+                simd::dispatch(&mut General { pair: self })
+            }
+            open => open,
+        };
+        match attempt {
+            Attempt::Done => Ok(()),
+            Attempt::Open { at, is_minimum: true, steps } if self.closely(at, steps) => Ok(()),
+            Attempt::Open { at, steps, .. } => self.decide(Pairs::new(&[at.vertices(polyhedra)]), steps),
+            Attempt::Unusual | Attempt::Cold => self.decide(Pairs::new(&[[0, 0]]), 0),
+        }
+    }
+
+    /// Decides what marching left open; `hint` are vertex pairs to begin with, `steps` those made so far.
+    #[inline(never)]
+    fn decide(&mut self, hint: Pairs, steps: u32) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, config, .. } = self;
         let limit = config.rotation_limit.min(ROTATION_LIMIT);
         let frame = Frame::<Portable>::new(polyhedra, poses, limit);
@@ -373,10 +514,6 @@ impl PairQuery<'_> {
                 pose.check(limit)?;
             }
         }
-        let (hint, steps) = match attempt {
-            Attempt::Open { hint, steps } => (hint, steps),
-            _ => (Pairs::new(&[[0, 0]]), 0),
-        };
         let mut statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // The tetrahedron of the last query: if it still encloses the origin, that is a proof.
         if let Some(frame) = &frame
@@ -391,13 +528,29 @@ impl PairQuery<'_> {
         // Cheap bounds or not, nearest points are to be nearest.
         let tight = query != Query::Intersection;
         let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), tight);
-        let Work { fallback_iterations, exact_iterations } = work;
+        let overlap::Work { fallback_iterations, exact_iterations } = work;
         statistics.fallback_iterations = fallback_iterations;
         statistics.exact_iterations = exact_iterations;
         self.answer.statistics = statistics;
         self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
         self.fill(&decision);
         Ok(())
+    }
+
+    /// Whether a closer look at a minimum accepts it.
+    fn closely(&mut self, at: State, steps: u32) -> bool {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
+        let judge = Acceptance { query, config, cache, answer, accepted: false };
+        let mut look = Closely { judge, polyhedra, poses, at };
+        simd::dispatch(&mut look);
+        let accepted = look.judge.accepted;
+        if accepted {
+            self.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
+            if steps > 1 {
+                self.cache.outlook = bits(&outlook(polyhedra, poses));
+            }
+        }
+        accepted
     }
 
     /// Answer and cache from a decision.

@@ -13,6 +13,11 @@ use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
 pub const NONE: u32 = u32::MAX;
 
+/// Magnitudes outside [2⁻²⁰⁰, 2²⁰⁰] are left to integers: the bounds of rounding errors ignore underflow and overflow.
+pub const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
+/// See [`LARGEST`].
+pub const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
+
 /// Four planes, one in each lane: the value of lane i at p is `x[i]·p.x + y[i]·p.y + z[i]·p.z + offset[i]`.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
@@ -72,6 +77,8 @@ pub struct Edge {
     pub slacks: [f64; 2],
     /// Length of the edge.
     pub length: f64,
+    /// The largest of `slacks` and that of the bevel.
+    pub slack: f64,
     /// 1 / (−n_left·side_right), the reciprocal sine of the exterior dihedral angle; +∞ where that is not positive.
     pub reciprocal_sine: f64,
     /// First vertex.
@@ -145,6 +152,8 @@ pub struct Polyhedron {
     pub centre: Vector,
     /// ρ: an upper bound of |position| over all vertices.
     pub radius: f64,
+    /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
+    pub ordinary: bool,
     /// Hull vertices. Those that only lie inside a merged face or edge (flat vertices) are kept for the support climb.
     pub vertices: Vec<Vertex>,
     /// One block per vertex.
@@ -264,6 +273,7 @@ impl Polyhedron {
     pub fn heap_bytes(&self) -> usize {
         let Polyhedron {
             dimension: _,
+            ordinary: _,
             centre: _,
             radius: _,
             vertices,

@@ -47,10 +47,26 @@ pub trait Lanes: Copy {
     fn rotate(self) -> Self;
     /// Sum of the products of lanes 0 to 2.
     fn dot(self, other: Self) -> f64;
-    /// Whether lanes 0 to 2 of every value are at most the limit in magnitude; a NaN is not.
-    fn all_within<const N: usize>(values: [(Self, Self); N]) -> bool;
+    /// Bit i is set where lane i is at most that of `other`; a NaN is not.
+    fn at_most(self, other: Self) -> u32;
     /// |x| + |y| + |z|, rounded.
     fn norm1(self) -> f64;
+    /// Lane by lane the greater one.
+    fn max(self, other: Self) -> Self;
+    /// Quotient.
+    fn div(self, other: Self) -> Self;
+    /// This where the lane of `left` is greater than that of `right`, elsewhere `other`.
+    fn where_greater(self, left: Self, right: Self, other: Self) -> Self;
+    /// With lane 0 of `other`.
+    fn with_first(self, other: Self) -> Self;
+    /// Lanes 2 and 3 of one and of the other.
+    fn upper_halves(first: Self, second: Self) -> Self;
+    /// The greatest of the lanes of two, and which it is, counted through; the first of equals. Any lane if one is a NaN.
+    fn greatest_of(low: Self, high: Self) -> (f64, usize);
+    /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
+    fn least(self) -> (f64, usize);
+    /// Does the work out of line, compiled for these lanes.
+    fn out_of_line<W: Work>(work: &mut W) -> W::Output;
 
     /// The cross product.
     #[inline(always)]
@@ -139,12 +155,57 @@ impl Lanes for Portable {
         self.0[0] * other.0[0] + self.0[1] * other.0[1] + self.0[2] * other.0[2]
     }
     #[inline(always)]
-    fn all_within<const N: usize>(values: [(Self, Self); N]) -> bool {
-        values.iter().all(|(value, limit)| (0..3).all(|i| value.0[i].abs() <= limit.0[i]))
+    fn at_most(self, other: Self) -> u32 {
+        let bit = |i: usize| u32::from(self.0[i] <= other.0[i]) << i;
+        bit(0) | bit(1) | bit(2) | bit(3)
     }
     #[inline(always)]
     fn norm1(self) -> f64 {
         self.0[0].abs() + self.0[1].abs() + self.0[2].abs()
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.where_greater(self, other, other)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        Portable(std::array::from_fn(|i| self.0[i] / other.0[i]))
+    }
+    #[inline(always)]
+    fn where_greater(self, left: Self, right: Self, other: Self) -> Self {
+        Portable(std::array::from_fn(|i| if left.0[i] > right.0[i] { self.0[i] } else { other.0[i] }))
+    }
+    #[inline(always)]
+    fn with_first(self, other: Self) -> Self {
+        Portable([other.0[0], self.0[1], self.0[2], self.0[3]])
+    }
+    #[inline(always)]
+    fn upper_halves(first: Self, second: Self) -> Self {
+        Portable([first.0[2], first.0[3], second.0[2], second.0[3]])
+    }
+    #[inline(always)]
+    fn greatest_of(low: Self, high: Self) -> (f64, usize) {
+        let mut best = (low.0[0], 0);
+        for (lane, value) in low.0.into_iter().chain(high.0).enumerate() {
+            if value > best.0 {
+                best = (value, lane);
+            }
+        }
+        best
+    }
+    #[inline(always)]
+    fn least(self) -> (f64, usize) {
+        let mut best = (self.0[0], 0);
+        for (lane, value) in self.0.into_iter().enumerate() {
+            if value < best.0 {
+                best = (value, lane);
+            }
+        }
+        best
+    }
+    #[inline(never)]
+    fn out_of_line<W: Work>(work: &mut W) -> W::Output {
+        work.run()
     }
 }
 
@@ -154,6 +215,14 @@ pub trait Kernel {
     type Output;
     /// The work.
     fn run<L: Lanes>(&mut self) -> Self::Output;
+}
+
+/// Work on lanes that it has already; its `run` is to be `#[inline(always)]`.
+pub trait Work {
+    /// What it returns.
+    type Output;
+    /// The work.
+    fn run(&mut self) -> Self::Output;
 }
 
 /// Runs the kernel on the widest lanes that this machine has.
@@ -175,13 +244,27 @@ fn run_portable<K: Kernel>(kernel: &mut K) -> K::Output {
 
 #[cfg(target_arch = "x86_64")]
 mod wide {
-    use super::{Kernel, Lanes};
+    use super::{Kernel, Lanes, Work};
     use crate::math::Vector;
     use std::arch::x86_64::*;
+    use std::sync::atomic::{AtomicU8, Ordering};
+
+    /// 0: not looked yet, 1: not there, 2: there. The standard library's own memory of the features takes twice as long to read.
+    static AVAILABLE: AtomicU8 = AtomicU8::new(0);
 
     #[inline(always)]
     pub(super) fn available() -> bool {
-        std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma")
+        match AVAILABLE.load(Ordering::Relaxed) {
+            0 => look(),
+            seen => seen == 2,
+        }
+    }
+
+    #[cold]
+    fn look() -> bool {
+        let found = std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma");
+        AVAILABLE.store(1 + u8::from(found), Ordering::Relaxed);
+        found
     }
 
     /// # Safety
@@ -189,6 +272,14 @@ mod wide {
     #[target_feature(enable = "avx2,fma")]
     pub(super) unsafe fn run<K: Kernel>(kernel: &mut K) -> K::Output {
         kernel.run::<Wide>()
+    }
+
+    /// # Safety
+    /// The machine has AVX2 and FMA.
+    #[target_feature(enable = "avx2,fma")]
+    #[inline(never)]
+    unsafe fn work_out_of_line<W: Work>(work: &mut W) -> W::Output {
+        work.run()
     }
 
     /// An AVX register. Only `run` makes the type reachable, so its methods only run where the features are there.
@@ -303,23 +394,68 @@ mod wide {
             }
         }
         #[inline(always)]
-        fn all_within<const N: usize>(values: [(Self, Self); N]) -> bool {
+        fn at_most(self, other: Self) -> u32 {
             // SAFETY: see above.
-            unsafe {
-                let sign = _mm256_set1_pd(-0.0);
-                let mut all = _mm256_castsi256_pd(_mm256_set1_epi64x(-1));
-                for (value, limit) in values {
-                    let magnitude = _mm256_andnot_pd(sign, value.0);
-                    all = _mm256_and_pd(all, _mm256_cmp_pd::<_CMP_LE_OQ>(magnitude, limit.0));
-                }
-                _mm256_movemask_pd(all) & 0b111 == 0b111
-            }
+            unsafe { _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_LE_OQ>(self.0, other.0)) as u32 }
         }
         #[inline(always)]
         fn norm1(self) -> f64 {
             // SAFETY: see above.
             let magnitude = unsafe { _mm256_andnot_pd(_mm256_set1_pd(-0.0), self.0) };
             Wide(magnitude).dot(Self::splat(1.0))
+        }
+        #[inline(always)]
+        fn max(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Wide(unsafe { _mm256_max_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn div(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Wide(unsafe { _mm256_div_pd(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn where_greater(self, left: Self, right: Self, other: Self) -> Self {
+            // SAFETY: see above.
+            Wide(unsafe { _mm256_blendv_pd(other.0, self.0, _mm256_cmp_pd::<_CMP_GT_OQ>(left.0, right.0)) })
+        }
+        #[inline(always)]
+        fn with_first(self, other: Self) -> Self {
+            // SAFETY: see above.
+            Wide(unsafe { _mm256_blend_pd::<0b0001>(self.0, other.0) })
+        }
+        #[inline(always)]
+        fn upper_halves(first: Self, second: Self) -> Self {
+            // SAFETY: see above.
+            Wide(unsafe { _mm256_permute2f128_pd::<0x31>(first.0, second.0) })
+        }
+        #[inline(always)]
+        fn greatest_of(low: Self, high: Self) -> (f64, usize) {
+            // SAFETY: see above.
+            unsafe {
+                let both = _mm256_max_pd(low.0, high.0);
+                let pair = _mm256_max_pd(both, _mm256_permute2f128_pd::<0x01>(both, both));
+                let all = _mm256_max_pd(pair, _mm256_permute_pd::<0b0101>(pair));
+                let in_low = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(low.0, all)) as u32;
+                let in_high = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(high.0, all)) as u32;
+                let mask = in_low | in_high << 4;
+                (_mm256_cvtsd_f64(all), (mask | 0x80).trailing_zeros() as usize)
+            }
+        }
+        #[inline(always)]
+        fn least(self) -> (f64, usize) {
+            // SAFETY: see above.
+            unsafe {
+                let pair = _mm256_min_pd(self.0, _mm256_permute2f128_pd::<0x01>(self.0, self.0));
+                let all = _mm256_min_pd(pair, _mm256_permute_pd::<0b0101>(pair));
+                let mask = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(self.0, all)) as u32;
+                (_mm256_cvtsd_f64(all), (mask | 0b1000).trailing_zeros() as usize)
+            }
+        }
+        #[inline(always)]
+        fn out_of_line<W: Work>(work: &mut W) -> W::Output {
+            // SAFETY: see above.
+            unsafe { work_out_of_line(work) }
         }
     }
 }
@@ -330,13 +466,24 @@ mod tests {
 
     struct Sample;
     impl Kernel for Sample {
-        type Output = ([f64; 4], [[f64; 4]; 4], f64, u32);
+        type Output = ([f64; 4], [[f64; 4]; 4], f64, u32, [(f64, usize); 4], [[f64; 4]; 5]);
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> Self::Output {
             let rows = [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0], [9.0, 10.0, 11.0, 12.0]].map(|r| L::load(&r));
             let [x, y, z] = rows;
             let combined = x.splat_x().mul_add(y.splat_y(), z.splat_z()).sub(x).add(y).mul(z);
-            (combined.to_array(), L::transpose(&rows).map(L::to_array), x.dot(y), y.greater(L::splat(6.5)))
+            let turned = L::load(&[7.0, 1.0, 7.0, 1.0]);
+            let picks = [L::greatest_of(x, turned), L::greatest_of(turned, turned), turned.least(), z.least()];
+            let (quotient, greater) = (z.div(y), y.max(turned));
+            let chosen = [quotient, greater, x.where_greater(y, turned, z), x.with_first(y), L::upper_halves(x, y)];
+            (
+                combined.to_array(),
+                L::transpose(&rows).map(L::to_array),
+                x.dot(y),
+                y.greater(L::splat(6.5)),
+                picks,
+                chosen.map(L::to_array),
+            )
         }
     }
 
@@ -347,5 +494,10 @@ mod tests {
         assert_eq!(expected.1[3], [4.0, 8.0, 12.0, 0.0]);
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.3, 0b1100);
+        assert_eq!(expected.4, [(7.0, 4), (7.0, 0), (1.0, 1), (9.0, 0)]);
+        assert_eq!(
+            expected.5[1..],
+            [[7.0, 6.0, 7.0, 8.0], [9.0, 2.0, 11.0, 4.0], [5.0, 2.0, 3.0, 4.0], [3.0, 4.0, 7.0, 8.0]]
+        );
     }
 }

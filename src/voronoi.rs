@@ -91,12 +91,7 @@ pub fn climb<L: Lanes>(polyhedron: &Polyhedron, g: L, start: u32) -> u32 {
 #[inline(always)]
 fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f64, u32, u32) {
     let [low, high] = slopes(block, g);
-    let ([a, b, c, d], [e, f, g, h]) = (low.to_array(), high.to_array());
-    // A tournament; on a tie the lower lane wins.
-    let better = |x: (f64, usize), y: (f64, usize)| if y.0 > x.0 { y } else { x };
-    let low = better(better((a, 0), (b, 1)), better((c, 2), (d, 3)));
-    let high = better(better((e, 4), (f, 5)), better((g, 6), (h, 7)));
-    let (slope, lane) = better(low, high);
+    let (slope, lane) = L::greatest_of(low, high);
     (slope, block.edge[lane & 7], block.head[lane & 7])
 }
 
@@ -156,20 +151,6 @@ pub fn edge_direction(planes: &PlaneBlock) -> Vector {
     Vector::new(planes.x[0], planes.y[0], planes.z[0])
 }
 
-/// The lane of the least value among those in the mask (lowest lane on a tie).
-#[inline(always)]
-pub fn most_negative(values: [f64; 4], mask: u32) -> usize {
-    let mut best = 0;
-    let mut least = f64::INFINITY;
-    for (lane, &value) in values.iter().enumerate() {
-        if mask & (1 << lane) != 0 && value < least {
-            least = value;
-            best = lane;
-        }
-    }
-    best
-}
-
 /// The side of a face whose plane is violated most, if any is by more than the tolerance. `first` are the values of the face's
 /// first block.
 #[inline(always)]
@@ -180,25 +161,16 @@ pub fn most_violated_side<L: Lanes>(
     point: L,
     tolerance: f64,
 ) -> Option<u32> {
-    let mut worst = (-tolerance, None);
-    let mut look = |side: u32, value: f64| {
-        if value < worst.0 {
-            worst = (value, Some(side));
-        }
-    };
-    let [_, a, b, c] = first.to_array();
-    look(0, a);
-    look(1, b);
-    look(2, c);
+    // Lane 0 is not a side.
+    let (mut worst, lane) = first.with_first(L::splat(f64::INFINITY)).least();
+    let mut side = (lane as u32).saturating_sub(1);
     for (index, block) in polyhedron.further_sides(face).iter().enumerate() {
-        let values = plane_values(block, point);
-        if L::splat(-tolerance).greater(values) != 0 {
-            for (lane, value) in values.to_array().into_iter().enumerate() {
-                look(3 + 4 * index as u32 + lane as u32, value);
-            }
+        let (value, lane) = plane_values(block, point).least();
+        if value < worst {
+            (worst, side) = (value, 3 + 4 * index as u32 + lane as u32);
         }
     }
-    worst.1
+    (worst < -tolerance).then_some(side)
 }
 
 /// Where the way from one point to another leaves the prism over a face: the fraction of the way and the side, or (1, None).
@@ -211,29 +183,37 @@ pub fn exit_of_prism<L: Lanes>(
     [from_first, to_first]: [L; 2],
     skip: u32,
 ) -> (f64, Option<u32>) {
-    let mut exit = (1.0, None);
-    let mut look = |side: u32, start: f64, end: f64| {
-        if end < 0.0 && end < start && polyhedron.sides[(face.first_side + side) as usize] != skip {
-            let fraction = start.max(0.0) / (start.max(0.0) - end);
-            if fraction < exit.0 {
-                exit = (fraction, Some(side));
-            }
-        }
-    };
-    let (start, end) = (from_first.to_array(), to_first.to_array());
-    for lane in 1..4 {
-        look(lane as u32 - 1, start[lane], end[lane]);
+    let sides = &polyhedron.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
+    let skipped = |side: usize| sides.get(side) == Some(&skip);
+    // Lane 0 is not a side.
+    let never = L::splat(f64::INFINITY);
+    let mut fractions = exit_fractions(from_first, to_first).with_first(never);
+    if skipped(0) | skipped(1) | skipped(2) {
+        let [_, a, b, c] = fractions.to_array();
+        let unless = |side, fraction| if skipped(side) { f64::INFINITY } else { fraction };
+        fractions = L::load(&[f64::INFINITY, unless(0, a), unless(1, b), unless(2, c)]);
     }
+    let (mut exit, lane) = fractions.least();
+    let mut side = (lane as u32).saturating_sub(1);
     for (index, block) in polyhedron.further_sides(face).iter().enumerate() {
-        let (start, end) = (plane_values(block, from).to_array(), plane_values(block, to).to_array());
-        for lane in 0..4 {
-            let side = 3 + 4 * index as u32 + lane as u32;
-            if side < face.side_count {
-                look(side, start[lane], end[lane]);
+        let fractions = exit_fractions(plane_values(block, from), plane_values(block, to)).to_array();
+        for (lane, fraction) in fractions.into_iter().enumerate() {
+            let further = 3 + 4 * index + lane;
+            if fraction < exit && !skipped(further) {
+                (exit, side) = (fraction, further as u32);
             }
         }
     }
-    exit
+    if exit < 1.0 { (exit, Some(side)) } else { (1.0, None) }
+}
+
+/// Where values change sign on the way from the first to the second: the fraction of the way, +∞ where they do not fall below 0.
+#[inline(always)]
+fn exit_fractions<L: Lanes>(start: L, end: L) -> L {
+    let (zero, never) = (L::splat(0.0), L::splat(f64::INFINITY));
+    let inside = start.max(zero);
+    let fraction = inside.div(inside.sub(end));
+    fraction.where_greater(zero, end, never).where_greater(start, end, never)
 }
 
 /// The end of an edge at which a parameter was clamped.

@@ -58,6 +58,7 @@ fn edge_between(
         normals,
         slacks: [slacks[left as usize], slacks[right as usize]],
         length,
+        slack: slacks[left as usize].max(slacks[right as usize]),
         reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
         tail,
         head,
@@ -131,6 +132,7 @@ impl Polyhedron {
                 if edge.normals[0].dot(&edge.normals[1]) < 0.0 {
                     edge.bevel = self.bevels.len() as u32;
                     let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), flood);
+                    edge.slack = edge.slack.max(bevel.slack);
                     self.bevels.push(bevel);
                 }
                 self.edges.push(edge);

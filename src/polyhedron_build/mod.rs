@@ -13,7 +13,7 @@ use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::mesh::PolygonMesh;
 use crate::normal::{area_vector, normal_of};
-use crate::polyhedron::{NONE, Polyhedron};
+use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::slack::Flood;
 use crate::triangulation::Triangulation;
 use layout::neighbours_of;
@@ -51,6 +51,8 @@ pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&Polygo
     if factor != 1.0 {
         scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
     }
+    let is_usual = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
+    polyhedron.ordinary = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_usual;
     Ok(polyhedron)
 }
 
@@ -163,6 +165,7 @@ impl HullSurface {
             dimension: self.dimension,
             centre,
             radius,
+            ordinary: false,
             vertices: Vec::new(),
             neighbours: Vec::new(),
             more_neighbours: Vec::new(),

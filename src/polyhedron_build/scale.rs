@@ -29,6 +29,7 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
         scale_block(&mut edge.planes);
         edge.length *= factor;
         edge.slacks.iter_mut().for_each(bound);
+        bound(&mut edge.slack);
     }
     for face in &mut polyhedron.faces {
         scale_block(&mut face.planes);
