@@ -46,10 +46,7 @@ pub fn cuboid(half_extents: [f64; 3]) -> Result<PolygonMesh> {
 
 /// A right prism around the z axis over a regular polygon of `sides` corners on the unit circle.
 pub fn prism(sides: u32, half_height: f64) -> Result<PolygonMesh> {
-    let corner = |i: u32| {
-        let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
-        Vector::new(angle.cos(), angle.sin(), if i < sides { -half_height } else { half_height })
-    };
+    let corner = |i: u32| on_circle(i, sides, if i < sides { -half_height } else { half_height });
     let mut indices: Vec<u32> = (0..sides).rev().chain(sides..2 * sides).collect();
     let mut valences = vec![sides; 2];
     for i in 0..sides {
@@ -58,6 +55,71 @@ pub fn prism(sides: u32, half_height: f64) -> Result<PolygonMesh> {
         valences.push(4);
     }
     PolygonMesh::new((0..2 * sides).map(corner).collect(), indices, Some(&valences))
+}
+
+/// A cone over a regular polygon of `sides` corners on the unit circle, which is one face; its apex is on the z axis.
+pub fn cone(sides: u32, height: f64) -> Result<PolygonMesh> {
+    let mut vertices: Vec<Vector> = (0..sides).map(|i| on_circle(i, sides, 0.0)).collect();
+    vertices.push(Vector::new(0.0, 0.0, height));
+    let mut indices: Vec<u32> = (0..sides).rev().collect();
+    let mut valences = vec![sides];
+    for i in 0..sides {
+        indices.extend([i, (i + 1) % sides, sides]);
+        valences.push(3);
+    }
+    PolygonMesh::new(vertices, indices, Some(&valences))
+}
+
+/// Two cones on one rim: two vertices with `sides` neighbours each.
+pub fn bipyramid(sides: u32, height: f64) -> Result<PolygonMesh> {
+    let mut vertices: Vec<Vector> = (0..sides).map(|i| on_circle(i, sides, 0.0)).collect();
+    vertices.extend([Vector::new(0.0, 0.0, height), Vector::new(0.0, 0.0, -height)]);
+    let around = |i: u32| [i, (i + 1) % sides, sides, (i + 1) % sides, i, sides + 1];
+    PolygonMesh::new(vertices, (0..sides).flat_map(around).collect(), None)
+}
+
+/// Two regular polygons of `sides` corners, one turned by half a side, joined by triangles.
+pub fn antiprism(sides: u32, half_height: f64) -> Result<PolygonMesh> {
+    let lower = (0..sides).map(|i| on_circle(2 * i, 2 * sides, -half_height));
+    let upper = (0..sides).map(|i| on_circle(2 * i + 1, 2 * sides, half_height));
+    let mut indices: Vec<u32> = (0..sides).rev().chain(sides..2 * sides).collect();
+    let mut valences = vec![sides; 2];
+    for i in 0..sides {
+        let next = (i + 1) % sides;
+        indices.extend([i, next, sides + i, next, sides + next, sides + i]);
+        valences.extend([3, 3]);
+    }
+    PolygonMesh::new(lower.chain(upper).collect(), indices, Some(&valences))
+}
+
+/// The dual of an antiprism: two vertices in which `sides` kites meet each, quadrilaterals that rounding leaves not quite plane.
+pub fn trapezohedron(sides: u32, height: f64) -> Result<PolygonMesh> {
+    let half_angle = std::f64::consts::PI / f64::from(2 * sides);
+    let rise = height * half_angle.tan().powi(2);
+    let mut vertices: Vec<Vector> =
+        (0..2 * sides).map(|i| on_circle(i, 2 * sides, if i % 2 == 0 { rise } else { -rise })).collect();
+    vertices.extend([Vector::new(0.0, 0.0, height), Vector::new(0.0, 0.0, -height)]);
+    let (top, bottom) = (2 * sides, 2 * sides + 1);
+    let around = |i: u32| {
+        let [a, b, c, d] = [0, 1, 2, 3].map(|k| (2 * i + k) % (2 * sides));
+        [top, a, b, c, bottom, d, c, b]
+    };
+    PolygonMesh::new(vertices, (0..sides).flat_map(around).collect(), Some(&vec![4; 2 * sides as usize]))
+}
+
+/// The hull of `n` points (t, t², t³), t in [−1, 1]: a cyclic polytope, whose ends have all vertices for neighbours.
+pub fn moment_curve(n: usize) -> Result<PolygonMesh> {
+    let point = |i: usize| {
+        let t = 2.0 * i as f64 / (n - 1) as f64 - 1.0;
+        Vector::new(t, t * t, t * t * t)
+    };
+    hull_mesh(&(0..n).map(point).collect::<Vec<_>>())
+}
+
+/// Corner `i` of a regular polygon on the unit circle at height z.
+fn on_circle(i: u32, sides: u32, z: f64) -> Vector {
+    let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
+    Vector::new(angle.cos(), angle.sin(), z)
 }
 
 /// The hull of points as a mesh over the hull's own vertices.

@@ -212,7 +212,8 @@ impl Polyhedron {
 /// not.
 fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, flood: &mut Flood) -> Bevel {
     let normal = unit(&(plane_normal(&edge.planes, 2) + plane_normal(&edge.planes, 3)));
-    let rise = flood.rise(&normal, edge.tail);
+    // No limit: the exterior angles of the sharp edges at a vertex sum to less than 2π, so there are at most three.
+    let rise = flood.rise(&normal, edge.tail, usize::MAX).unwrap_or(f64::INFINITY);
     let fall = flood.fall(&normal, edge.tail, vertices);
     Bevel { normal, slack: (rise + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF) }
 }

@@ -196,7 +196,7 @@ impl HullSurface {
         let surface = Triangulation::new(self.triangles, &self.normals, self.positions.len())?;
         let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius));
         let mut flood = Flood::new(&surface, &self.positions, radius);
-        let slacks = face_slacks(&surface, &merged, &mut flood);
+        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood);
         let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
         polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
         polyhedron.vertices.reserve_exact(self.positions.len());
@@ -210,15 +210,34 @@ impl HullSurface {
     }
 }
 
-/// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below.
-fn face_slacks(surface: &Triangulation, merged: &MergedFaces, flood: &mut Flood) -> Vec<f64> {
+/// Neighbours of vertices that a flood for a face of one triangle may look at; most look at twenty.
+const FLOOD_EFFORT: usize = 128;
+
+/// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below. `normals` are the
+/// triangles'.
+fn face_slacks(surface: &Triangulation, normals: &[Vector], merged: &MergedFaces, flood: &mut Flood) -> Vec<f64> {
     let start = |face: usize| surface.tail(merged.first_half_edges[face]);
-    let mut slacks: Vec<f64> =
-        merged.normals.iter().enumerate().map(|(face, normal)| flood.rise(normal, start(face))).collect();
+    let mut triangle_counts = vec![0_usize; merged.normals.len()];
+    merged.face_of.iter().for_each(|face| triangle_counts[*face as usize] += 1);
+    let flooded: Vec<Option<f64>> = merged
+        .normals
+        .iter()
+        .zip(&triangle_counts)
+        .enumerate()
+        .map(|(face, (normal, count))| flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count))
+        .collect();
+    let mut slacks: Vec<f64> = flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)).collect();
     let mut falls = vec![0.0_f64; slacks.len()];
-    for (triangle, &face) in surface.triangles.iter().zip(&merged.face_of) {
+    for (t, (triangle, &face)) in surface.triangles.iter().zip(&merged.face_of).enumerate() {
         let face = face as usize;
-        falls[face] = falls[face].max(flood.fall(&merged.normals[face], start(face), *triangle));
+        let normal = &merged.normals[face];
+        falls[face] = falls[face].max(flood.fall(normal, start(face), *triangle));
+        if flooded[face].is_none() {
+            for h in 3 * t..3 * t + 3 {
+                let beside = [t, surface.twins[h] as usize / 3].map(|t| &normals[t]);
+                slacks[face] = slacks[face].min(flood.rise_beside(normal, start(face), h as u32, beside));
+            }
+        }
     }
     for (slack, fall) in slacks.iter_mut().zip(falls) {
         *slack = (*slack + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF);

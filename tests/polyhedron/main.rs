@@ -1,11 +1,14 @@
 //! Every documented invariant of a built polyhedron, on shapes from points to ten thousand vertices.
 
+#[path = "../../benches/common/mod.rs"]
+mod common;
 mod random;
 mod solids;
 mod validate;
 
+use common::models;
 use random::SplitMix64;
-use swiftprox::math::Vector;
+use swiftprox::math::{UNIT_ROUNDOFF, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::polyhedron_build::build;
@@ -73,6 +76,24 @@ fn a_cone_keeps_its_fan() {
     points.push(Vector::new(0.0, 0.0, 3.0));
     let p = hull(&points);
     assert_eq!(counts(&p), (1001, 2000, 1001));
+}
+
+/// Around a vertex with more neighbours than a flood may look at, slacks come from the planes beside an edge: as exact.
+#[test]
+fn slacks_at_a_vertex_of_many_neighbours_stay_small() {
+    let mut random = SplitMix64(5);
+    let meshes = [
+        models::cone(1500, 1.0),
+        models::cone(1500, 1e-3),
+        models::bipyramid(1000, 1.0),
+        models::trapezohedron(700, 1.0),
+        models::moment_curve(1000),
+    ];
+    for mesh in meshes {
+        let p = hull(&random.rotate(&mesh.unwrap().vertices));
+        let worst = p.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
+        assert!(worst > 0.0 && worst <= 12.0 * UNIT_ROUNDOFF * p.radius, "{:e} of {:e}", worst, p.radius);
+    }
 }
 
 #[test]
