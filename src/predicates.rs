@@ -205,6 +205,19 @@ impl ExactPoints {
         if height.abs() > plane.error { height } else { self.small_height(plane, p, height) }
     }
 
+    /// An upper bound of the distance of point `p` from the plane, in the units of [`ExactPoints::approximate`]; +∞ for a triangle so
+    /// thin that double precision does not see its plane.
+    pub fn distance_bound(&self, plane: &FilteredPlane, p: u32) -> f64 {
+        if plane.corners.contains(&p) {
+            return 0.0;
+        }
+        // Both off by what is said at `plane`; the factor covers what is left to round.
+        let (normal, permanent) = normal_and_permanent(plane.corners.map(|i| &self.scaled[i as usize]));
+        let length = Vector::from(normal).norm() - 8.0 * UNIT_ROUNDOFF * permanent.iter().sum::<f64>();
+        let bound = (self.height(plane, p).abs() + plane.error) / length * (1.0 + 16.0 * UNIT_ROUNDOFF);
+        if length > 0.0 { bound } else { f64::INFINITY }
+    }
+
     /// The height where the filter cannot decide its sign.
     #[cold]
     fn small_height(&self, plane: &FilteredPlane, p: u32, height: f64) -> f64 {

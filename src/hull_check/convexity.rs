@@ -28,7 +28,8 @@ const MOST_PLANES: usize = 100;
 /// test, about 1e-14 of the largest coordinate) outside of its plane and its own as close to it on
 /// either side. A tiny or narrow face has no reliable plane: a vertex misplaced by the tolerance
 /// may tilt it by any angle. Therefore a face also passes when some supporting plane of the hull
-/// has all of the face's vertices within the tolerance. Either way the whole face lies within the
+/// has all of the face's vertices within the tolerance; it is tried first with the hull's triangles on the face's own corners, of
+/// which a face of an exactly convex mesh is made up. Either way the whole face lies within the
 /// tolerance of the hull's boundary: for a direction n, no point of the face is deeper inside the
 /// hull than max n·hull − min n·face.
 ///
@@ -74,6 +75,9 @@ pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_fl
     let allowed = exact.to_scaled(tolerance) + ROUNDING;
     let mut search = boundary.search();
     for (f, polygon) in polygons.iter().enumerate() {
+        if boundary.has_triangle_under(polygon.corners, &exact, allowed) {
+            continue;
+        }
         let Err(Outside { vertex, distance }) = polygon.check_plane(&position, &mut search, allowed) else {
             continue;
         };
@@ -239,6 +243,8 @@ struct Boundary<'a> {
     across: Vec<u32>,
     /// The neighbours of vertex v (an input index) are `neighbours[starts[v]..starts[v + 1]]`.
     neighbours: Vec<u32>,
+    /// The triangle left of the edge to each of `neighbours`.
+    beside: Vec<u32>,
     starts: Vec<u32>,
     /// A point inside.
     centre: Vector,
@@ -261,9 +267,10 @@ impl<'a> Boundary<'a> {
             starts[v + 1] += starts[v];
         }
         let mut free = starts.clone();
-        let mut neighbours = vec![0; edges.len()];
-        for &(tail, head) in &edges {
-            neighbours[free[tail as usize] as usize] = head;
+        let (mut neighbours, mut beside) = (vec![0; edges.len()], vec![0; edges.len()]);
+        for (corner, &(tail, head)) in edges.iter().enumerate() {
+            let place = free[tail as usize] as usize;
+            (neighbours[place], beside[place]) = (head, corner as u32 / 3);
             free[tail as usize] += 1;
         }
         let across = if hull.dimension == 3 {
@@ -273,7 +280,7 @@ impl<'a> Boundary<'a> {
         };
         let centre = hull.vertices.iter().map(|v| position[*v as usize]).sum::<Vector>() / hull.vertices.len() as f64;
         let normals = hull.triangles.iter().map(normal).collect();
-        Boundary { hull, position, normals, across, neighbours, starts, centre }
+        Boundary { hull, position, normals, across, neighbours, beside, starts, centre }
     }
 
     /// Edges (lower vertex first) between triangles of clearly different planes, once each.
@@ -299,6 +306,23 @@ impl<'a> Boundary<'a> {
     /// How many neighbours a vertex of the mesh has on the hull; 0 when it is no hull vertex.
     fn valence(&self, v: u32) -> u32 {
         self.starts[v as usize + 1] - self.starts[v as usize]
+    }
+
+    /// Whether the plane of one of the hull's triangles on a face's own corners, which supports the hull, has all of them within
+    /// `allowed`.
+    fn has_triangle_under(&self, corners: &[u32], exact: &ExactPoints, allowed: f64) -> bool {
+        // Looked for at the corner where there are few.
+        let on_hull = corners.iter().copied().filter(|&v| self.valence(v) > 0);
+        let Some(v) = on_hull.min_by_key(|&v| self.valence(v)) else { return false };
+        self.beside[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize].iter().any(|&t| {
+            let triangle = self.hull.triangles[t as usize];
+            let is_on_corners = triangle.iter().all(|w| corners.contains(w));
+            let lies_under = || {
+                let plane = exact.plane(triangle);
+                corners.iter().all(|&w| exact.distance_bound(&plane, w) <= allowed)
+            };
+            is_on_corners && (corners.len() == 3 || lies_under())
+        })
     }
 
     /// Triangle `start` and those nearest to it, counted in edges crossed; of a flat hull only
