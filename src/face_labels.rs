@@ -1,14 +1,18 @@
 //! Which of the caller's polygons lie on which merged face.
 
 use std::collections::HashMap;
+use std::ops::Range;
 
 use crate::face_merge::merge_bound;
-use crate::math::Vector;
+use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::{Face, Polyhedron};
 
 /// Corners of a polygon whose faces are candidates for it.
 const MOST_CORNERS_TRIED: usize = 8;
+
+/// Faces around a vertex beyond which only those that lie in a polygon's direction are candidates for it.
+const MOST_FACES_TRIED: usize = 32;
 
 /// Labels every face by its own index: for a hull of bare points.
 pub fn label_by_index(polyhedron: &mut Polyhedron) {
@@ -76,7 +80,7 @@ fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonM
         if vertices.is_empty() {
             vertices.push(polyhedron.support(&normal, start).0);
         }
-        vertices.sort_by_key(|v| around.of(*v).len());
+        vertices.sort_by_key(|v| around.range(*v).len());
         start = vertices[0];
 
         let misfit = |face: u32| {
@@ -85,9 +89,10 @@ fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonM
             let distance = corners.iter().map(|c| planes.value(0, &points[*c as usize]).abs()).fold(bound, f64::max);
             (distance, -plane.dot(&normal))
         };
+        let centre = corners.iter().map(|c| points[*c as usize]).sum::<Vector>() / corners.len() as f64;
         let mut best = ((f64::INFINITY, f64::INFINITY), 0);
         for &vertex in &vertices {
-            for &face in around.of(vertex) {
+            for face in around.towards(vertex, &centre) {
                 let misfit = misfit(face);
                 if misfit < best.0 {
                     best = (misfit, face);
@@ -102,34 +107,91 @@ fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonM
     faces
 }
 
-/// The merged faces around each hull vertex, flat vertices included; a face with several triangles there comes several times.
-struct FacesAround {
+/// The merged faces around each hull vertex, flat vertices included.
+struct FacesAround<'a> {
+    polyhedron: &'a Polyhedron,
+    /// Each face once, or, where there are more than `MOST_FACES_TRIED`, once for each of its triangles, by angle.
     faces: Vec<u32>,
     starts: Vec<u32>,
+    /// Where there are so many: the angles of the triangles about the axis to the centre of mass, ascending.
+    angles: Vec<f64>,
 }
 
-impl FacesAround {
-    fn new(polyhedron: &Polyhedron) -> FacesAround {
-        let mut starts = vec![0_u32; polyhedron.vertices.len() + 1];
+impl FacesAround<'_> {
+    fn new(polyhedron: &Polyhedron) -> FacesAround<'_> {
+        let count = polyhedron.vertices.len();
+        let mut starts = vec![0_u32; count + 1];
         for v in polyhedron.triangles.iter().flatten() {
             starts[*v as usize + 1] += 1;
         }
-        for v in 0..polyhedron.vertices.len() {
+        for v in 0..count {
             starts[v + 1] += starts[v];
         }
-        let mut faces = vec![0; 3 * polyhedron.triangles.len()];
+        let mut triangles = vec![0; 3 * polyhedron.triangles.len()];
         let mut fill = starts.clone();
-        for (triangle, face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
-            for v in triangle {
-                faces[fill[*v as usize] as usize] = *face;
+        for (t, corners) in (0..).zip(&polyhedron.triangles) {
+            for v in corners {
+                triangles[fill[*v as usize] as usize] = t;
                 fill[*v as usize] += 1;
             }
         }
-        FacesAround { faces, starts }
+        let mut around = FacesAround { polyhedron, faces: Vec::new(), starts: vec![0], angles: Vec::new() };
+        let mut distinct = Vec::new();
+        for v in 0..count {
+            around.add(v as u32, &triangles[starts[v] as usize..starts[v + 1] as usize], &mut distinct);
+        }
+        around
     }
 
-    fn of(&self, v: u32) -> &[u32] {
-        &self.faces[self.starts[v as usize] as usize..self.starts[v as usize + 1] as usize]
+    /// Adds the next vertex; `distinct` is scratch.
+    fn add(&mut self, vertex: u32, triangles: &[u32], distinct: &mut Vec<u32>) {
+        let face = |t: &u32| self.polyhedron.face_of_triangle[*t as usize];
+        distinct.clear();
+        distinct.extend(triangles.iter().map(face));
+        distinct.sort_unstable();
+        distinct.dedup();
+        if distinct.len() <= MOST_FACES_TRIED {
+            self.faces.append(distinct);
+        } else {
+            let position = |v: u32| self.polyhedron.vertices[v as usize].position;
+            let centre = |t: &u32| self.polyhedron.triangles[*t as usize].map(position).iter().sum::<Vector>() / 3.0;
+            let mut sorted: Vec<(f64, u32)> =
+                triangles.iter().map(|t| (self.angle(vertex, &centre(t)), face(t))).collect();
+            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            self.angles.resize(self.faces.len(), 0.0);
+            self.angles.extend(sorted.iter().map(|(angle, _)| *angle));
+            self.faces.extend(sorted.iter().map(|(_, face)| *face));
+        }
+        self.starts.push(self.faces.len() as u32);
+    }
+
+    fn range(&self, vertex: u32) -> Range<usize> {
+        self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize
+    }
+
+    /// The faces around a vertex; if there are many, those at the angle of a point. Seen along an axis into the body the faces around
+    /// a vertex do not overlap.
+    fn towards(&self, vertex: u32, point: &Vector) -> impl Iterator<Item = u32> {
+        let range = self.range(vertex);
+        let (faces, count) = (&self.faces[range.clone()], range.len());
+        let (first, tried) = if count <= MOST_FACES_TRIED {
+            (0, count)
+        } else {
+            let angle = self.angle(vertex, point);
+            let place = self.angles[range].partition_point(|other| *other < angle);
+            (place + count - MOST_FACES_TRIED / 2, MOST_FACES_TRIED)
+        };
+        (first..first + tried).map(move |i| faces[i % count])
+    }
+
+    /// The angle of a point about the axis from a vertex to the centre of mass.
+    fn angle(&self, vertex: u32, point: &Vector) -> f64 {
+        let position = &self.polyhedron.vertices[vertex as usize].position;
+        let axis = self.polyhedron.mass.centre_of_mass - self.polyhedron.centre - position;
+        let across = axis.cross(&Matrix::identity().column(axis.iamin()));
+        let from = point - position;
+        // Both are as long as the axis times the part across it.
+        from.dot(&axis.cross(&across)).atan2(from.dot(&across) * axis.norm())
     }
 }
 
