@@ -151,6 +151,21 @@ enum {
 };
 typedef int32_t swift_input;
 
+/** How the levels of a body are made. */
+enum {
+  /** There are none. */
+  SWIFT_HIERARCHY_NONE = 0,
+  /** Simplified by quadric error (Garland & Heckbert 1997), then translated and scaled until they contain the body. */
+  SWIFT_HIERARCHY_QUADRIC = 1,
+  /** Dobkin and Kirkpatrick's, without sharp vertices, scaled about the centre of mass and drawn back vertex by vertex. */
+  SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK = 2,
+  /** Cut out of a box by planes that touch the body: tight on thin bodies, too. */
+  SWIFT_HIERARCHY_OUTER_CUTS = 3,
+  /** The caller's, translated and scaled until they contain the body. */
+  SWIFT_HIERARCHY_GIVEN = 4
+};
+typedef int32_t swift_hierarchy;
+
 /** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
 typedef struct swift_scene swift_scene;
 
@@ -162,6 +177,13 @@ typedef struct swift_shape swift_shape;
  * and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
  */
 typedef void (*swift_log_callback)(int32_t status, const char *message, void *user);
+
+/**
+ * Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
+ * Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must return,
+ * and must not use what the call is working on; a C++ exception that leaves it ends the program.
+ */
+typedef int32_t (*swift_progress_callback)(void *user, double fraction);
 
 /** How a shape is made. Fill it with swift_shape_options_init, then change what should differ. */
 typedef struct swift_shape_options {
@@ -183,7 +205,33 @@ typedef struct swift_shape_options {
    * means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
    */
   double convexity_tolerance;
+  /** A swift_hierarchy: how levels of detail are made. Default: there are none. */
+  int32_t hierarchy;
+  /** The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25. */
+  double decimation;
+  /** No level has fewer triangles. Default: 50. */
+  size_t minimum_triangles;
+  /** No more levels than these. Default: 32. */
+  size_t most_levels;
+  /** Learns how far the building of levels is, and can cancel it. Default: null. */
+  swift_progress_callback progress;
+  /** Handed to progress. Default: null. */
+  void *progress_user;
 } swift_shape_options;
+
+/** A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it. */
+typedef struct swift_mesh {
+  /** 3 * vertex_count coordinates. */
+  const double *vertices;
+  /** The number of vertices. */
+  size_t vertex_count;
+  /** The 0-based vertex numbers of all faces, one face after the other. */
+  const uint32_t *indices;
+  /** The number of vertices of each face, or null when all are triangles. */
+  const uint32_t *valences;
+  /** The number of faces. */
+  size_t face_count;
+} swift_mesh;
 
 /** What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it. */
 typedef struct swift_shape_info {
@@ -209,9 +257,33 @@ typedef struct swift_shape_info {
   double lower[3];
   /** Upper corner of the bounding box in the local frame. */
   double upper[3];
-  /** Memory that the shape holds, in bytes, however many share it. */
+  /** Memory that the shape holds, in bytes, levels included, however many share it. */
   size_t bytes;
+  /** A swift_hierarchy: how the levels of detail were made. */
+  int32_t hierarchy;
+  /** The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is level 0. */
+  size_t level_count;
+  /** Of bytes, what the levels take. */
+  size_t level_bytes;
 } swift_shape_info;
+
+/** What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it. */
+typedef struct swift_level_info {
+  /** Set by the caller. */
+  size_t struct_size;
+  /** Vertices of the level's hull. */
+  size_t vertex_count;
+  /** Edges between faces that are not coplanar. */
+  size_t edge_count;
+  /** Faces, coplanar triangles counted as one. */
+  size_t face_count;
+  /** Triangles of the level's hull. */
+  size_t triangle_count;
+  /** An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the body. */
+  double deviation;
+  /** Memory that the level holds, in bytes. */
+  size_t bytes;
+} swift_level_info;
 
 /** What a pair query is asked for. */
 typedef struct swift_pair_config {
@@ -450,7 +522,8 @@ swift_status swift_shape_options_init(struct swift_shape_options *options);
  * `options` may be null for the defaults.
  *
  * SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
- * bits. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * bits. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+ * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_mesh(const double *vertices,
                                           size_t vertex_count,
@@ -467,9 +540,9 @@ swift_status swift_shape_create_from_mesh(const double *vertices,
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults, which refuse a hull without interior.
  *
- * SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate that
- * is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_NULL_POINTER,
- * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate
+ * that is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
+ * options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_points(const double *points,
                                             size_t point_count,
@@ -484,12 +557,31 @@ swift_status swift_shape_create_from_points(const double *points,
  * `options` may be null for the defaults.
  *
  * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
- * the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
- * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_CANCELLED: options->progress said so.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_file(const char *path,
                                           const struct swift_shape_options *options,
                                           struct swift_shape **shape);
+
+/**
+ * Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
+ * swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
+ * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
+ * bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
+ * levels.
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ * `options` may be null for the defaults.
+ *
+ * SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
+ * names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ */
+swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
+                                            size_t level_count,
+                                            const struct swift_shape_options *options,
+                                            struct swift_shape **shape);
 
 /**
  * Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.
@@ -518,7 +610,8 @@ swift_status swift_shape_get_info(const struct swift_shape *shape,
  * Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
  * at least swift_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
  *
- * SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+ * SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is
+ * null.
  */
 swift_status swift_shape_copy_vertices(const struct swift_shape *shape,
                                        double *vertices,
@@ -536,6 +629,43 @@ swift_status swift_shape_copy_vertices(const struct swift_shape *shape,
 swift_status swift_shape_copy_triangles(const struct swift_shape *shape,
                                         uint32_t *corners,
                                         size_t capacity);
+
+/**
+ * Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
+ * info->struct_size to sizeof(swift_level_info) first.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
+ * SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+ */
+swift_status swift_shape_get_level_info(const struct swift_shape *shape,
+                                        size_t level,
+                                        struct swift_level_info *info);
+
+/**
+ * Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
+ * swift_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
+ * swift_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+ * SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+ */
+swift_status swift_shape_copy_level_vertices(const struct swift_shape *shape,
+                                             size_t level,
+                                             double *vertices,
+                                             size_t capacity);
+
+/**
+ * Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
+ * swift_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
+ * swift_level_info.triangle_count.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+ * SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+ */
+swift_status swift_shape_copy_level_triangles(const struct swift_shape *shape,
+                                              size_t level,
+                                              uint32_t *corners,
+                                              size_t capacity);
 
 /**
  * Fills `config` with the defaults, struct_size included.

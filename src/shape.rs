@@ -4,6 +4,7 @@ use std::path::Path;
 
 use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result};
+use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::hull_build::convex_hull;
 use crate::hull_check::{check_convexity, check_surface};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
@@ -11,6 +12,7 @@ use crate::mesh::PolygonMesh;
 use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::{build, build_on_hull};
+use crate::progress::Progress;
 
 /// Default of [`ShapeOptions::convexity_tolerance`].
 const CONVEXITY_TOLERANCE: f64 = 1e-9;
@@ -47,6 +49,8 @@ pub struct ShapeOptions {
     /// Largest distance of a vertex outside a face of accepted input, relative to the bounding-box diagonal. `None`: 1e-9, or
     /// 1e-6 for meshes that went through single precision.
     pub convexity_tolerance: Option<f64>,
+    /// Levels of detail. By default there are none.
+    pub hierarchy: HierarchyOptions,
 }
 
 impl Default for ShapeOptions {
@@ -57,6 +61,7 @@ impl Default for ShapeOptions {
             translation: Vector::zeros(),
             scale: 1.0,
             convexity_tolerance: None,
+            hierarchy: HierarchyOptions::default(),
         }
     }
 }
@@ -65,6 +70,7 @@ impl Default for ShapeOptions {
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     polyhedron: Polyhedron,
+    hierarchy: Hierarchy,
 }
 
 impl Shape {
@@ -91,7 +97,7 @@ impl Shape {
             InputPolicy::Strict | InputPolicy::Flat => checked.map(|()| Some(&mesh))?,
             InputPolicy::Hull => checked.is_ok().then_some(&mesh),
         };
-        Shape::admitted(build_on_hull(&mesh.vertices, hull, polygons)?, options.input)
+        Shape::admitted(build_on_hull(&mesh.vertices, hull, polygons)?, options)
     }
 
     /// The convex hull of points. A face's label is its own index.
@@ -100,7 +106,7 @@ impl Shape {
     /// [`Error::Argument`] for options out of range, no points or one that is not finite; [`Error::Mesh`] for a hull whose
     /// dimension the policy does not admit.
     pub fn from_points(points: &[Vector], options: &ShapeOptions) -> Result<Shape> {
-        Shape::admitted(build(&transformed(points, options)?, None)?, options.input)
+        Shape::admitted(build(&transformed(points, options)?, None)?, options)
     }
 
     /// From a mesh file ([`read_mesh`]).
@@ -111,14 +117,60 @@ impl Shape {
         Shape::from_mesh(&read_mesh(path)?, options)
     }
 
-    /// The polyhedron that queries run on.
+    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in [`Shape::from_mesh`]; of each
+    /// further one the convex hull of its vertices counts, moved and scaled until it bounds the body
+    /// ([`Hierarchy::from_levels`]). All go through the same input transform.
+    ///
+    /// # Errors
+    /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks for levels to be
+    /// built.
+    pub fn from_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let Some((mesh, levels)) = meshes.split_first() else {
+            return Err(Error::Argument("no level is given, not even the body itself".into()));
+        };
+        if options.hierarchy.kind != HierarchyKind::None {
+            return Err(Error::Argument("levels are given, and the options ask for others to be built".into()));
+        }
+        let Shape { polyhedron, .. } = Shape::from_mesh(mesh, options)?;
+        let mut points = Vec::with_capacity(levels.len());
+        for (i, level) in levels.iter().enumerate() {
+            let moved = transformed(&level.vertices, options);
+            points.push(moved.map_err(|e| Error::Argument(format!("level {}: {}", i + 1, e.message())))?);
+        }
+        let hierarchy = Hierarchy::from_levels(&polyhedron, &points, progress)?;
+        Ok(Shape { polyhedron, hierarchy })
+    }
+
+    /// The same body with levels of detail built anew, those that it has dropped.
+    ///
+    /// # Errors
+    /// As [`Hierarchy::build`].
+    pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
+        let Shape { polyhedron, .. } = self;
+        let hierarchy = Hierarchy::build(&polyhedron, options, progress)?;
+        Ok(Shape { polyhedron, hierarchy })
+    }
+
+    /// The polyhedron that queries run on: P₀ of the levels of detail.
+    #[inline]
     pub fn polyhedron(&self) -> &Polyhedron {
         &self.polyhedron
     }
 
-    /// Refuses a polyhedron of a dimension that the policy does not admit.
-    fn admitted(polyhedron: Polyhedron, policy: InputPolicy) -> Result<Shape> {
-        let least = match policy {
+    /// The levels of detail, without P₀.
+    pub fn hierarchy(&self) -> &Hierarchy {
+        &self.hierarchy
+    }
+
+    /// Memory held, in bytes.
+    pub fn bytes(&self) -> usize {
+        let Shape { polyhedron, hierarchy } = self;
+        size_of::<Shape>() + polyhedron.heap_bytes() + hierarchy.heap_bytes()
+    }
+
+    /// Refuses a polyhedron of a dimension that the policy does not admit; builds the levels.
+    fn admitted(polyhedron: Polyhedron, options: &ShapeOptions) -> Result<Shape> {
+        let least = match options.input {
             InputPolicy::Strict => 3,
             InputPolicy::Flat => 2,
             InputPolicy::Hull => 0,
@@ -127,7 +179,8 @@ impl Shape {
             let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];
             return Err(Error::Mesh(format!("the body has no interior: {}", what[usize::from(polyhedron.dimension)])));
         }
-        Ok(Shape { polyhedron })
+        let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };
+        shape.with_levels(&options.hierarchy, &mut Progress::new(&mut |_| true))
     }
 }
 

@@ -13,6 +13,8 @@ use swiftprox::ffi::library::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::*;
+use swiftprox::hierarchy::HierarchyKind;
+use swiftprox::math::Vector;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{Outcome, PairAnswer, PairConfig};
 use swiftprox::shape::Shape;
@@ -164,6 +166,155 @@ fn info_is_cut_to_the_size_that_the_caller_has() {
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
     }
     release(shape);
+}
+
+/// How far the callback below was told that a build is, and when it is to stop.
+struct Told {
+    reports: usize,
+    last: f64,
+    stop_after: usize,
+}
+
+unsafe extern "C" fn tell(user: *mut c_void, fraction: f64) -> i32 {
+    // SAFETY: the test passes a Told that nobody else uses meanwhile.
+    let told = unsafe { &mut *user.cast::<Told>() };
+    assert!(fraction >= told.last);
+    (told.reports, told.last) = (told.reports + 1, fraction);
+    i32::from(told.reports > told.stop_after)
+}
+
+/// Points on a sphere, along a spiral.
+fn many_points() -> Vec<f64> {
+    let point = |i: i32| {
+        let (z, angle) = (1.0 - f64::from(2 * i + 1) / 400.0, 2.4 * f64::from(i));
+        let r = (1.0 - z * z).sqrt();
+        [r * angle.cos(), r * angle.sin(), z]
+    };
+    (0..400).flat_map(point).collect()
+}
+
+#[test]
+fn levels_are_built_counted_and_read_back() {
+    let points = many_points();
+    // SAFETY: every pointer is valid; the options are initialised, the infos all zero first.
+    unsafe {
+        let mut options = MaybeUninit::<CShapeOptions>::uninit();
+        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        let mut options = options.assume_init();
+        let mut told = Told { reports: 0, last: 0.0, stop_after: usize::MAX };
+        options.hierarchy = HierarchyKind::Quadric as i32;
+        options.progress = Some(tell);
+        options.progress_user = (&raw mut told).cast();
+        let mut shape = null_mut();
+        let status = swift_shape_create_from_points(points.as_ptr(), 400, &options, &mut shape);
+        assert_eq!(status, StatusCode::Ok, "{}", last_message());
+        assert!(told.reports > 4 && told.last == 1.0, "{}", told.reports);
+
+        let mut info = MaybeUninit::<ShapeInfo>::zeroed().assume_init();
+        info.struct_size = size_of::<ShapeInfo>();
+        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::Ok);
+        assert_eq!((info.hierarchy, info.level_count), (HierarchyKind::Quadric as i32, 1));
+        let mut level = MaybeUninit::<LevelInfo>::zeroed().assume_init();
+        assert_eq!(swift_shape_get_level_info(shape, 0, &mut level), StatusCode::ErrorStructSize);
+        level.struct_size = size_of::<LevelInfo>();
+        assert_eq!(swift_shape_get_level_info(shape, 0, &mut level), StatusCode::Ok);
+        assert_eq!((level.vertex_count, level.triangle_count, level.deviation), (400, 796, 0.0));
+        assert_eq!(swift_shape_get_level_info(shape, 1, &mut level), StatusCode::Ok);
+        assert!((50..200).contains(&level.triangle_count) && level.deviation > 0.0 && level.deviation < 0.3);
+        assert_eq!(level.bytes, info.level_bytes);
+        assert!(info.bytes > info.level_bytes);
+        assert_eq!(swift_shape_get_level_info(shape, 2, &mut level), StatusCode::ErrorInvalidArgument);
+        assert!(last_message().contains("no level 2"), "{}", last_message());
+
+        // The level holds the points and is read back as it is; given back as a level of the same body it stays as it is, nearly.
+        let (count, triangles) = (level.vertex_count, level.triangle_count);
+        let (mut vertices, mut corners) = (vec![f64::NAN; 3 * count], vec![u32::MAX; 3 * triangles]);
+        let status = swift_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count);
+        assert_eq!(status, StatusCode::Ok);
+        let status = swift_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), triangles);
+        assert_eq!(status, StatusCode::Ok);
+        for [a, b, c] in corners.as_chunks::<3>().0 {
+            let corner = |v: &u32| Vector::from_column_slice(&vertices[3 * *v as usize..][..3]);
+            let (a, b, c) = (corner(a), corner(b), corner(c));
+            let normal = (b - a).cross(&(c - a)).normalize();
+            let above = |p: &[f64; 3]| normal.dot(&(Vector::from(*p) - a)) > 1e-14;
+            assert!(!points.as_chunks::<3>().0.iter().any(above));
+        }
+        for call in [
+            swift_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count - 1),
+            swift_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), 0),
+            swift_shape_copy_level_vertices(shape, 9, vertices.as_mut_ptr(), count),
+        ] {
+            assert_eq!(call, StatusCode::ErrorInvalidArgument);
+        }
+
+        let (mut fine, mut faces) = (vec![f64::NAN; 3 * 400], vec![0; 3 * 796]);
+        assert_eq!(swift_shape_copy_vertices(shape, fine.as_mut_ptr(), null_mut(), 400), StatusCode::Ok);
+        assert_eq!(swift_shape_copy_triangles(shape, faces.as_mut_ptr(), 796), StatusCode::Ok);
+        let mesh = |vertices: &[f64], faces: &[u32]| CMesh {
+            vertices: vertices.as_ptr(),
+            vertex_count: vertices.len() / 3,
+            indices: faces.as_ptr(),
+            valences: null(),
+            face_count: faces.len() / 3,
+        };
+        let levels = [mesh(&fine, &faces), mesh(&vertices, &[])];
+        let mut given = null_mut();
+        assert_eq!(
+            swift_shape_create_from_levels(levels.as_ptr(), 2, null(), &mut given),
+            StatusCode::Ok,
+            "{}",
+            last_message()
+        );
+        let mut same = level;
+        assert_eq!(swift_shape_get_level_info(given, 1, &mut same), StatusCode::Ok);
+        assert_eq!((same.vertex_count, same.triangle_count), (count, triangles));
+        assert!((same.deviation - level.deviation).abs() < 1e-12, "{:e} {:e}", same.deviation, level.deviation);
+        release(given);
+
+        let bad = [levels[0], mesh(&vertices[..9], &[])];
+        assert_eq!(swift_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given), StatusCode::ErrorMesh);
+        assert!(last_message().contains("level 1") && given.is_null(), "{}", last_message());
+        let bad = [levels[0], CMesh { vertices: null(), ..levels[1] }];
+        assert_eq!(swift_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
+        assert!(last_message().contains("levels[1]"), "{}", last_message());
+        assert_eq!(swift_shape_create_from_levels(null(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
+        assert_eq!(swift_shape_create_from_levels(null(), 0, null(), &mut given), StatusCode::ErrorInvalidArgument);
+        release(shape);
+    }
+}
+
+#[test]
+fn a_build_can_be_cancelled_and_its_options_are_checked() {
+    let points = many_points();
+    // SAFETY: every pointer is valid; the options are initialised.
+    unsafe {
+        let mut options = MaybeUninit::<CShapeOptions>::uninit();
+        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        let mut options = options.assume_init();
+        let mut told = Told { reports: 0, last: 0.0, stop_after: 2 };
+        options.hierarchy = HierarchyKind::DobkinKirkpatrick as i32;
+        options.progress = Some(tell);
+        options.progress_user = (&raw mut told).cast();
+        let mut shape = null_mut();
+        let mut make = |options: &CShapeOptions| {
+            let status = swift_shape_create_from_points(points.as_ptr(), 400, options, &mut shape);
+            assert!(status == StatusCode::Ok || shape.is_null());
+            status
+        };
+        assert_eq!(make(&options), StatusCode::ErrorCancelled);
+        assert_eq!(told.reports, 3);
+        options.progress = None;
+        for hierarchy in [HierarchyKind::Given as i32, 99, -1] {
+            assert_eq!(make(&CShapeOptions { hierarchy, ..options }), StatusCode::ErrorInvalidArgument);
+        }
+        assert_eq!(make(&CShapeOptions { decimation: 1.0, ..options }), StatusCode::ErrorInvalidArgument);
+        assert!(last_message().contains("decimation"), "{}", last_message());
+        // A program of the header before levels passes a struct that ends where they begin.
+        let older = CShapeOptions { struct_size: std::mem::offset_of!(CShapeOptions, hierarchy), ..options };
+        assert_eq!(make(&older), StatusCode::Ok, "{}", last_message());
+        release(shape);
+    }
 }
 
 #[test]

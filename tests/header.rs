@@ -7,8 +7,15 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 6] =
-    ["src/shape.rs", "src/answer.rs", "src/pair.rs", "src/object.rs", "src/scene.rs", "src/ffi/mod.rs"];
+const SOURCES: [&str; 7] = [
+    "src/hierarchy/mod.rs",
+    "src/shape.rs",
+    "src/answer.rs",
+    "src/pair.rs",
+    "src/object.rs",
+    "src/scene.rs",
+    "src/ffi/mod.rs",
+];
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))

@@ -253,9 +253,9 @@ pub unsafe extern "C" fn swift_scene_add_mesh(
     // SAFETY: the header's pointer rules.
     unsafe {
         add(scene, object_options, id, || {
-            let options = read_options(shape_options)?;
+            let making = read_options(shape_options)?;
             let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
-            Ok(vec![Arc::new(Shape::from_mesh(&mesh, &options)?)])
+            Ok(vec![Arc::new(making.finish(Shape::from_mesh(&mesh, &making.options)?)?)])
         })
     }
 }
@@ -273,8 +273,8 @@ pub unsafe extern "C" fn swift_scene_add_file(
     // SAFETY: the header's pointer rules.
     unsafe {
         add(scene, object_options, id, || {
-            let options = read_options(shape_options)?;
-            Ok(vec![Arc::new(Shape::from_file(read_path(path)?, &options)?)])
+            let making = read_options(shape_options)?;
+            Ok(vec![Arc::new(making.finish(Shape::from_file(read_path(path)?, &making.options)?)?)])
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Shapes: made from arrays or files, shared by count.
 
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
+use std::mem::offset_of;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -8,9 +9,18 @@ use super::{
     Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, read_struct, string,
     write_struct,
 };
+use crate::error::Result;
+use crate::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
+use crate::polyhedron::Polyhedron;
+use crate::progress::Progress;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
+
+/// Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
+/// Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must return,
+/// and must not use what the call is working on; a C++ exception that leaves it ends the program.
+pub type ProgressCallback = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> i32>;
 
 /// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
@@ -30,12 +40,46 @@ pub struct CShapeOptions {
     /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative, which
     /// means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
     pub convexity_tolerance: f64,
+    /// A swift_hierarchy: how levels of detail are made. Default: there are none.
+    pub hierarchy: i32,
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25.
+    pub decimation: f64,
+    /// No level has fewer triangles. Default: 50.
+    pub minimum_triangles: usize,
+    /// No more levels than these. Default: 32.
+    pub most_levels: usize,
+    /// Learns how far the building of levels is, and can cancel it. Default: null.
+    pub progress: ProgressCallback,
+    /// Handed to progress. Default: null.
+    pub progress_user: *mut c_void,
 }
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for CShapeOptions {
     const NAME: &'static str = "swift_shape_options";
-    const FIRST_SIZE: usize = size_of::<CShapeOptions>();
+    const FIRST_SIZE: usize = offset_of!(CShapeOptions, hierarchy);
+}
+
+/// Options in Rust's terms.
+pub(super) struct Making {
+    /// Without levels: they are built afterwards, with progress.
+    pub options: ShapeOptions,
+    hierarchy: HierarchyOptions,
+    progress: ProgressCallback,
+    user: *mut c_void,
+}
+
+impl Making {
+    /// Adds the levels.
+    pub(super) fn finish(&self, shape: Shape) -> Result<Shape> {
+        shape.with_levels(&self.hierarchy, &mut Progress::new(&mut |fraction| self.report(fraction)))
+    }
+
+    /// Asks the callback whether to go on.
+    fn report(&self, fraction: f64) -> bool {
+        // SAFETY: the callback takes any fraction and its own user pointer (swift_shape_options).
+        self.progress.is_none_or(|callback| unsafe { callback(self.user, fraction) } == 0)
+    }
 }
 
 impl CShapeOptions {
@@ -46,10 +90,16 @@ impl CShapeOptions {
         translation: [0.0; 3],
         scale: 1.0,
         convexity_tolerance: -1.0,
+        hierarchy: HierarchyKind::None as i32,
+        decimation: 0.25,
+        minimum_triangles: 50,
+        most_levels: 32,
+        progress: None,
+        progress_user: std::ptr::null_mut(),
     };
 
     /// The options in Rust's terms. What is left to check, the makers of shapes check.
-    fn checked(&self) -> Checked<ShapeOptions> {
+    fn checked(&self) -> Checked<Making> {
         let input = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull]
             .into_iter()
             .find(|policy| *policy as i32 == self.input)
@@ -60,13 +110,25 @@ impl CShapeOptions {
         if self.convexity_tolerance.is_nan() {
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, "options->convexity_tolerance is not a number"));
         }
-        Ok(ShapeOptions {
+        use HierarchyKind::{DobkinKirkpatrick, OuterCuts, Quadric};
+        let kind = [HierarchyKind::None, Quadric, DobkinKirkpatrick, OuterCuts]
+            .into_iter()
+            .find(|kind| *kind as i32 == self.hierarchy)
+            .ok_or_else(|| {
+                let message = format!("options->hierarchy is {}, which no levels can be built as", self.hierarchy);
+                Failure::new(StatusCode::ErrorInvalidArgument, message)
+            })?;
+        let &CShapeOptions { decimation, minimum_triangles, most_levels, progress, progress_user, .. } = self;
+        let options = ShapeOptions {
             input,
             rotation: Matrix::from_row_slice(&self.rotation),
             translation: Vector::from(self.translation),
             scale: self.scale,
             convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
-        })
+            hierarchy: HierarchyOptions::default(),
+        };
+        let hierarchy = HierarchyOptions { kind, decimation, minimum_triangles, most_levels };
+        Ok(Making { options, hierarchy, progress, user: progress_user })
     }
 }
 
@@ -96,14 +158,62 @@ pub struct ShapeInfo {
     pub lower: [f64; 3],
     /// Upper corner of the bounding box in the local frame.
     pub upper: [f64; 3],
-    /// Memory that the shape holds, in bytes, however many share it.
+    /// Memory that the shape holds, in bytes, levels included, however many share it.
     pub bytes: usize,
+    /// A swift_hierarchy: how the levels of detail were made.
+    pub hierarchy: i32,
+    /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is level 0.
+    pub level_count: usize,
+    /// Of bytes, what the levels take.
+    pub level_bytes: usize,
 }
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for ShapeInfo {
     const NAME: &'static str = "swift_shape_info";
-    const FIRST_SIZE: usize = size_of::<ShapeInfo>();
+    const FIRST_SIZE: usize = offset_of!(ShapeInfo, hierarchy);
+}
+
+/// What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct LevelInfo {
+    /// Set by the caller.
+    pub struct_size: usize,
+    /// Vertices of the level's hull.
+    pub vertex_count: usize,
+    /// Edges between faces that are not coplanar.
+    pub edge_count: usize,
+    /// Faces, coplanar triangles counted as one.
+    pub face_count: usize,
+    /// Triangles of the level's hull.
+    pub triangle_count: usize,
+    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the body.
+    pub deviation: f64,
+    /// Memory that the level holds, in bytes.
+    pub bytes: usize,
+}
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for LevelInfo {
+    const NAME: &'static str = "swift_level_info";
+    const FIRST_SIZE: usize = size_of::<LevelInfo>();
+}
+
+/// A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMesh {
+    /// 3 * vertex_count coordinates.
+    pub vertices: *const f64,
+    /// The number of vertices.
+    pub vertex_count: usize,
+    /// The 0-based vertex numbers of all faces, one face after the other.
+    pub indices: *const u32,
+    /// The number of vertices of each face, or null when all are triangles.
+    pub valences: *const u32,
+    /// The number of faces.
+    pub face_count: usize,
 }
 
 /// Fills `options` with the defaults, struct_size included.
@@ -126,7 +236,8 @@ pub unsafe extern "C" fn swift_shape_options_init(options: *mut CShapeOptions) -
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
-/// bits. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// bits. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_mesh(
     vertices: *const f64,
@@ -139,9 +250,9 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
-        let options = read_options(options)?;
+        let making = read_options(options)?;
         let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
-        Ok(Shape::from_mesh(&mesh, &options)?)
+        Ok(making.finish(Shape::from_mesh(&mesh, &making.options)?)?)
     })
 }
 
@@ -151,9 +262,9 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults, which refuse a hull without interior.
 ///
-/// SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate that
-/// is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_NULL_POINTER,
-/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate
+/// that is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
+/// options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_points(
     points: *const f64,
@@ -163,9 +274,9 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
-        let options = read_options(options)?;
+        let making = read_options(options)?;
         let points = read_vectors(points, point_count, "points")?;
-        Ok(Shape::from_points(&points, &options)?)
+        Ok(making.finish(Shape::from_points(&points, &making.options)?)?)
     })
 }
 
@@ -176,8 +287,8 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
-/// the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
-/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_CANCELLED: options->progress said so.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_file(
     path: *const c_char,
@@ -186,8 +297,46 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
-        let options = read_options(options)?;
-        Ok(Shape::from_file(read_path(path)?, &options)?)
+        let making = read_options(options)?;
+        Ok(making.finish(Shape::from_file(read_path(path)?, &making.options)?)?)
+    })
+}
+
+/// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
+/// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
+/// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
+/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
+/// levels.
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// `options` may be null for the defaults.
+///
+/// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
+/// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_create_from_levels(
+    levels: *const CMesh,
+    level_count: usize,
+    options: *const CShapeOptions,
+    shape: *mut *mut Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let making = read_options(options)?;
+        let levels = array(levels, level_count, "levels")?;
+        let mut meshes = Vec::with_capacity(levels.len());
+        for (i, level) in levels.iter().enumerate() {
+            let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
+            let read = match i {
+                0 => read_arrays(vertices, vertex_count, indices, valences, face_count),
+                _ => read_arrays(vertices, vertex_count, indices, valences, 0),
+            };
+            let in_level = |f: Failure| Failure { status: f.status, message: format!("levels[{i}]: {}", f.message) };
+            meshes.push(read.map_err(in_level)?);
+        }
+        let options = ShapeOptions { hierarchy: making.hierarchy, ..making.options.clone() };
+        Ok(Shape::from_levels(&meshes, &options, &mut Progress::new(&mut |fraction| making.report(fraction)))?)
     })
 }
 
@@ -227,7 +376,8 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
 pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        let shape = unsafe { input(shape, "shape") }?;
+        let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),
             dimension: i32::from(polyhedron.dimension),
@@ -240,7 +390,10 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
             radius: polyhedron.mass.radius,
             lower: polyhedron.mass.lower.into(),
             upper: polyhedron.mass.upper.into(),
-            bytes: size_of::<Shape>() + polyhedron.heap_bytes(),
+            bytes: shape.bytes(),
+            hierarchy: hierarchy.kind as i32,
+            level_count: hierarchy.levels.len(),
+            level_bytes: hierarchy.heap_bytes(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }
@@ -250,7 +403,8 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
 /// Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
 /// at least swift_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is
+/// null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_copy_vertices(
     shape: *const Shape,
@@ -261,12 +415,8 @@ pub unsafe extern "C" fn swift_shape_copy_vertices(
     guard(|| {
         // SAFETY: the header's pointer rules.
         let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
-        check_capacity(vertices, "vertices", capacity, polyhedron.vertices.len())?;
-        for i in 0..polyhedron.vertices.len() {
-            let point: [f64; 3] = polyhedron.local_position(i as u32).into();
-            // SAFETY: not null, and i < capacity.
-            unsafe { vertices.cast::<[f64; 3]>().add(i).write(point) };
-        }
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_vertices(polyhedron, vertices, capacity) }?;
         if !labels.is_null() {
             let source = polyhedron.vertex_labels.as_ptr();
             // SAFETY: as many labels as vertices, at most capacity; the caller's array is not ours.
@@ -290,11 +440,81 @@ pub unsafe extern "C" fn swift_shape_copy_triangles(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let triangles = &unsafe { input(shape, "shape") }?.polyhedron().triangles;
-        check_capacity(corners, "corners", capacity, triangles.len())?;
-        // SAFETY: not null, room for the triangles, and the caller's array is not ours.
-        unsafe { corners.cast::<[u32; 3]>().copy_from_nonoverlapping(triangles.as_ptr(), triangles.len()) };
-        Ok(())
+        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_triangles(polyhedron, corners, capacity) }
+    })
+}
+
+/// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
+/// info->struct_size to sizeof(swift_level_info) first.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
+/// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_get_level_info(
+    shape: *const Shape,
+    level: usize,
+    info: *mut LevelInfo,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let shape = unsafe { input(shape, "shape") }?;
+        let polyhedron = polyhedron_of(shape, level)?;
+        let coarse = level.checked_sub(1).map(|i| &shape.hierarchy().levels[i]);
+        let value = LevelInfo {
+            struct_size: size_of::<LevelInfo>(),
+            vertex_count: polyhedron.vertices.len(),
+            edge_count: polyhedron.edges.len(),
+            face_count: polyhedron.faces.len(),
+            triangle_count: polyhedron.triangles.len(),
+            deviation: coarse.map_or(0.0, |level| level.deviation),
+            bytes: coarse.map_or(size_of::<Polyhedron>() + polyhedron.heap_bytes(), |level| level.bytes()),
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &value) }
+    })
+}
+
+/// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
+/// swift_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
+/// swift_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_level_vertices(
+    shape: *const Shape,
+    level: usize,
+    vertices: *mut f64,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_vertices(polyhedron, vertices, capacity) }
+    })
+}
+
+/// Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
+/// swift_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
+/// swift_level_info.triangle_count.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_level_triangles(
+    shape: *const Shape,
+    level: usize,
+    corners: *mut u32,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_triangles(polyhedron, corners, capacity) }
     })
 }
 
@@ -312,11 +532,49 @@ fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> Stat
     })
 }
 
+/// The body itself for level 0, or a level of detail.
+fn polyhedron_of(shape: &Shape, level: usize) -> Checked<&Polyhedron> {
+    let levels = &shape.hierarchy().levels;
+    match level {
+        0 => Ok(shape.polyhedron()),
+        _ => levels.get(level - 1).map(|level| &level.polyhedron).ok_or_else(|| {
+            let message = format!("there is no level {level}: the shape has {} beside the body", levels.len());
+            Failure::new(StatusCode::ErrorInvalidArgument, message)
+        }),
+    }
+}
+
+/// Copies vertices in the local frame.
+///
+/// # Safety
+/// `vertices` has room for `capacity` vertices or is null.
+unsafe fn copy_vertices(polyhedron: &Polyhedron, vertices: *mut f64, capacity: usize) -> Checked<()> {
+    check_capacity(vertices, "vertices", capacity, polyhedron.vertices.len())?;
+    for i in 0..polyhedron.vertices.len() {
+        let point: [f64; 3] = polyhedron.local_position(i as u32).into();
+        // SAFETY: not null, and i < capacity.
+        unsafe { vertices.cast::<[f64; 3]>().add(i).write(point) };
+    }
+    Ok(())
+}
+
+/// Copies triangles.
+///
+/// # Safety
+/// `corners` has room for `capacity` triangles or is null.
+unsafe fn copy_triangles(polyhedron: &Polyhedron, corners: *mut u32, capacity: usize) -> Checked<()> {
+    let triangles = &polyhedron.triangles;
+    check_capacity(corners, "corners", capacity, triangles.len())?;
+    // SAFETY: not null, room for the triangles, and the caller's array is not ours.
+    unsafe { corners.cast::<[u32; 3]>().copy_from_nonoverlapping(triangles.as_ptr(), triangles.len()) };
+    Ok(())
+}
+
 /// The options, or the defaults for null.
 ///
 /// # Safety
 /// `options` meets the header's pointer rules.
-pub(super) unsafe fn read_options(options: *const CShapeOptions) -> Checked<ShapeOptions> {
+pub(super) unsafe fn read_options(options: *const CShapeOptions) -> Checked<Making> {
     // SAFETY: by the caller; any bytes make valid options.
     unsafe { read_struct(options, CShapeOptions::DEFAULT) }?.checked()
 }

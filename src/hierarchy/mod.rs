@@ -129,6 +129,14 @@ pub struct Level {
     pub parents: Links,
 }
 
+impl Level {
+    /// Memory held, in bytes.
+    pub fn bytes(&self) -> usize {
+        let Level { polyhedron, deviation: _, children, parents } = self;
+        size_of::<Level>() + polyhedron.heap_bytes() + children.heap_bytes() + parents.heap_bytes()
+    }
+}
+
 /// The levels of a body.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Hierarchy {
@@ -174,19 +182,20 @@ impl Hierarchy {
             return Err(Error::Argument("levels need a body of a size between 2^-200 and 2^200".into()));
         }
         for (i, points) in levels.iter().enumerate() {
+            let number = i + 1; // P₀ is the caller's level 0
             let done = |k: usize| k as f64 / levels.len() as f64;
             let mut part = progress.part(done(i), done(i + 1));
             part.report(0.0)?;
             if let Some(p) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
                 return Err(Error::Argument(format!(
-                    "vertex {p} of level {i} is not finite: {:?}",
+                    "vertex {p} of level {number} is not finite: {:?}",
                     points[p].as_slice()
                 )));
             }
             let points = translated(points, &-base.centre);
             if !builder.add_in_general(&points, &mut part)? {
                 return Err(Error::Mesh(format!(
-                    "level {i} has no interior, or too little to be made to bound the body"
+                    "level {number} has no interior, or too little to be made to bound the body"
                 )));
             }
         }
@@ -195,11 +204,7 @@ impl Hierarchy {
 
     /// Memory held, in bytes.
     pub fn heap_bytes(&self) -> usize {
-        let of_level = |level: &Level| {
-            let Level { polyhedron, deviation: _, children, parents } = level;
-            size_of::<Level>() + polyhedron.heap_bytes() + children.heap_bytes() + parents.heap_bytes()
-        };
-        self.levels.iter().map(of_level).sum()
+        self.levels.iter().map(Level::bytes).sum()
     }
 }
 
@@ -284,8 +289,9 @@ impl<'a> Builder<'a> {
         let all = levels_to(self.base.triangles.len());
         let done = |left: usize| if all > 0.0 { 1.0 - levels_to(left) / all } else { 0.0 };
         while self.hierarchy.levels.len() < options.most_levels {
-            let start = done(removing.triangle_count());
-            let mut part = progress.part(start, start + 0.1 * (1.0 - start));
+            // The level takes at least a sixteenth away (or is the last), so progress does not fall.
+            let left = removing.triangle_count();
+            let mut part = progress.part(done(left), done(left - left / 16));
             let Some(Removal { vertices, points, filled }) = removing.next(minimum, &mut part)? else { break };
             let centre = self.base.mass.centre_of_mass;
             let Some(level) = bounding(&points, &centre, self.base, Scaling::WhereNeeded)? else { break };
