@@ -14,7 +14,12 @@
 //! where the bodies have too many vertices for the depth to be followed to the end. The bodies are the hulls of R·v + T exactly as
 //! the doubles say. Every verdict and distance is computed in integers and rationals with nothing of the library
 //! (`tests/oracle/any_size`): the nearest points prove one bound, a supporting plane over all vertices the other.
+//!
+//! DIR/counts.csv tells what became of the poses when the library was asked for their distances, in order and with the cache
+//! carried on: verdicts and intervals against that truth, the ways of deciding, and the most steps of each.
 
+use std::collections::BTreeMap;
+use std::error::Error;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
@@ -28,14 +33,20 @@ use dashu_ratio::RBig;
 mod any_size;
 #[path = "../benches/common/mod.rs"]
 mod common;
+#[path = "../tests/oracle/mod.rs"]
+#[allow(dead_code)] // how a truth is compared, not how that oracle finds it
+mod oracle;
 
 use any_size::decimal::{direction, root_enclosure, rounded};
 use any_size::depth::depth;
 use any_size::integers::{Placed, place};
 use any_size::nearest::nearest;
 use common::PosePair;
+use common::hard::flight::{Table, Tally, fly, shapes};
 use common::hard::{Family, Sequence, families, triangles};
+use oracle::Truth;
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::Outcome;
 
 /// Vertices of the difference body that are looked for to bound a depth, when the bodies are large.
 const DEPTH_LIMIT: usize = 150;
@@ -84,19 +95,19 @@ fn write_all(arguments: &Arguments) -> Result<(), String> {
     }
     let wanted =
         |family: &&Family| arguments.families.is_empty() || arguments.families.contains(&family.name.to_string());
-    let mut poses = 0;
+    let mut tallies = Vec::new();
     for family in families().filter(wanted) {
         let folder = arguments.folder.join(family.name);
-        let written = write_family(family, &folder, arguments).map_err(|e| format!("{}: {e}", folder.display()))?;
-        println!("{}: {} sequences, {written} poses", family.name, arguments.count);
-        poses += written;
+        let tally = write_family(family, &folder, arguments).map_err(|e| format!("{}: {e}", folder.display()))?;
+        tallies.push((family.name, tally));
     }
-    println!("{poses} poses");
-    Ok(())
+    let table = Table(&tallies);
+    println!("{table}");
+    fs::write(arguments.folder.join("counts.csv"), table.csv()).map_err(|e| format!("counts.csv: {e}"))
 }
 
-/// Returns the number of poses.
-fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> std::io::Result<usize> {
+/// Returns what the library makes of it.
+fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> Result<Tally, Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     let sources = family.sources.join(", ");
     let Arguments { seed, count, .. } = arguments;
@@ -105,7 +116,7 @@ fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> std::i
         folder.join("README"),
         format!("{}: {}\nsources: {sources}\nseed {seed}, {count} sequences\n{truth}\n", family.name, family.why),
     )?;
-    let (mut list, mut written) = (String::new(), 0);
+    let (mut list, mut tally) = (String::new(), Tally::default());
     for index in 0..*count {
         let sequence = family.sequence(*seed, index);
         let stem = format!("c{index}_{}", sequence.name);
@@ -114,12 +125,21 @@ fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> std::i
             fs::write(folder.join(name), off(body))?;
         }
         fs::write(folder.join(format!("{stem}.poses")), pose_lines(&sequence.poses))?;
-        fs::write(folder.join(format!("{stem}.truth")), truths(&sequence))?;
+        let found = truths(&sequence);
+        let lines: String = found.iter().map(|(line, _)| line.as_str()).collect();
+        fs::write(folder.join(format!("{stem}.truth")), lines)?;
         list += &format!("{} {} {stem}.poses {stem}.truth\n", meshes[0], meshes[1]);
-        written += sequence.poses.len();
+        let [first, second] = &shapes(&sequence)?;
+        tally.sequences += 1;
+        fly(&sequence, [first, second], |number, _, answer, _| {
+            let truth = &found[number].1;
+            tally.count(answer, [first, second]);
+            tally.wrong += usize::from(truth.intersecting() != (answer.outcome == Outcome::Intersecting));
+            tally.missed += usize::from(!truth.lies_between(answer.lower, answer.upper));
+        })?;
     }
     fs::write(folder.join("cases.txt"), list)?;
-    Ok(written)
+    Ok(tally)
 }
 
 fn off(body: &PolygonMesh) -> String {
@@ -139,41 +159,38 @@ fn pose_lines(poses: &[PosePair]) -> String {
     poses.iter().map(line).collect()
 }
 
-/// A line of truth a pose, two threads taking pose after pose.
-fn truths(sequence: &Sequence) -> String {
+/// The truth of every pose and its line, two threads taking pose after pose.
+fn truths(sequence: &Sequence) -> Vec<(String, Truth)> {
     let points =
         sequence.bodies.each_ref().map(|body| body.vertices.iter().map(|&v| v.into()).collect::<Vec<[f64; 3]>>());
     let next = AtomicUsize::new(0);
-    let lines = Mutex::new(vec![String::new(); sequence.poses.len()]);
+    let found = Mutex::new(BTreeMap::new());
     let work = || {
         loop {
             let index = next.fetch_add(1, Ordering::Relaxed);
             let Some(pair) = sequence.poses.get(index) else { return };
-            let line = truth(&place(&points[0], &points[1], pair));
-            lines.lock().expect("no panic")[index] = line;
+            let truth = truth(&place(&points[0], &points[1], pair));
+            found.lock().expect("no panic").insert(index, truth);
         }
     };
     std::thread::scope(|scope| {
         scope.spawn(work);
         work();
     });
-    lines.into_inner().expect("no panic").concat()
+    found.into_inner().expect("no panic").into_values().collect()
 }
 
-fn truth(placed: &Placed) -> String {
+fn truth(placed: &Placed) -> (String, Truth) {
     let e = placed.exponent;
     let written = |point: &[RBig; 3]| point.each_ref().map(|x| rounded(x, e)).join(" ");
     let found = nearest(placed);
+    let truth = Truth { squared_distance: found.world_square(placed) };
     let [a, b] = [found.point(&placed.a, 0), found.point(&placed.b, 1)];
-    if !found.square.is_zero() {
+    if !truth.intersecting() {
         let [lo, hi] = root_enclosure(&found.square, e);
         let towards_b = [0, 1, 2].map(|k| &b[k] - &a[k]);
-        return format!(
-            "{lo} {hi} {} {} 0 0 {}\n",
-            written(&a),
-            written(&b),
-            direction(&integers(&towards_b)).join(" ")
-        );
+        let normal = direction(&integers(&towards_b)).join(" ");
+        return (format!("{lo} {hi} {} {} 0 0 {normal}\n", written(&a), written(&b)), truth);
     }
     let limit = if placed.a.len() + placed.b.len() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
     let depth = depth(placed, limit);
@@ -183,7 +200,7 @@ fn truth(placed: &Placed) -> String {
     } else {
         depth.points.map_or("nan nan nan nan nan nan".to_string(), |[a, b]| format!("{} {}", written(&a), written(&b)))
     };
-    format!("0 0 {points} {lo} {hi} {}\n", direction(&depth.direction).join(" "))
+    (format!("0 0 {points} {lo} {hi} {}\n", direction(&depth.direction).join(" ")), truth)
 }
 
 /// A vector with rational components times their common denominator.

@@ -6,9 +6,12 @@ use std::sync::Barrier;
 #[path = "oracle/cases.rs"]
 mod cases;
 mod oracle;
+#[path = "oracle/retold.rs"]
+mod retold;
 
 use cases::{Case, FAMILIES, Random};
-use swiftprox::math::{Matrix, Pose, Vector};
+use retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly, shuffled};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -63,15 +66,6 @@ fn for_every_case(seed: u64, mut check: impl FnMut(&Case, &PairAnswer, &mut Rand
     }
 }
 
-/// Fisher & Yates.
-fn shuffled<T: Clone>(items: &[T], random: &mut Random) -> Vec<T> {
-    let mut items = items.to_vec();
-    for last in (1..items.len()).rev() {
-        items.swap(last, random.below(last as u64 + 1) as usize);
-    }
-    items
-}
-
 #[test]
 fn numbering_and_order_change_nothing() {
     for_every_case(0x2000, |case, answer, random| {
@@ -100,23 +94,21 @@ fn motions_without_rounding_change_nothing() {
         // Axes renamed and mirrored in one body's frame and in its matrix: the same points of the world.
         let local = Case {
             points_a: case.points_a.iter().map(|p| turn * p).collect(),
-            pose_a: Pose::new(&(case.pose_a.rotation() * turn.transpose()), &case.pose_a.translation()),
+            pose_a: reframed(&turn, &case.pose_a),
             points_b: case.points_b.clone(),
             ..*case
         };
         assert_same_truth("one frame turned by quarters", case, answer, &answer_to(&local));
 
         // A mirrored world needs mirrored bodies for its matrices to be rotations.
-        let mirror = Matrix::from_diagonal(&Vector::new(-1.0, 1.0, 1.0));
-        let points = |points: &[Vector]| points.iter().map(|p| mirror * p).collect();
-        let pose = |pose: &Pose| Pose::new(&(mirror * pose.rotation() * mirror), &(mirror * pose.translation()));
-        let mirrored = Case {
+        let points = |points: &[Vector]| points.iter().map(|p| mirror() * p).collect();
+        let world = Case {
             points_a: points(&case.points_a),
-            pose_a: pose(&case.pose_a),
+            pose_a: mirrored(&case.pose_a),
             points_b: points(&case.points_b),
-            pose_b: pose(&case.pose_b),
+            pose_b: mirrored(&case.pose_b),
         };
-        assert_same_truth("everything mirrored", case, answer, &answer_to(&mirrored));
+        assert_same_truth("everything mirrored", case, answer, &answer_to(&world));
 
         let step = random.lattice(1 << 20);
         let moved = [case.pose_a, case.pose_b].map(|pose| shifted_exactly(&pose, &step));
@@ -131,29 +123,12 @@ fn motions_without_rounding_change_nothing() {
     assert!(translated > CASES_PER_FAMILY);
 }
 
-/// The rotation of a pose by a signed permutation: exact.
-fn product(turn: &Matrix, pose: &Pose) -> Pose {
-    Pose::new(&(turn * pose.rotation()), &(turn * pose.translation()))
-}
-
-/// The pose moved, if no coordinate of the sum is rounded.
-fn shifted_exactly(pose: &Pose, step: &Vector) -> Option<Pose> {
-    let sum = pose.translation() + step;
-    // By Knuth's TwoSum the error of x + s is (x − (sum − (sum − x))) + (s − (sum − x)).
-    let is_exact = (0..3).all(|k| {
-        let (x, s) = (pose.translation()[k], step[k]);
-        let part = sum[k] - x;
-        x == sum[k] - part && s == part
-    });
-    is_exact.then(|| Pose::new(&pose.rotation(), &sum))
-}
-
 /// A rotation in doubles is none exactly, and what it moves is rounded: the distance may change by 1e-12·L + 2e-15·W.
 #[test]
 fn other_rigid_motions_change_what_they_round() {
     for_every_case(0x4000, |case, answer, random| {
         let turn = random.rotation();
-        let (size, reach) = extent(case);
+        let (size, reach) = extent_of(case);
         if !(1e-100..1e100).contains(&size) {
             return;
         }
@@ -165,7 +140,7 @@ fn other_rigid_motions_change_what_they_round() {
             points_b: case.points_b.clone(),
             pose_b: moved(&case.pose_b),
         };
-        let band = 1e-12 * size + 2e-15 * reach.max(extent(&case).1);
+        let band = 1e-12 * size + 2e-15 * reach.max(extent_of(&case).1);
         let other = answer_to(&case);
         assert!(
             answer.lower - other.upper <= band && other.lower - answer.upper <= band,
@@ -175,21 +150,8 @@ fn other_rigid_motions_change_what_they_round() {
     });
 }
 
-/// L, the larger bounding-box diagonal of the two bodies, and W, the largest coordinate that a motion rounds: of positions in
-/// the world, but of a body far from its own origin also those in its frame and of its translation.
-fn extent(case: &Case) -> (f64, f64) {
-    let diagonal = |points: &[Vector]| {
-        let corner = |pick: fn(f64, f64) -> f64| points.iter().copied().reduce(|a, b| a.zip_map(&b, pick));
-        let sides = corner(f64::max).zip(corner(f64::min)).map_or(Vector::zeros(), |(high, low)| high - low);
-        // Not the root of a sum of squares, which may underflow.
-        sides.x.hypot(sides.y).hypot(sides.z)
-    };
-    let largest = |points: &[Vector], pose: &Pose| {
-        let positions = points.iter().flat_map(|p| [p.amax(), pose.transform(p).amax()]);
-        positions.fold(pose.translation().amax(), f64::max)
-    };
-    let size = diagonal(&case.points_a).max(diagonal(&case.points_b));
-    (size, largest(&case.points_a, &case.pose_a).max(largest(&case.points_b, &case.pose_b)))
+fn extent_of(case: &Case) -> (f64, f64) {
+    extent([&case.points_a, &case.points_b], [&case.pose_a, &case.pose_b])
 }
 
 #[test]
@@ -218,25 +180,6 @@ fn any_mesh(random: &mut Random) -> PolygonMesh {
         _ => random_hull(4 + random.below(20) as usize, random.bits()),
     };
     mesh.expect("a convex mesh")
-}
-
-/// Vertices and faces in another order, every face begun at another corner.
-fn renumbered(mesh: &PolygonMesh, random: &mut Random) -> PolygonMesh {
-    let order = shuffled(&(0..mesh.vertices.len()).collect::<Vec<_>>(), random);
-    let mut new_index = vec![0; order.len()];
-    for (new, &old) in (0..).zip(&order) {
-        new_index[old] = new;
-    }
-    let vertices = order.iter().map(|&old| mesh.vertices[old]).collect();
-    let (mut indices, mut valences) = (Vec::new(), Vec::new());
-    for face in shuffled(&(0..mesh.face_count()).collect::<Vec<_>>(), random) {
-        let mut corners: Vec<u32> = mesh.face(face).iter().map(|&v| new_index[v as usize]).collect();
-        let first = random.below(corners.len() as u64) as usize;
-        corners.rotate_left(first);
-        valences.push(corners.len() as u32);
-        indices.extend(corners);
-    }
-    PolygonMesh::new(vertices, indices, Some(&valences)).expect("a permutation")
 }
 
 /// Many threads at once over the same shapes, each with caches of its own, give the very bits of one thread alone.

@@ -7,6 +7,7 @@
 mod bodies;
 mod contacts;
 mod degenerate;
+pub mod flight;
 mod motions;
 mod placing;
 mod scales;

@@ -61,6 +61,12 @@ pub fn nearest(placed: &Placed) -> Nearest {
 }
 
 impl Nearest {
+    /// The square of the distance in the world's unit, not that of the placed vertices.
+    pub fn world_square(&self, placed: &Placed) -> RBig {
+        let unit = RBig::from(IBig::ONE << placed.exponent.unsigned_abs() as usize);
+        if placed.exponent < 0 { &self.square / (&unit * &unit) } else { &self.square * (&unit * &unit) }
+    }
+
     /// The nearest point of the body whose vertices these are: A's for `side` 0, B's for 1.
     pub fn point(&self, vertices: &[Point], side: usize) -> [RBig; 3] {
         let corners: Vec<Point> = self.pairs.iter().map(|pair| vertices[pair[side]].clone()).collect();

@@ -1,0 +1,126 @@
+//! Any answer from any warm start is the cold one: the right start, the last one, one of another pose, one of another pair, random
+//! bytes, and such as are made to mislead.
+
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::{Bounds, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
+use swiftprox::shape::Shape;
+use swiftprox::verify::verify;
+
+use crate::cases::Random;
+use crate::common::hard::flight::{fly, poses};
+use crate::{Flight, ask, contradiction};
+
+/// The number of 32-bit words in a cache: its kind, two feature indices, four vertex pairs, two directions.
+const WORDS: usize = size_of::<PairCache>() / 4;
+
+/// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
+const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
+
+type Query =
+    fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
+
+/// Every query there is.
+const QUERIES: [(&str, Query, Bounds); 4] = [
+    ("distance", distance, Bounds::Tight),
+    ("contact", contact, Bounds::Tight),
+    ("intersection", intersection, Bounds::Tight),
+    ("distance within the cheapest bounds", distance, Bounds::Verdict),
+];
+
+/// Asks every pose of a flight from caches of every kind.
+pub fn check(flight: &mut Flight) {
+    let shapes = flight.shapes;
+    let mut random = flight.random(0x8000);
+    let mut flown = Vec::new();
+    let mut flown_answers = Vec::new();
+    fly(flight.sequence, shapes, |_, _, answer, cache| {
+        flown.push(*cache);
+        flown_answers.push(*answer);
+    })
+    .expect("accepted poses");
+    let foreign = foreign_caches(flight);
+    for (number, pair) in flight.sequence.poses.iter().enumerate() {
+        let placed = &poses(pair);
+        let cold = ask(shapes, placed.each_ref(), &mut PairCache::default());
+        if let Some(what) = contradiction(&cold, &flown_answers[number]) {
+            flight.violated(number, format!("the cache carried on: {what}"));
+        }
+        let any = |random: &mut Random, caches: &[PairCache]| caches[random.below(caches.len() as u64) as usize];
+        let starts = [
+            ("right", flown[number]),
+            ("of another pose", any(&mut random, &flown)),
+            ("of another pair", any(&mut random, &foreign)),
+            ("of random bytes", made_of([(); WORDS].map(|()| random.bits() as u32))),
+            ("of random features", random_features(&mut random, shapes)),
+            ("of the farthest vertices", farthest(shapes, placed, &mut random)),
+        ];
+        for (start, cache) in starts {
+            let (name, query, bounds) = QUERIES[random.below(4) as usize];
+            let config = PairConfig { bounds, ..PairConfig::default() };
+            let (mut used, mut answer) = (cache, PairAnswer::default());
+            query(shapes[0], &placed[0], shapes[1], &placed[1], &mut used, &config, &mut answer)
+                .expect("accepted poses");
+            if let Some(what) = contradiction(&cold, &answer) {
+                flight.violated(number, format!("{name}, a start {start}, {cache:?}: {what}"));
+            }
+            if let Err(e) = verify(shapes[0], &placed[0], shapes[1], &placed[1], &answer) {
+                flight.violated(number, format!("{name}, a start {start}, {cache:?}: {e}: {answer:?}"));
+            }
+            // What it leaves behind is as good a start as any.
+            if let Some(what) = contradiction(&cold, &ask(shapes, placed.each_ref(), &mut used)) {
+                flight.violated(number, format!("after {name}, a start {start}, {cache:?}: {what}"));
+            }
+        }
+    }
+}
+
+/// Caches of another sequence of the same family: other bodies.
+fn foreign_caches(flight: &Flight) -> Vec<PairCache> {
+    let other = flight.family.sequence(flight.seed ^ 0xf0, flight.index + 1);
+    let [first, second] = crate::common::hard::flight::shapes(&other).expect("bodies that the library admits");
+    let mut caches = Vec::new();
+    fly(&other, [&first, &second], |_, _, _, cache| caches.push(*cache)).expect("accepted poses");
+    caches
+}
+
+/// Features that exist, in every combination of kinds, with directions that need not be numbers.
+fn random_features(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
+    let mut words = [0; WORDS];
+    words[0] = KINDS[random.below(KINDS.len() as u64) as usize];
+    let counts = shapes.map(|shape| {
+        let hull = shape.polyhedron();
+        [hull.vertices.len(), hull.edges.len(), hull.faces.len()][random.below(3) as usize].max(1) as u64
+    });
+    for (k, word) in words[1..11].iter_mut().enumerate() {
+        *word = random.below(counts[k % 2]) as u32;
+    }
+    for word in &mut words[11..] {
+        *word = [f32::NAN, f32::INFINITY, 0.0, -1e30, random.signed() as f32][random.below(5) as usize].to_bits();
+    }
+    made_of(words)
+}
+
+/// The vertices that are farthest from each other as a pair of features, or as the pairs of an enclosing tetrahedron.
+fn farthest(shapes: [&Shape; 2], poses: &[Pose; 2], random: &mut Random) -> PairCache {
+    let hulls = shapes.map(Shape::polyhedron);
+    let centre = |i: usize| poses[i].transform(&hulls[i].centre);
+    let away = centre(0) - centre(1);
+    let away = if away.norm() > 0.0 { away } else { Vector::x() };
+    let support = |i: usize, direction: &Vector| {
+        let local = poses[i].rotate_back(direction);
+        let heights = hulls[i].vertices.iter().map(|v| local.dot(&v.position));
+        heights.enumerate().max_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(0, |(v, _)| v as u32)
+    };
+    let mut words = [0; WORDS];
+    words[0] = KINDS[[0, 6, 9][random.below(3) as usize]];
+    words[1..11].chunks_mut(2).for_each(|pair| pair.copy_from_slice(&[support(0, &away), support(1, &-away)]));
+    made_of(words)
+}
+
+fn made_of(words: [u32; WORDS]) -> PairCache {
+    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
+    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
+    unsafe {
+        std::mem::transmute::<[u32; WORDS], PairCache>(words)
+    }
+}
