@@ -2,7 +2,7 @@
 //! bytes, and such as are made to mislead.
 
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{Bounds, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
+use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
 
@@ -56,21 +56,51 @@ pub fn check(flight: &mut Flight) {
         ];
         for (start, cache) in starts {
             let (name, query, bounds) = QUERIES[random.below(4) as usize];
-            let config = PairConfig { bounds, ..PairConfig::default() };
+            // Without a limit to the distance, or with one that is as near to it as can be.
+            let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
+            let distance_tolerance = limits[random.below(12).saturating_sub(6) as usize];
+            let config = PairConfig { bounds, distance_tolerance, ..PairConfig::default() };
             let (mut used, mut answer) = (cache, PairAnswer::default());
             query(shapes[0], &placed[0], shapes[1], &placed[1], &mut used, &config, &mut answer)
                 .expect("accepted poses");
-            if let Some(what) = contradiction(&cold, &answer) {
-                flight.violated(number, format!("{name}, a start {start}, {cache:?}: {what}"));
-            }
-            if let Err(e) = verify(shapes[0], &placed[0], shapes[1], &placed[1], &answer) {
-                flight.violated(number, format!("{name}, a start {start}, {cache:?}: {e}: {answer:?}"));
+            let checked = verify(shapes[0], &placed[0], shapes[1], &placed[1], &answer).err().map(|e| e.to_string());
+            let complaints = [contradiction(&cold, &answer), checked, not_as_asked(name, &config, &cold, &answer)];
+            for what in complaints.into_iter().flatten() {
+                flight.violated(number, format!("{name} {config:?}, a start {start}, {cache:?}: {what}\n{answer:?}"));
             }
             // What it leaves behind is as good a start as any.
             if let Some(what) = contradiction(&cold, &ask(shapes, placed.each_ref(), &mut used)) {
                 flight.violated(number, format!("after {name}, a start {start}, {cache:?}: {what}"));
             }
         }
+    }
+}
+
+/// What an answer does not say though it was asked, or says of the limit though it is not so.
+fn not_as_asked(name: &str, config: &PairConfig, cold: &PairAnswer, answer: &PairAnswer) -> Option<String> {
+    let PairAnswer { local1, local2, world1, world2, normal, distance, lower, upper, .. } = answer;
+    let is_said = |points: &[&[f64; 3]]| points.iter().all(|point| point.iter().all(|x| x.is_finite()));
+    let points_due = match answer.outcome {
+        Outcome::Separated => name != "intersection",
+        Outcome::Intersecting => name == "contact",
+        Outcome::Beyond | Outcome::None => false,
+    };
+    let (limit, is_beyond) = (config.distance_tolerance, answer.outcome == Outcome::Beyond);
+    if points_due && !is_said(&[local1, local2, world1, world2, normal]) {
+        Some("points or the normal are not said".to_string())
+    } else if answer.outcome != Outcome::Intersecting && !is_said(&[normal]) {
+        Some("the normal is not said".to_string())
+    } else if answer.status == Status::None
+        || answer.outcome == Outcome::None
+        || [distance, lower, upper].iter().any(|x| x.is_nan())
+    {
+        Some("nothing is said".to_string())
+    } else if is_beyond && !(*lower > limit && cold.upper > limit) {
+        Some(format!("not beyond {limit:e}"))
+    } else if !is_beyond && *lower > limit {
+        Some(format!("beyond {limit:e}"))
+    } else {
+        None
     }
 }
 

@@ -219,7 +219,8 @@ fn the_catalogue_is_in_order() {
 
 /// Two answers about one pair: the same verdict, intervals with a common point. If not, what is said about it.
 fn contradiction(one: &PairAnswer, other: &PairAnswer) -> Option<String> {
-    let agree = one.outcome == other.outcome && one.lower <= other.upper && other.lower <= one.upper;
+    let [meets1, meets2] = [one, other].map(|answer| answer.outcome == Outcome::Intersecting);
+    let agree = meets1 == meets2 && one.lower <= other.upper && other.lower <= one.upper;
     (!agree).then(|| format!("{one:?}\nbut {other:?}"))
 }
 

@@ -7,7 +7,7 @@ use swiftprox::math::Vector;
 use super::super::orbits::pose_pair;
 use super::super::random::{Random, rotation};
 use super::bodies::{cloud, cuboid, cylinder, grid_box, ordinary, regular_solid, scaled, sphere};
-use super::placing::{Surface, anywhere, frame, gap_ladder, power_of_ten, touching};
+use super::placing::{Surface, anywhere, frame, gap_ladder, moved, power_of_ten, side_by_side, touching};
 use super::{Family, Sequence};
 
 pub const FAMILIES: &[Family] = &[
@@ -42,6 +42,17 @@ pub const FAMILIES: &[Family] = &[
             "https://github.com/google-deepmind/mujoco_warp/issues/1526",
         ],
         make: sliding,
+    },
+    Family {
+        name: "creeping",
+        why: "steps of a unit in the last place through contact and back: the verdict turns over between neighbouring doubles, and \
+              what the last query proved holds no more by a rounding",
+        sources: &[
+            "https://github.com/flexible-collision-library/fcl/issues/366",
+            "https://github.com/bulletphysics/bullet3/issues/889",
+            "https://github.com/google-deepmind/mujoco/issues/3383",
+        ],
+        make: creeping,
     },
     Family {
         name: "voronoi_trap",
@@ -138,6 +149,40 @@ fn sliding(random: &mut Random, index: usize) -> Sequence {
         pose_pair(&turn, &Vector::zeros(), &turn, &(turn * Vector::new(x, y, 0.75 + gap)))
     });
     Sequence { name: format!("{}_{gap:e}", index % 4), poses: poses.collect(), bodies }
+}
+
+fn creeping(random: &mut Random, index: usize) -> Sequence {
+    let bodies = match index % 3 {
+        0 => [cuboid([1.0, 0.75, 0.5]), cuboid([0.5, 1.0, 0.25])],
+        1 => [ordinary(random), ordinary(random)],
+        _ => [scaled(cloud(random, 20), [1.0, 1.0, 1e-3]), regular_solid(index)],
+    };
+    // Up to 1e9 away, where a unit in the last place is 1e-7.
+    let far = random.pick(&[0.0, 0.0, 1.0, 1e3, 1e6, 1e9]) * random.direction();
+    let start = if index.is_multiple_of(3) {
+        // Face on face, all coordinates exact.
+        side_by_side(&random.quarter_turns(), &Vector::zeros(), &Vector::new(0.25, 0.5, 0.75))
+    } else {
+        let surfaces = bodies.each_ref().map(Surface::of);
+        touching(random, [&surfaces[0], &surfaces[1]], 0.0)
+    };
+    let start = moved(start, &far);
+    let axes: Vec<usize> = (0..3).filter(|_| random.below(2) == 0).chain([2]).collect();
+    let towards = if random.below(2) == 0 { f64::next_up } else { f64::next_down };
+    let back = if towards(0.0) > 0.0 { f64::next_down } else { f64::next_up };
+    let mut pair = start;
+    let mut poses = vec![pair];
+    for k in 0..40 {
+        // Some steps in one direction, then as many and more in the other.
+        let step = if k < 14 { towards } else { back };
+        for &axis in &axes {
+            let entry = &mut pair[15 + 4 * axis];
+            // Next to zero are the subnormal numbers: a rounding of the size there.
+            *entry = if entry.abs() < 1e-3 { *entry + 1e-16 * step(0.0).signum() } else { step(*entry) };
+        }
+        poses.push(pair);
+    }
+    Sequence { name: format!("{}", index % 3), bodies, poses }
 }
 
 fn voronoi_trap(random: &mut Random, index: usize) -> Sequence {
