@@ -33,6 +33,7 @@ pub mod enclosure;
 pub mod overlap;
 pub mod point_distance;
 pub mod containment;
+pub mod outer_cuts;
 pub mod hierarchy;
 pub mod shape;
 pub mod contact_direction;

@@ -11,8 +11,9 @@
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::math::Vector;
+use crate::progress::Progress;
 use crate::triangulation::{Triangulation, next, previous};
 
 /// What is left of a surface.
@@ -39,16 +40,15 @@ const REPORT_INTERVAL: usize = 1 << 14;
 /// collapsed. The result depends on the arguments alone.
 ///
 /// The triangles are a closed surface over all of `positions`, counter-clockwise from outside, as those of an exact hull.
-/// `progress` is told the fraction done now and then, and stops the work by answering `false`. Time O(n log n) as long as
-/// valences are bounded.
+/// Time O(n log n) as long as valences are bounded.
 ///
 /// # Errors
-/// [`Error::Cancelled`] if `progress` says so; [`Error::Bug`] if the triangles are no closed surface.
+/// [`Error::Cancelled`](crate::error::Error::Cancelled); [`Error::Bug`](crate::error::Error::Bug) if the triangles are no closed surface.
 pub fn simplify(
     positions: &[Vector],
     triangles: &[[u32; 3]],
     target: usize,
-    progress: &mut dyn FnMut(f64) -> bool,
+    progress: &mut Progress,
 ) -> Result<Simplified> {
     // A power of two takes the body to size 1 and back without rounding, so that no product can overflow.
     let size = positions.iter().map(|p| p.amax()).fold(0.0, f64::max);
@@ -210,7 +210,7 @@ impl Collapse {
         })
     }
 
-    fn run(&mut self, target: usize, progress: &mut dyn FnMut(f64) -> bool) -> Result<()> {
+    fn run(&mut self, target: usize, progress: &mut Progress) -> Result<()> {
         let start = self.count;
         let mut next_report = 0;
         // An edge that was refused waits for its own vertices to change. When none is left the changes around them may have freed
@@ -226,9 +226,7 @@ impl Collapse {
                 }
                 if self.looked_at >= next_report {
                     next_report = self.looked_at + REPORT_INTERVAL;
-                    if !progress((start - self.count) as f64 / (start - target) as f64) {
-                        return Err(Error::Cancelled("the simplification was cancelled".into()));
-                    }
+                    progress.report((start - self.count) as f64 / (start - target) as f64)?;
                 }
                 let h = waiting.half_edge;
                 if !self.keeps_topology(h) {

@@ -9,9 +9,11 @@ use std::collections::HashSet;
 use common::models::{ELLIPSOIDS, ellipsoid, prism};
 use common::random::Random;
 use swiftprox::error::Error;
+use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::Vector;
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::polyhedron_build::build;
+use swiftprox::progress::Progress;
 use swiftprox::quadric::{Simplified, simplify};
 
 fn hull(points: &[Vector]) -> Polyhedron {
@@ -23,7 +25,7 @@ fn positions(polyhedron: &Polyhedron) -> Vec<Vector> {
 }
 
 fn simplified(polyhedron: &Polyhedron, target: usize) -> Simplified {
-    simplify(&positions(polyhedron), &polyhedron.triangles, target, &mut |_| true).unwrap()
+    simplify(&positions(polyhedron), &polyhedron.triangles, target, &mut Progress::new(&mut |_| true)).unwrap()
 }
 
 /// Every edge has one triangle on either side, every vertex is used, and V − E + F = 2.
@@ -61,6 +63,27 @@ fn every_rate_reaches_its_count() {
             let lost = [0.01, 0.01, 0.02, 0.04, 0.08];
             let bound = lost[(-rate.log2()) as usize - 1];
             assert!((kept - 1.0).abs() < bound, "{name} {rate}: {kept} of the volume");
+        }
+    }
+}
+
+/// The levels of Ehmann & Lin 2000, figures 9 and 10, for a cut-off between 31 and 62 triangles; P₀ not counted.
+#[test]
+fn the_numbers_of_levels_of_the_paper() {
+    for (name, half_axes) in ELLIPSOIDS {
+        let body = hull(&ellipsoid(half_axes, 1002).unwrap().vertices);
+        for (decimation, levels) in [(0.5, 5), (0.25, 2), (0.125, 1), (0.0625, 1), (0.03125, 1)] {
+            let kind = HierarchyKind::Quadric;
+            let options = HierarchyOptions { kind, decimation, minimum_triangles: 50, ..Default::default() };
+            let hierarchy = Hierarchy::build(&body, &options, &mut Progress::new(&mut |_| true)).unwrap();
+            let counts: Vec<usize> = hierarchy.levels.iter().map(|level| level.polyhedron.triangles.len()).collect();
+            assert_eq!(counts.len(), levels, "{name}, {decimation}: {counts:?}");
+            // The hull drops the points that simplification left inside: a few.
+            let mut expected = 2000.0;
+            for count in counts {
+                expected *= decimation;
+                assert!((0.8 * expected - 2.0..=expected).contains(&(count as f64)), "{name}: {count} of {expected}");
+            }
         }
     }
 }
@@ -130,7 +153,7 @@ fn scaling_by_a_power_of_two_changes_nothing() {
     for exponent in [-900, -30, 30, 900] {
         let factor = 2.0_f64.powi(exponent);
         let scaled: Vec<Vector> = positions(&body).iter().map(|p| p * factor).collect();
-        let result = simplify(&scaled, &body.triangles, 80, &mut |_| true).unwrap();
+        let result = simplify(&scaled, &body.triangles, 80, &mut Progress::new(&mut |_| true)).unwrap();
         assert_eq!(result.triangles, reference.triangles, "2^{exponent}");
         assert_eq!(result.points, reference.points.iter().map(|p| p * factor).collect::<Vec<_>>());
     }
@@ -188,7 +211,7 @@ fn neighbours_looked_at(body: &Polyhedron, target: usize) -> usize {
         reports += 1;
         true
     };
-    let surface = simplify(&positions(body), &body.triangles, target, &mut progress).unwrap();
+    let surface = simplify(&positions(body), &body.triangles, target, &mut Progress::new(&mut progress)).unwrap();
     assert!(surface.triangles.len() <= target);
     reports << 14
 }
@@ -235,7 +258,7 @@ fn it_can_be_cancelled() {
         reports += 1;
         reports < 2
     };
-    let result = simplify(&positions(&body), &body.triangles, 50, &mut stop_at_second);
+    let result = simplify(&positions(&body), &body.triangles, 50, &mut Progress::new(&mut stop_at_second));
     assert!(matches!(result, Err(Error::Cancelled(_))));
     assert_eq!(reports, 2);
 }

@@ -41,11 +41,9 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
     let hints = hints_for_children(&parents, above);
     let mut children = Links::new(above);
     for (v, vertex) in above.vertices.iter().enumerate() {
-        let child = match below.nearest(&vertex.position, hints[v]) {
-            Some(nearest) => nearest.vertex,
-            None => nearest_vertex_by_walking(polyhedron, &vertex.position, hints[v]),
-        };
-        children.vertices[v] = FeatureId::Vertex(child);
+        // The nearest point is said by three vertices of a feature at most; a face may have others that are nearer.
+        let start = below.nearest(&vertex.position, hints[v]).map_or(hints[v], |nearest| nearest.vertex);
+        children.vertices[v] = FeatureId::Vertex(nearest_vertex_by_walking(polyhedron, &vertex.position, start));
     }
     for (edge, child) in above.edges.iter().zip(&mut children.edges) {
         *child = children.vertices[edge.tail.max(edge.head) as usize];

@@ -15,6 +15,7 @@ use std::borrow::Cow;
 use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::outer_cuts::outer_cuts;
 use crate::point_distance::PointDistance;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::build;
@@ -162,7 +163,7 @@ impl Hierarchy {
                 HierarchyKind::None | HierarchyKind::Given => {}
                 HierarchyKind::Quadric => builder.add_quadric(options, progress)?,
                 HierarchyKind::DobkinKirkpatrick => builder.add_dobkin_kirkpatrick(options, progress)?,
-                HierarchyKind::OuterCuts => {}
+                HierarchyKind::OuterCuts => builder.add_outer_cuts(options, progress)?,
             }
         }
         progress.report(1.0)?;
@@ -270,7 +271,7 @@ impl<'a> Builder<'a> {
             let mut part = progress.part(1.0 - remaining, 1.0 - remaining * options.decimation);
             remaining *= options.decimation;
             let mut simplifying = part.part(0.0, 0.5);
-            let points = simplify(&positions, &below.triangles, target, &mut |f| simplifying.report(f).is_ok())?.points;
+            let points = simplify(&positions, &below.triangles, target, &mut simplifying)?.points;
             if !self.add_in_general(&points, &mut part.part(0.5, 1.0))? {
                 break;
             }
@@ -299,6 +300,28 @@ impl<'a> Builder<'a> {
             let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &filled, count);
             self.add_linked(level, correspondence);
             ids = ids_above;
+        }
+        Ok(())
+    }
+
+    /// Levels cut out of a box: each has at most a constant fraction of the triangles of the one below.
+    fn add_outer_cuts(&mut self, options: &HierarchyOptions, progress: &mut Progress) -> Result<()> {
+        let fewer = |triangles: &f64| Some(triangles * options.decimation);
+        let targets = std::iter::successors(fewer(&(self.base.triangles.len() as f64)), fewer)
+            .map(|target| target as usize)
+            .take_while(|&target| target >= options.minimum_triangles.max(4))
+            .take(options.most_levels);
+        // Three planes meet at every vertex: F planes make 2F − 4 vertices, and faces that are worth 4F − 12 triangles.
+        let mut plane_counts: Vec<usize> = targets.map(|target| (target + 12) / 4).collect();
+        plane_counts.reverse();
+        let levels = outer_cuts(self.base, &plane_counts, &mut progress.part(0.0, 0.5))?;
+        let mut part = progress.part(0.5, 1.0);
+        let count = levels.len();
+        for (i, level) in levels.into_iter().rev().enumerate() {
+            let done = |k: usize| k as f64 / count as f64;
+            if level.triangles.len() < self.below().triangles.len() {
+                self.add(level, &mut part.part(done(i), done(i + 1)))?;
+            }
         }
         Ok(())
     }

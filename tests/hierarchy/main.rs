@@ -46,7 +46,7 @@ fn given_levels_are_made_to_bound() {
 }
 
 /// The kinds that are built.
-const KINDS: [HierarchyKind; 2] = [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick];
+const KINDS: [HierarchyKind; 3] = [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
 
 fn built(base: &Polyhedron, options: &HierarchyOptions) -> Hierarchy {
     Hierarchy::build(base, options, &mut Progress::new(&mut |_| true)).unwrap()
