@@ -38,8 +38,11 @@ const LARGEST_VALENCE: usize = 100;
 /// a time can go would fill it.
 const LEAST_SAVING: usize = 16;
 
-/// Sliding ends where no vertex gains more than this fraction of the body's radius.
-const LEAST_SLIDE: f64 = 1e-6;
+/// Sliding ends where no vertex gains more than this fraction of what scaling has moved the farthest one by.
+const LEAST_SLIDE: f64 = 1e-2;
+
+/// Slides for each triangle at most; one or two are common.
+const MOST_SLIDES: usize = 32;
 
 /// The levels of a body, one after the other.
 pub struct DobkinKirkpatrick<'a> {
@@ -66,6 +69,15 @@ struct Triangle {
     /// The removed vertices of the body in this triangle's centre-of-mass region.
     region: Vec<u32>,
     is_free: bool,
+}
+
+/// What a triangle of a level demands of the x of its corners a, b, c, each by its coefficients α, β, γ.
+#[derive(Default)]
+struct Conditions {
+    /// α·x_a + β·x_b + γ·x_c ≤ 1 for the body's vertices in its region.
+    bounds: Vec<[f64; 3]>,
+    /// α·x_a + β·x_b + γ·x_c ≤ x_d for the vertex d beyond each edge.
+    beyond: [(u32, [f64; 3]); 3],
 }
 
 /// The next level as it comes from here.
@@ -132,7 +144,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         filled.sort_unstable();
         progress.report(0.3)?;
-        let x = self.relaxed(self.scaling());
+        let x = self.relaxed(&self.conditions());
         progress.report(0.9)?;
 
         let vertices: Vec<u32> =
@@ -322,81 +334,84 @@ impl<'a> DobkinKirkpatrick<'a> {
         [normal.dot(q) / volume, c.cross(a).dot(q) / volume, a.cross(b).dot(q) / volume]
     }
 
-    /// The factor about the centre of mass that makes the hull of the vertices that are left bound the body.
-    fn scaling(&self) -> f64 {
-        let mut factor = 1.0_f64;
-        for (t, triangle) in self.triangles.iter().enumerate().filter(|(_, triangle)| !triangle.is_free) {
-            for &q in &triangle.region {
-                factor = factor.max(self.cone(t as u32, q).iter().sum());
+    /// The linear conditions of a level; see the head of this file.
+    fn conditions(&self) -> Vec<Conditions> {
+        let of_triangle = |(t, triangle): (usize, &Triangle)| {
+            if triangle.is_free {
+                return Conditions::default();
             }
-        }
-        factor
+            let beyond = |k: usize| {
+                let opposite = self.opposite(triangle.neighbours[k], triangle.corners[(k + 1) % 3]);
+                (opposite, self.cone(t as u32, opposite))
+            };
+            Conditions {
+                bounds: triangle.region.iter().map(|q| self.cone(t as u32, *q)).collect(),
+                beyond: [beyond(0), beyond(1), beyond(2)],
+            }
+        };
+        self.triangles.iter().enumerate().map(of_triangle).collect()
     }
 
-    /// The x of each vertex that is left (see the head of this file) after relaxation: from 1/`factor` for all, again and again the
-    /// vertex that can slide farthest does.
-    fn relaxed(&self, factor: f64) -> Vec<f64> {
+    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertex that can slide
+    /// farthest does. The factor is the one about the centre of mass that makes the hull of the vertices that are left bound the body.
+    fn relaxed(&self, conditions: &[Conditions]) -> Vec<f64> {
+        let sums = conditions.iter().flat_map(|of| &of.bounds).map(|cone| cone.iter().sum());
+        let factor = sums.fold(1.0, f64::max);
         let mut x = vec![1.0 / factor; self.rays.len()];
-        let least = LEAST_SLIDE * self.base.mass.radius;
-        let slide = |x: &[f64], v: u32| {
-            let limit = self.limit(x, v);
-            (self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit), limit)
-        };
-        let entry = |slide: f64, v: u32| (slide.to_bits(), Reverse(v)); // a slide is ≥ 0, so its bits are in order
-        let left: Vec<u32> = (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE).collect();
-        let mut heap: BinaryHeap<(u64, Reverse<u32>)> = left.iter().map(|v| entry(slide(&x, *v).0, *v)).collect();
+        let least = LEAST_SLIDE * (factor - 1.0) * self.base.mass.radius;
+        // For each vertex how far it can slide, and to which x; in the heap, too, where all but the latest of a vertex are out of date.
+        let mut slides = vec![(0.0, 0.0); self.rays.len()];
+        let mut heap = BinaryHeap::new();
         let mut star = Vec::new();
-        // Each slide makes neighbours come again; in practice two or three slides a vertex are all.
-        for _ in 0..32 * left.len() {
-            let Some((known, Reverse(v))) = heap.pop() else { break };
-            if f64::from_bits(known) <= least {
-                break;
+        let mut look = |v: u32, x: &[f64], slides: &mut [(f64, f64)], heap: &mut BinaryHeap<(u64, Reverse<u32>)>| {
+            self.star(v, &mut star);
+            let limit = self.limit(x, v, &star, conditions);
+            let slide = self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit);
+            if slide != slides[v as usize].0 && slide > least {
+                heap.push((slide.to_bits(), Reverse(v))); // bits of numbers ≥ 0 are in order
             }
-            let (now, limit) = slide(&x, v);
-            if now.to_bits() != known {
-                // It was changed by a neighbour's slide.
-                if now > least && now < f64::from_bits(known) {
-                    heap.push(entry(now, v));
-                }
+            slides[v as usize] = (slide, limit);
+        };
+        for v in (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE) {
+            look(v, &x, &mut slides, &mut heap);
+        }
+        let mut ring = Vec::new();
+        for _ in 0..MOST_SLIDES * self.triangle_count {
+            let Some((bits, Reverse(v))) = heap.pop() else { break };
+            let (slide, limit) = slides[v as usize];
+            if slide.to_bits() != bits {
                 continue;
             }
             x[v as usize] = limit;
-            self.star(v, &mut star);
-            for &t in &star {
+            slides[v as usize] = (0.0, limit);
+            self.star(v, &mut ring);
+            for &t in &ring {
                 let triangle = &self.triangles[t as usize];
                 let next = (place_of(triangle, v) + 1) % 3;
-                let beyond = triangle.neighbours[next];
-                let opposite = self.opposite(beyond, triangle.corners[(next + 1) % 3]);
-                for w in [triangle.corners[next], opposite] {
-                    let (gain, _) = slide(&x, w);
-                    if gain > least {
-                        heap.push(entry(gain, w));
-                    }
-                }
+                look(triangle.corners[next], &x, &mut slides, &mut heap);
+                look(conditions[t as usize].beyond[next].0, &x, &mut slides, &mut heap);
             }
         }
         x
     }
 
     /// The largest x of a vertex that the others allow, at least its own.
-    fn limit(&self, x: &[f64], v: u32) -> f64 {
+    fn limit(&self, x: &[f64], v: u32, star: &[u32], conditions: &[Conditions]) -> f64 {
         let at = |w: u32| x[w as usize];
         let mut limit = 1.0_f64;
-        let mut star = Vec::new();
-        self.star(v, &mut star);
-        for &t in &star {
+        for &t in star {
             let triangle = &self.triangles[t as usize];
-            let [k, next, last] = [0, 1, 2].map(|step| (place_of(triangle, v) + step) % 3);
-            let [b, c] = [next, last].map(|k| at(triangle.corners[k]));
-            for &q in &triangle.region {
-                let cone = self.cone(t, q);
+            let Conditions { bounds, beyond } = &conditions[t as usize];
+            let k = place_of(triangle, v);
+            let [next, last] = [(k + 1) % 3, (k + 2) % 3];
+            let [b, c] = [at(triangle.corners[next]), at(triangle.corners[last])];
+            for cone in bounds {
                 if cone[k] > 0.0 {
                     limit = limit.min((1.0 - cone[next] * b - cone[last] * c) / cone[k]);
                 }
             }
             // The vertex beyond the edge to `next` stays below this triangle. Both triangles of an edge say the same.
-            let d = self.opposite(triangle.neighbours[k], triangle.corners[next]);
-            let cone = self.cone(t, d);
+            let (d, cone) = beyond[k];
             if cone[k] > 0.0 {
                 limit = limit.min((at(d) - cone[next] * b - cone[last] * c) / cone[k]);
             }
