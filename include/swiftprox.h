@@ -42,6 +42,9 @@
 extern "C" {
 #endif
 
+/** Fewest vertices of a body that is given a table on its own account. */
+#define LEAST_VERTICES 32
+
 /** Major version of this header: programs compiled with another one do not go with this library. */
 #define SWIFT_VERSION_MAJOR 0
 
@@ -96,6 +99,19 @@ enum {
 };
 typedef int32_t swift_bounds;
 
+/** Where marching starts. It changes how fast an answer comes, never the verdict. */
+enum {
+  /** At the features of the last query while the pair moves little, else where the look-up tables of the shapes say. */
+  SWIFT_START_AUTOMATIC = 0,
+  /** At the features of the last query whenever there are any. */
+  SWIFT_START_CACHE = 1,
+  /** Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind. */
+  SWIFT_START_TABLE = 2,
+  /** Afresh: at the vertices farthest along the line between the bodies. */
+  SWIFT_START_COLD = 3
+};
+typedef int32_t swift_start;
+
 /** The outcome of a pair query. */
 enum {
   /** Nothing is said yet: the value of a fresh answer. */
@@ -137,6 +153,19 @@ enum {
 };
 typedef int32_t swift_feature_kind;
 
+/** Which look-up table a body has. */
+enum {
+  /** Shells if the body has enough vertices for them to pay, else none. */
+  SWIFT_LOOKUP_AUTOMATIC = 0,
+  /** None. */
+  SWIFT_LOOKUP_NONE = 1,
+  /** Nearest vertices to points on several spheres, looked up in turns from one body to the other. */
+  SWIFT_LOOKUP_SHELLS = 2,
+  /** That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass. */
+  SWIFT_LOOKUP_SPHERICAL = 3
+};
+typedef int32_t swift_lookup;
+
 /** What to do with input that is not a closed convex mesh with interior. */
 enum {
   /** Refuse it with a message that says where. */
@@ -165,6 +194,9 @@ enum {
   SWIFT_HIERARCHY_GIVEN = 4
 };
 typedef int32_t swift_hierarchy;
+
+/** How a body's look-up table is made. */
+typedef struct LookupOptions LookupOptions;
 
 /** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
 typedef struct swift_scene swift_scene;
@@ -217,6 +249,16 @@ typedef struct swift_shape_options {
   swift_progress_callback progress;
   /** Handed to progress. Default: null. */
   void *progress_user;
+  /** A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. Default: automatic. */
+  int32_t lookup;
+  /**
+   * Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two from
+   * 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees). Default: 0,
+   * which means what the number of vertices asks for, or 32.
+   */
+  uint32_t lookup_resolution;
+  /** Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2. */
+  double lookup_radius_factor;
 } swift_shape_options;
 
 /** A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it. */
@@ -265,6 +307,12 @@ typedef struct swift_shape_info {
   size_t level_count;
   /** Of bytes, what the levels take. */
   size_t level_bytes;
+  /** A swift_lookup: the look-up table that the shape has, never SWIFT_LOOKUP_AUTOMATIC. */
+  int32_t lookup;
+  /** Its resolution, as in swift_shape_options; 0 without one. */
+  uint32_t lookup_resolution;
+  /** Its share of `bytes`. */
+  size_t lookup_bytes;
 } swift_shape_info;
 
 /** What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it. */
@@ -295,6 +343,8 @@ typedef struct swift_pair_config {
   double rotation_limit;
   /** Which interval. */
   swift_bounds bounds;
+  /** Where marching starts. */
+  swift_start start;
 } swift_pair_config;
 
 /**
@@ -472,6 +522,8 @@ typedef struct swift_scene_statistics {
   /** Iterations in integer arithmetic. */
   uint64_t exact_iterations;
 } swift_scene_statistics;
+
+
 
 /** The version of the library that runs, as "major.minor.patch". Never null, valid for ever. */
 const char *swift_library_version(void);

@@ -161,6 +161,16 @@ impl<'a, L: Lanes> Frame<'a, L> {
         [self.bodies[0].polyhedron, self.bodies[1].polyhedron]
     }
 
+    /// Where body 1 sees a point that moves with body 2, in its own axes, and the length by which to measure how far that point
+    /// moved as an angle: of body 2 around body 1, or of either on the spot (unless that turns about the point).
+    #[inline(always)]
+    pub fn marker(&self) -> (L, f64) {
+        let [body1, body2] = &self.bodies;
+        let [column, ..] = body2.columns;
+        let lever = if self.separation > self.size { self.separation } else { self.size };
+        (body1.rotate_back(column.mul_add(L::splat(lever), body2.offset)), lever)
+    }
+
     /// The computed x − y for x = point `p` of body 1 and y = point `q` of body 2, both in centred local coordinates.
     #[inline(always)]
     pub fn difference(&self, p: &Vector, q: &Vector) -> L {

@@ -14,8 +14,8 @@ use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::simd::{self, Kernel, Lanes, Portable, Work};
+use crate::start;
 use crate::state::State;
-use crate::voronoi::climb;
 
 /// What a pair remembers from its last query. Any bytes are safe; all zero is cold. It changes how fast an answer comes,
 /// never the verdict.
@@ -28,9 +28,8 @@ pub struct PairCache {
     indices: [u32; 2],
     /// Vertex pairs.
     pairs: [VertexPair; 4],
-    /// With a feature pair: the direction to the other body's origin in each body's frame, as the bits of single-precision
-    /// numbers.
-    outlook: [[u32; 3]; 2],
+    /// With a feature pair: where body 1 saw a point of body 2 ([`Frame::marker`]), as the bits of single-precision numbers.
+    marker: [u32; 3],
 }
 
 /// `PairCache::kind` of no vertex pairs.
@@ -72,6 +71,28 @@ pub enum Bounds {
     Verdict = 1,
 }
 
+/// Where marching starts. It changes how fast an answer comes, never the verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Start {
+    /// At the features of the last query while the pair moves little, else where the look-up tables of the shapes say.
+    #[default]
+    Automatic = 0,
+    /// At the features of the last query whenever there are any.
+    Cache = 1,
+    /// Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind.
+    Table = 2,
+    /// Afresh: at the vertices farthest along the line between the bodies.
+    Cold = 3,
+}
+
+impl Start {
+    #[inline(always)]
+    fn asks_cache(self) -> bool {
+        self as i32 <= Start::Cache as i32
+    }
+}
+
 /// What a pair query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
@@ -84,6 +105,8 @@ pub struct PairConfig {
     pub rotation_limit: f64,
     /// Which interval.
     pub bounds: Bounds,
+    /// Where marching starts.
+    pub start: Start,
 }
 
 impl Default for PairConfig {
@@ -93,6 +116,7 @@ impl Default for PairConfig {
             distance_tolerance: f64::INFINITY,
             rotation_limit: ROTATION_LIMIT,
             bounds: Bounds::Tight,
+            start: Start::Automatic,
         }
     }
 }
@@ -171,7 +195,7 @@ fn query(
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
     let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary;
+    let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
         match simd::dispatch(&mut Coherent { pair: &mut pair }) {
@@ -249,8 +273,8 @@ impl Kernel for Coherent<'_, '_> {
     }
 }
 
-/// Marching from the cache is given up for a cold start after this many steps, if the pair has jumped.
-const TRIAL_STEPS: u32 = 4;
+/// Marching from the cache is given up for a new start after this many steps: the pair has jumped without being noticed.
+const TRIAL_STEPS: u32 = 16;
 
 /// Marching from a state to the end.
 struct MarchOn<'a, 'b, L> {
@@ -272,6 +296,10 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
         let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
         let frame = self.frame;
+        if limit == TRIAL_STEPS && has_jumped(&frame, &judge.cache.marker) && config.start != Start::Cache {
+            state = start_anew(polyhedra, poses, config.start);
+            limit = step_limit(polyhedra);
+        }
         let (at, is_minimum) = loop {
             let (march, more) = marching::march(&frame, state, limit, &mut judge);
             steps += more;
@@ -279,7 +307,8 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
                 March::Minimum(at) => break (at, true),
                 March::Open(at) => break (at, false),
                 March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
-                March::Limit(at) => go_on(polyhedra, poses, &judge.cache.outlook, at),
+                March::Limit(at) if config.start == Start::Cache => at,
+                March::Limit(_) => start_anew(polyhedra, poses, config.start),
             };
             limit = step_limit(polyhedra);
         };
@@ -287,8 +316,8 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
             return Attempt::Open { at, is_minimum, steps };
         }
         judge.answer.statistics = Statistics { marching_steps: steps, fallback_iterations: 0, exact_iterations: 0 };
-        // A pair that stays on its features keeps its old outlook: it is only asked for when marching takes long.
-        judge.cache.outlook = bits(&outlook(polyhedra, poses));
+        // A pair that stays on its features keeps its old marker: they are near.
+        judge.cache.marker = bits(frame.marker().0.to_vector());
         Attempt::Done
     }
 }
@@ -310,7 +339,7 @@ impl Kernel for General<'_, '_> {
         }
         let (start, limit) = match State::checked(cache.kind, cache.indices, polyhedra) {
             Some(state) => (state, TRIAL_STEPS),
-            None => (cold_start(polyhedra, outlook(polyhedra, poses), [0, 0]), step_limit(polyhedra)),
+            None => (start_anew(polyhedra, poses, config.start), step_limit(polyhedra)),
         };
         // A segment or a point has no faces to march over.
         if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
@@ -397,58 +426,28 @@ fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
 
 // What follows is out of line, for the sake of the registers of the common case.
 
-/// The way to the other body's origin, in each body's frame, in plain rounding: for a start, nothing else.
-#[inline(never)]
-fn outlook(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [Vector; 2] {
-    let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
-    let between = origin(1) - origin(0);
-    [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)]
+/// Where to start if not at the last features.
+#[inline(always)]
+fn start_anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: Start) -> State {
+    let (vertex1, vertex2) = start::anew(polyhedra, poses, start != Start::Cold);
+    State::vertex_vertex([vertex1, vertex2])
 }
 
-/// The support vertices along the line of the bodies' origins, by climbing from the given vertices.
-#[inline(never)]
-fn cold_start(polyhedra: [&Polyhedron; 2], outlook: [Vector; 2], from: [u32; 2]) -> State {
-    let climb =
-        |i: usize| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: outlook[i], from: from[i] });
-    State::vertex_vertex([climb(0), climb(1)])
+/// Whether the pair has moved so far that the tables know better than the last features where to start. Not for garbage.
+#[inline(always)]
+fn has_jumped<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+    let [first, second] = frame.polyhedra();
+    let (marker, lever) = frame.marker();
+    let [x, y, z] = *last;
+    let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
+    let moved = marker.sub(L::from_vector(&last));
+    moved.dot(moved) > lever * lever * (first.lookup.reach * second.lookup.reach)
 }
 
-/// A hill climb for a support vertex.
-struct Climb<'a> {
-    polyhedron: &'a Polyhedron,
-    direction: Vector,
-    from: u32,
-}
-
-impl Kernel for Climb<'_> {
-    type Output = u32;
-
-    #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> u32 {
-        climb(self.polyhedron, L::from_vector(&self.direction), self.from)
-    }
-}
-
-/// Where to go on when a few steps from the last features did not end: from a cold start if the pair has jumped, else from `at`.
-#[inline(never)]
-fn go_on(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: &[[u32; 3]; 2], at: State) -> State {
-    let now = outlook(polyhedra, poses);
-    let moved = |i: usize| -> f64 { (0..3).map(|k| (now[i][k] - f64::from(f32::from_bits(last[i][k]))).powi(2)).sum() };
-    // Garbage bits may be NaN: no jump.
-    if moved(0) + moved(1) > JUMP * now[0].norm_squared() {
-        cold_start(polyhedra, now, at.vertices(polyhedra))
-    } else {
-        at
-    }
-}
-
-/// Square of the angle, in radians, by which a body has to turn in the other's view (both views added) for a cold start to be nearer
-/// than the last features: about 30 degrees.
-const JUMP: f64 = 0.3;
-
-/// The single-precision bits of an outlook.
-fn bits(outlook: &[Vector; 2]) -> [[u32; 3]; 2] {
-    outlook.map(|v| [v.x, v.y, v.z].map(|x| (x as f32).to_bits()))
+/// The single-precision bits of a vector.
+#[inline(always)]
+fn bits(v: Vector) -> [u32; 3] {
+    [(v.x as f32).to_bits(), (v.y as f32).to_bits(), (v.z as f32).to_bits()]
 }
 
 /// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair.
@@ -477,6 +476,9 @@ impl PairQuery<'_> {
     fn begin(&mut self) -> Result<()> {
         if !(self.config.distance_tolerance >= 0.0 && self.config.rotation_limit >= 0.0) {
             return Err(bad_config(self.config));
+        }
+        if !self.config.start.asks_cache() {
+            *self.cache = PairCache::default();
         }
         self.go_on(Attempt::Unusual)
     }
@@ -534,6 +536,9 @@ impl PairQuery<'_> {
         self.answer.statistics = statistics;
         self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
         self.fill(&decision);
+        if matches!(decision, Decision::Separated { .. }) {
+            self.remember_marker();
+        }
         Ok(())
     }
 
@@ -547,10 +552,15 @@ impl PairQuery<'_> {
         if accepted {
             self.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
             if steps > 1 {
-                self.cache.outlook = bits(&outlook(polyhedra, poses));
+                self.remember_marker();
             }
         }
         accepted
+    }
+
+    fn remember_marker(&mut self) {
+        let frame = Frame::<Portable>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        self.cache.marker = bits(frame.marker().0.to_vector());
     }
 
     /// Answer and cache from a decision.

@@ -8,6 +8,7 @@
 //! Coordinates are *centred*: stored vertex = `centre` + `vertices[i].position`, an exact sum (Sterbenz), so that an
 //! object far from its own origin loses no digits. The centre is zero unless an axis range [m−h, m+h] has h ≤ |m|/3.
 
+use crate::lookup::Lookup;
 use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
@@ -188,6 +189,8 @@ pub struct Polyhedron {
     pub polygon_starts: Vec<u32>,
     /// Volume, centre of mass, radius, box.
     pub mass: MassProperties,
+    /// Where marching starts from when the last query tells nothing.
+    pub lookup: Lookup,
 }
 
 impl Polyhedron {
@@ -292,6 +295,7 @@ impl Polyhedron {
             polygon_corners,
             polygon_starts,
             mass: _,
+            lookup,
         } = self;
         size_of_val(&vertices[..])
             + size_of_val(&neighbours[..])
@@ -308,6 +312,7 @@ impl Polyhedron {
             + size_of_val(&face_label_starts[..])
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
+            + lookup.heap_bytes()
     }
 }
 

@@ -7,6 +7,7 @@ use crate::error::{Error, Result};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::hull_build::convex_hull;
 use crate::hull_check::{check_convexity, check_surface};
+use crate::lookup_build::{LookupOptions, build_lookup};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::mesh::PolygonMesh;
 use crate::mesh_io::read_mesh;
@@ -51,6 +52,8 @@ pub struct ShapeOptions {
     pub convexity_tolerance: Option<f64>,
     /// Levels of detail. By default there are none.
     pub hierarchy: HierarchyOptions,
+    /// The table of vertices from which marching starts when the last query tells nothing.
+    pub lookup: LookupOptions,
 }
 
 impl Default for ShapeOptions {
@@ -62,6 +65,7 @@ impl Default for ShapeOptions {
             scale: 1.0,
             convexity_tolerance: None,
             hierarchy: HierarchyOptions::default(),
+            lookup: LookupOptions::default(),
         }
     }
 }
@@ -168,8 +172,8 @@ impl Shape {
         size_of::<Shape>() + polyhedron.heap_bytes() + hierarchy.heap_bytes()
     }
 
-    /// Refuses a polyhedron of a dimension that the policy does not admit; builds the levels.
-    fn admitted(polyhedron: Polyhedron, options: &ShapeOptions) -> Result<Shape> {
+    /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their table and levels.
+    fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions) -> Result<Shape> {
         let least = match options.input {
             InputPolicy::Strict => 3,
             InputPolicy::Flat => 2,
@@ -179,6 +183,7 @@ impl Shape {
             let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];
             return Err(Error::Mesh(format!("the body has no interior: {}", what[usize::from(polyhedron.dimension)])));
         }
+        polyhedron.lookup = build_lookup(&polyhedron, &options.lookup)?;
         let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };
         shape.with_levels(&options.hierarchy, &mut Progress::new(&mut |_| true))
     }

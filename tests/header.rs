@@ -7,7 +7,8 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 7] = [
+const SOURCES: [&str; 8] = [
+    "src/lookup_build.rs",
     "src/hierarchy/mod.rs",
     "src/shape.rs",
     "src/answer.rs",

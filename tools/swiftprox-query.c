@@ -34,7 +34,12 @@ static const char HELP[] =
     "                        (the default)\n"
     "  --query distance      the same for disjoint objects; the verdict alone for intersecting ones\n"
     "  --query intersection  the verdict alone; lower and upper are not tight\n"
-    "  --query approximate   not available yet, nor are --error, --start and --levels\n"
+    "  --query approximate   not available yet, nor are --error and --levels\n"
+    "  --start auto          start at the features of the last query while the poses change little, else where the\n"
+    "                        look-up tables of the models say (the default)\n"
+    "  --start cache         start at the features of the last query, however far the objects moved\n"
+    "  --start table         always start where the look-up tables say (a model of few vertices has none)\n"
+    "  --start cold          always start afresh, without tables\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
@@ -72,6 +77,7 @@ struct arguments {
     pair_query *query;
     swift_input input;
     swift_bounds bounds;
+    swift_start start;
     size_t count;
     size_t passes; /* 0: answers, not times */
 };
@@ -114,6 +120,9 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     static const swift_input INPUT_VALUES[] = {SWIFT_INPUT_STRICT, SWIFT_INPUT_FLAT, SWIFT_INPUT_HULL};
     static const char *const BOUNDS[] = {"tight", "verdict"};
     static const swift_bounds BOUNDS_VALUES[] = {SWIFT_BOUNDS_TIGHT, SWIFT_BOUNDS_VERDICT};
+    static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
+    static const swift_start START_VALUES[] = {SWIFT_START_AUTOMATIC, SWIFT_START_CACHE, SWIFT_START_TABLE,
+                                               SWIFT_START_COLD};
 
     int choice;
     if (strcmp(name, "--query") == 0) {
@@ -134,6 +143,11 @@ static bool parse_option(const char *name, const char *value, struct arguments *
             return wrong_usage("--bounds does not know ", value);
         }
         arguments->bounds = BOUNDS_VALUES[choice];
+    } else if (strcmp(name, "--start") == 0) {
+        if ((choice = choose(value, STARTS, 4)) < 0) {
+            return wrong_usage("--start does not know ", value);
+        }
+        arguments->start = START_VALUES[choice];
     } else if (strcmp(name, "--count") == 0) {
         return parse_count(value, &arguments->count) || wrong_usage("--count wants a number from 1 on, not ", value);
     } else if (strcmp(name, "--bench") == 0) {
@@ -151,6 +165,7 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
     *arguments = (struct arguments){.query = swift_pair_contact,
                                     .input = SWIFT_INPUT_STRICT,
                                     .bounds = SWIFT_BOUNDS_TIGHT,
+                                    .start = SWIFT_START_AUTOMATIC,
                                     .count = SIZE_MAX};
     int files = 0;
     for (int i = 1; i < argc; i++) {
@@ -419,6 +434,7 @@ static int run(const struct arguments *arguments)
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
     swift_pair_config_init(&job.config);
     job.config.bounds = arguments->bounds;
+    job.config.start = arguments->start;
 
     int result = BAD_FILE;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {

@@ -21,7 +21,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
 use crate::error::Error;
-use crate::pair::Bounds;
+use crate::pair::{Bounds, Start};
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -228,6 +228,25 @@ fn read_bounds(bounds: i32, owner: &str) -> Checked<Bounds> {
         _ => Err(Failure::new(
             StatusCode::ErrorInvalidArgument,
             format!("{owner}->bounds is {bounds}, which is no swift_bounds"),
+        )),
+    }
+}
+
+/// Where to start, as C says it in a member of `owner`.
+#[inline(always)]
+fn read_start(start: i32, owner: &str) -> Checked<Start> {
+    const AUTOMATIC: i32 = Start::Automatic as i32;
+    const CACHE: i32 = Start::Cache as i32;
+    const TABLE: i32 = Start::Table as i32;
+    const COLD: i32 = Start::Cold as i32;
+    match start {
+        AUTOMATIC => Ok(Start::Automatic),
+        CACHE => Ok(Start::Cache),
+        TABLE => Ok(Start::Table),
+        COLD => Ok(Start::Cold),
+        _ => Err(Failure::new(
+            StatusCode::ErrorInvalidArgument,
+            format!("{owner}->start is {start}, which is no swift_start"),
         )),
     }
 }

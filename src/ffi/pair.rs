@@ -2,7 +2,8 @@
 //! and configuration are read where the caller has them.
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_struct, struct_size,
+    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_start, read_struct,
+    struct_size,
 };
 use crate::error::{Error, Result};
 use crate::math::Pose;
@@ -198,14 +199,17 @@ unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checke
         // SAFETY: as large as it says, by the caller.
         unsafe { struct_size(config) }?;
     }
-    // SAFETY: `bounds` has been a member since the first version, so these four bytes are there, whatever they hold.
+    // SAFETY: `bounds` and `start` have been members since the first version, so these bytes are there, whatever they hold.
     let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
     read_bounds(bounds, "config")?;
+    // SAFETY: as above.
+    let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
+    read_start(start, "config")?;
     if size == size_of::<PairConfig>() {
-        // SAFETY: as large as today's struct, and its only enumerator is valid.
+        // SAFETY: as large as today's struct, and its enumerators are valid.
         return Ok(unsafe { &*config });
     }
-    // SAFETY: laid over the defaults its bytes are valid, as its only enumerator is.
+    // SAFETY: laid over the defaults its bytes are valid, as its enumerators are.
     *own = unsafe { read_struct(config, *own) }?;
     Ok(own)
 }

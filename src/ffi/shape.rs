@@ -11,6 +11,8 @@ use super::{
 };
 use crate::error::Result;
 use crate::hierarchy::{HierarchyKind, HierarchyOptions};
+use crate::lookup::Table;
+use crate::lookup_build::{LookupKind, LookupOptions};
 use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::Polyhedron;
@@ -52,6 +54,14 @@ pub struct CShapeOptions {
     pub progress: ProgressCallback,
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
+    /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. Default: automatic.
+    pub lookup: i32,
+    /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two from
+    /// 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees). Default: 0,
+    /// which means what the number of vertices asks for, or 32.
+    pub lookup_resolution: u32,
+    /// Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2.
+    pub lookup_radius_factor: f64,
 }
 
 // SAFETY: repr(C), struct_size first.
@@ -96,6 +106,9 @@ impl CShapeOptions {
         most_levels: 32,
         progress: None,
         progress_user: std::ptr::null_mut(),
+        lookup: LookupKind::Automatic as i32,
+        lookup_resolution: 0,
+        lookup_radius_factor: LookupOptions::DEFAULT.radius_factor,
     };
 
     /// The options in Rust's terms. What is left to check, the makers of shapes check.
@@ -105,6 +118,13 @@ impl CShapeOptions {
             .find(|policy| *policy as i32 == self.input)
             .ok_or_else(|| {
                 let message = format!("options->input is {}, which is no swift_input", self.input);
+                Failure::new(StatusCode::ErrorInvalidArgument, message)
+            })?;
+        let lookup = [LookupKind::Automatic, LookupKind::None, LookupKind::Shells, LookupKind::Spherical]
+            .into_iter()
+            .find(|kind| *kind as i32 == self.lookup)
+            .ok_or_else(|| {
+                let message = format!("options->lookup is {}, which is no swift_lookup", self.lookup);
                 Failure::new(StatusCode::ErrorInvalidArgument, message)
             })?;
         if self.convexity_tolerance.is_nan() {
@@ -126,6 +146,11 @@ impl CShapeOptions {
             scale: self.scale,
             convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
             hierarchy: HierarchyOptions::default(),
+            lookup: LookupOptions {
+                kind: lookup,
+                resolution: self.lookup_resolution,
+                radius_factor: self.lookup_radius_factor,
+            },
         };
         let hierarchy = HierarchyOptions { kind, decimation, minimum_triangles, most_levels };
         Ok(Making { options, hierarchy, progress, user: progress_user })
@@ -166,6 +191,12 @@ pub struct ShapeInfo {
     pub level_count: usize,
     /// Of bytes, what the levels take.
     pub level_bytes: usize,
+    /// A swift_lookup: the look-up table that the shape has, never SWIFT_LOOKUP_AUTOMATIC.
+    pub lookup: i32,
+    /// Its resolution, as in swift_shape_options; 0 without one.
+    pub lookup_resolution: u32,
+    /// Its share of `bytes`.
+    pub lookup_bytes: usize,
 }
 
 // SAFETY: repr(C), struct_size first.
@@ -378,6 +409,11 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
+        let (kind, resolution) = match &polyhedron.lookup.table {
+            Table::None => (LookupKind::None, 0),
+            Table::Shells(table) => (LookupKind::Shells, table.resolution),
+            Table::Spherical(table) => (LookupKind::Spherical, table.resolution),
+        };
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),
             dimension: i32::from(polyhedron.dimension),
@@ -394,6 +430,9 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
             hierarchy: hierarchy.kind as i32,
             level_count: hierarchy.levels.len(),
             level_bytes: hierarchy.heap_bytes(),
+            lookup: kind as i32,
+            lookup_resolution: resolution as u32,
+            lookup_bytes: polyhedron.lookup.heap_bytes(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }

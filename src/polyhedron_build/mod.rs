@@ -9,6 +9,7 @@ use crate::error::Result;
 use crate::face_labels::{label_by_index, label_by_polygons};
 use crate::face_merge::{MergedFaces, merge_bound, merge_faces};
 use crate::hull_build::{Hull, convex_hull};
+use crate::lookup::Lookup;
 use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::mesh::PolygonMesh;
@@ -182,6 +183,7 @@ impl HullSurface {
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
             mass,
+            lookup: Lookup::NONE,
         };
         if self.dimension < 2 {
             // A segment's ends are each other's neighbours, a point is its own.

@@ -1,0 +1,116 @@
+//! Where marching starts: from the tables of nearest vertices when the last query tells little or nothing.
+
+use crate::lookup::{Shells, Table};
+use crate::math::{Pose, Vector};
+use crate::polyhedron::Polyhedron;
+use crate::simd::{self, Kernel, Lanes};
+use crate::voronoi::climb;
+
+/// The vertices to start from if not where the last query ended: those that the tables say, if they are to be asked and there are
+/// any, or else those farthest along the line of the bodies' origins.
+// A pair of numbers comes back in registers: a whole state would go through memory, written in parts and read as one, which stalls.
+#[inline(never)]
+pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) -> (u32, u32) {
+    let found = if ask_tables { from_tables(polyhedra, poses) } else { None };
+    let [vertex1, vertex2] = found.unwrap_or_else(|| farthest(polyhedra, poses));
+    (vertex1, vertex2)
+}
+
+/// The support vertices along the line of the bodies' origins.
+fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [u32; 2] {
+    let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
+    let between = origin(1) - origin(0);
+    let towards = [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)];
+    [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] }))
+}
+
+/// A hill climb for a support vertex.
+struct Climb<'a> {
+    polyhedron: &'a Polyhedron,
+    direction: Vector,
+}
+
+impl Kernel for Climb<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> u32 {
+        climb(self.polyhedron, L::from_vector(&self.direction), 0)
+    }
+}
+
+/// The vertices that the tables of both bodies give, if both have one.
+#[inline(always)]
+fn from_tables(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<[u32; 2]> {
+    let [first, second] = polyhedra;
+    match (&first.lookup.table, &second.lookup.table) {
+        (Table::Shells(first), Table::Shells(second)) => Some(alternate([first, second], polyhedra, poses)),
+        (Table::Spherical(first), Table::Spherical(second)) => {
+            let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
+            Some([first.towards(&poses[0].rotate_back(&between)), second.towards(&poses[1].rotate_back(&-between))])
+        }
+        _ => None,
+    }
+}
+
+/// In the world, in plain rounding.
+#[inline(always)]
+fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
+    pose.transform(&polyhedron.mass.centre_of_mass)
+}
+
+/// Projects the centre of mass of body 2 on body 1, the vertex found on body 2, that one on body 1, and so on, by the tables.
+#[inline(always)]
+fn alternate(tables: [&Shells; 2], polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [u32; 2] {
+    let [radius1, radius2] = [polyhedra[0].mass.radius, polyhedra[1].mass.radius];
+    let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
+    // From body 1's frame and unit to body 2's, and back.
+    let there = Map::new(poses, &between, [radius1, radius2]);
+    let back = Map::new([poses[1], poses[0]], &-between, [radius2, radius1]);
+    let mut vertex1 = tables[0].nearest(back.offset);
+    let mut vertex2 = tables[1].nearest(there.apply(tables[0].positions[vertex1 as usize]));
+    for _ in 1..ROUNDS {
+        vertex1 = tables[0].nearest(back.apply(tables[1].positions[vertex2 as usize]));
+        vertex2 = tables[1].nearest(there.apply(tables[0].positions[vertex1 as usize]));
+    }
+    [vertex1, vertex2]
+}
+
+/// Measured.
+pub const ROUNDS: u32 = 2;
+
+/// Points relative to one body's centre of mass, in units of its radius, seen from another body in the same way.
+struct Map {
+    /// What the first, second and third coordinate are multiplied by.
+    columns: [[f32; 3]; 3],
+    offset: [f32; 3],
+}
+
+impl Map {
+    #[inline(always)]
+    fn new([from, to]: [&Pose; 2], between: &Vector, [from_radius, to_radius]: [f64; 2]) -> Map {
+        let (a, b) = (&from.rows, &to.rows);
+        let unit = 1.0 / to_radius;
+        let scale = from_radius * unit;
+        let mut columns = [[0.0; 3]; 3];
+        let mut offset = [0.0; 3];
+        for row in 0..3 {
+            for column in 0..3 {
+                let entry = b[0][row] * a[0][column] + b[1][row] * a[1][column] + b[2][row] * a[2][column];
+                columns[column][row] = (entry * scale) as f32;
+            }
+            offset[row] = ((b[0][row] * between.x + b[1][row] * between.y + b[2][row] * between.z) * unit) as f32;
+        }
+        Map { columns, offset }
+    }
+
+    #[inline(always)]
+    fn apply(&self, [x, y, z, _]: [f32; 4]) -> [f32; 3] {
+        let [a, b, c] = &self.columns;
+        let mut point = self.offset;
+        for i in 0..3 {
+            point[i] += a[i] * x + (b[i] * y + c[i] * z);
+        }
+        point
+    }
+}

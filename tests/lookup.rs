@@ -1,0 +1,315 @@
+//! The look-up tables: sizes, entries, look-up, and that no answer depends on them.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use std::f64::consts::PI;
+
+use common::models::{cuboid, ellipsoid, prism, random_hull};
+use common::orbits::{ORBITS, Step, poses};
+use common::random::Random;
+use swiftprox::error::Error;
+use swiftprox::lookup::{Cells, Shells, Spherical, Table};
+use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions};
+use swiftprox::math::{Pose, Vector};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Start};
+use swiftprox::polyhedron::Polyhedron;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify;
+
+fn options(kind: LookupKind, resolution: u32) -> ShapeOptions {
+    let lookup = LookupOptions { kind, resolution, ..LookupOptions::default() };
+    ShapeOptions { input: InputPolicy::Hull, lookup, ..ShapeOptions::default() }
+}
+
+fn shape(mesh: &PolygonMesh, kind: LookupKind, resolution: u32) -> Shape {
+    Shape::from_mesh(mesh, &options(kind, resolution)).unwrap()
+}
+
+/// Round, flat and long ones, a needle, a wafer, boxes, one off its origin, one whose two caps have vertices of high valence.
+fn bodies() -> Vec<(&'static str, PolygonMesh)> {
+    let mut moved = ellipsoid([1.0, 0.5, 0.25], 150).unwrap();
+    for v in &mut moved.vertices {
+        *v += Vector::new(7.0, -3.0, 0.5);
+    }
+    vec![
+        ("fat", ellipsoid([1.0; 3], 300).unwrap()),
+        ("plate", ellipsoid([1.0, 1.0, 0.1], 300).unwrap()),
+        ("long", ellipsoid([1.0, 0.1, 0.1], 300).unwrap()),
+        ("wafer", ellipsoid([1.0, 1.0, 1e-4], 300).unwrap()),
+        ("needle", ellipsoid([1.0, 1e-4, 1e-4], 300).unwrap()),
+        ("moved", moved),
+        ("random", random_hull(2_000, 5).unwrap()),
+        ("box", cuboid([1.0, 0.2, 0.7]).unwrap()),
+        ("prism", prism(64, 0.3).unwrap()),
+    ]
+}
+
+fn shells(polyhedron: &Polyhedron) -> &Shells {
+    let Table::Shells(table) = &polyhedron.lookup.table else { panic!("shells") };
+    table
+}
+
+fn spherical(polyhedron: &Polyhedron) -> &Spherical {
+    let Table::Spherical(table) = &polyhedron.lookup.table else { panic!("spherical") };
+    table
+}
+
+/// A point at a multiple of the body's radius from its centre of mass, in centred coordinates.
+fn sample(polyhedron: &Polyhedron, factor: f64, direction: &Vector) -> Vector {
+    polyhedron.mass.centre_of_mass - polyhedron.centre + direction * (factor * polyhedron.mass.radius)
+}
+
+/// The distance of a vertex from a point.
+fn distance_of(polyhedron: &Polyhedron, vertex: u32, point: &Vector) -> f64 {
+    (polyhedron.vertices[vertex as usize].position - point).norm()
+}
+
+fn least_distance(polyhedron: &Polyhedron, point: &Vector) -> f64 {
+    polyhedron.vertices.iter().map(|v| (v.position - point).norm()).fold(f64::INFINITY, f64::min)
+}
+
+#[test]
+fn spherical_tables_have_the_papers_sizes() {
+    let mesh = ellipsoid([1.0, 0.6, 0.3], 200).unwrap();
+    for (resolution, degrees, entries) in [(32, 5.625, 1986), (16, 11.25, 482), (8, 22.5, 114)] {
+        assert_eq!((180.0 / degrees - 1.0) * (360.0 / degrees) + 2.0, f64::from(entries));
+        let shape = shape(&mesh, LookupKind::Spherical, resolution);
+        let table = spherical(shape.polyhedron());
+        assert_eq!(table.cells.len(), entries as usize);
+        assert!(matches!(&table.cells, Cells::Narrow(cells) if size_of_val(&cells[..]) == 2 * entries as usize));
+    }
+}
+
+#[test]
+fn spherical_entries_are_exactly_nearest() {
+    for (name, mesh) in bodies() {
+        for (resolution, radius_factor) in [(8, 1.0), (13, 2.0), (32, 50.0)] {
+            let mut options = options(LookupKind::Spherical, resolution);
+            options.lookup.radius_factor = radius_factor;
+            let shape = Shape::from_mesh(&mesh, &options).unwrap();
+            let polyhedron = shape.polyhedron();
+            let table = spherical(polyhedron);
+            for cell in 0..table.cells.len() {
+                let point = sample(polyhedron, radius_factor, &Spherical::direction(table.resolution, cell));
+                let found = distance_of(polyhedron, table.cells.get(cell), &point);
+                assert_eq!(found, least_distance(polyhedron, &point), "{name}, entry {cell}");
+            }
+        }
+    }
+}
+
+/// The entry by rounding the angles; `None` where that is a matter of rounding errors.
+fn entry_by_angles(direction: &Vector, resolution: usize) -> Option<usize> {
+    let increments = resolution as f64 / PI;
+    let polar = (direction.z / direction.norm()).acos() * increments;
+    let azimuth = direction.y.atan2(direction.x).rem_euclid(2.0 * PI) * increments;
+    let is_close = |x: f64| (x - x.floor() - 0.5).abs() < 1e-6;
+    let ring = polar.round() as usize;
+    if is_close(polar) {
+        return None;
+    }
+    match ring {
+        0 => Some(0),
+        ring if ring == resolution => Some(Spherical::cell_count(resolution) - 1),
+        _ if is_close(azimuth) => None,
+        ring => Some(1 + (ring - 1) * 2 * resolution + azimuth.round() as usize % (2 * resolution)),
+    }
+}
+
+#[test]
+fn spherical_look_up_rounds_the_angles() {
+    let mesh = cuboid([1.0; 3]).unwrap();
+    let mut random = Random::new(7);
+    for resolution in [2, 3, 8, 16, 32, 45] {
+        let shape = shape(&mesh, LookupKind::Spherical, resolution);
+        let table = spherical(shape.polyhedron());
+        let resolution = resolution as usize;
+        let mut compared = 0;
+        for _ in 0..20_000 {
+            let direction = random.direction() * random.uniform(0.1, 10.0);
+            if let Some(expected) = entry_by_angles(&direction, resolution) {
+                assert_eq!(table.cell(&direction), expected, "{direction:?} at resolution {resolution}");
+                compared += 1;
+            }
+        }
+        assert!(compared > 19_900);
+        for cell in 0..table.cells.len() {
+            assert_eq!(table.cell(&Spherical::direction(resolution, cell)), cell);
+        }
+        // Directions that name no entry name some.
+        for x in [0.0, f64::NAN, f64::INFINITY, 1e-320] {
+            table.towards(&Vector::new(x, -x, x));
+        }
+    }
+}
+
+#[test]
+fn shells_find_their_own_sample_points() {
+    for (name, mesh) in bodies() {
+        let shape = shape(&mesh, LookupKind::Shells, 16);
+        let table = shells(shape.polyhedron());
+        for (shell, radius) in table.radii.iter().enumerate() {
+            for cell in 0..16 * 16 {
+                let point = Shells::direction(16, cell / 16, cell % 16) * *radius;
+                let found = table.nearest([point.x as f32, point.y as f32, point.z as f32]);
+                assert_eq!(found, table.cells.get(shell * 16 * 16 + cell), "{name}, shell {shell}, cell {cell}");
+            }
+        }
+        for x in [0.0, f32::NAN, f32::INFINITY, f32::MAX, 1e-40, -1e-40] {
+            table.nearest([x, 0.0, 0.0]);
+            table.nearest([x, x, x]);
+            table.nearest([0.0, x, -x]);
+        }
+    }
+}
+
+#[test]
+fn no_neighbour_of_a_shells_vertex_is_nearer_and_mostly_no_other() {
+    for (name, mesh) in bodies() {
+        let shape = shape(&mesh, LookupKind::Shells, 32);
+        let polyhedron = shape.polyhedron();
+        let table = shells(polyhedron);
+        let (mut nearest, mut worst) = (0, 1.0_f64);
+        for index in 0..table.cells.len() {
+            let cell = index % (32 * 32);
+            let direction = Shells::direction(32, cell / 32, cell % 32);
+            let point = sample(polyhedron, table.radii[index / (32 * 32)], &direction);
+            let vertex = table.cells.get(index);
+            let found = distance_of(polyhedron, vertex, &point);
+            for block in polyhedron.neighbour_blocks(vertex) {
+                for head in block.head {
+                    assert!(distance_of(polyhedron, head, &point) >= found, "{name}: {head} is nearer than {vertex}");
+                }
+            }
+            let least = least_distance(polyhedron, &point);
+            nearest += usize::from(found == least);
+            worst = worst.max(found / least);
+        }
+        let share = nearest as f64 / table.cells.len() as f64;
+        println!("{name}: {share:.5} of the entries are the nearest vertex of all, {worst:.3} times as far at worst");
+        assert!(share > if ["wafer", "needle"].contains(&name) { 0.3 } else { 0.85 });
+    }
+}
+
+#[test]
+fn thin_bodies_have_shells_within_their_bounding_sphere() {
+    let count = |half_axes, n| {
+        let shape = shape(&ellipsoid(half_axes, n).unwrap(), LookupKind::Shells, 8);
+        shells(shape.polyhedron()).radii.len()
+    };
+    assert_eq!(count([1.0, 1.0, 1.0], 300), 5);
+    assert_eq!(count([1.0, 1.0, 0.6], 300), 6);
+    assert_eq!(count([1.0, 1.0, 0.1], 300), 8);
+    assert_eq!(count([1.0, 0.1, 0.1], 300), 8);
+}
+
+#[test]
+fn tables_are_made_where_they_are_asked_for() {
+    let made = |mesh: &PolygonMesh, kind| shape(mesh, kind, 0).polyhedron().lookup.clone();
+    let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES).unwrap());
+    assert_eq!(made(&small, LookupKind::Automatic).table, Table::None);
+    assert!(matches!(made(&large, LookupKind::Automatic).table, Table::Shells(_)));
+    assert_eq!(made(&large, LookupKind::None).table, Table::None);
+    assert_eq!(made(&large, LookupKind::None).heap_bytes(), 0);
+    assert!(matches!(made(&small, LookupKind::Shells).table, Table::Shells(_)));
+    assert!(matches!(made(&small, LookupKind::Spherical).table, Table::Spherical(t) if t.resolution == 32));
+    // Equal input, equal tables.
+    assert_eq!(made(&large, LookupKind::Automatic), made(&large, LookupKind::Automatic));
+}
+
+#[test]
+fn bodies_without_interior_have_tables_too() {
+    let square = [[0.0, 0.0, 1.0], [1.0, 0.0, 1.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0]].map(Vector::from);
+    for count in [1, 2, 4] {
+        for kind in [LookupKind::Shells, LookupKind::Spherical] {
+            let shape = Shape::from_points(&square[..count], &options(kind, 0)).unwrap();
+            // A point has no radius.
+            assert_eq!(shape.polyhedron().lookup.table == Table::None, count == 1);
+            let pose = Pose::IDENTITY;
+            let mut away = pose;
+            away.rows[2][3] = 3.0;
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            pair::distance(&shape, &pose, &shape, &away, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+            assert_eq!(answer.outcome, Outcome::Separated);
+            assert!(answer.lower <= 3.0 && answer.upper >= 3.0, "{answer:?}");
+        }
+    }
+}
+
+#[test]
+fn options_out_of_range_are_refused() {
+    let mesh = cuboid([1.0; 3]).unwrap();
+    for (kind, resolution) in [
+        (LookupKind::Shells, 2),
+        (LookupKind::Shells, 24),
+        (LookupKind::Shells, 1024),
+        (LookupKind::Spherical, 1),
+        (LookupKind::Spherical, 513),
+    ] {
+        let refused = Shape::from_mesh(&mesh, &options(kind, resolution)).unwrap_err();
+        assert!(matches!(&refused, Error::Argument(m) if m.contains("resolution")), "{refused}");
+    }
+    for factor in [0.99, f64::NAN, f64::INFINITY] {
+        let mut options = options(LookupKind::Spherical, 8);
+        options.lookup.radius_factor = factor;
+        let refused = Shape::from_mesh(&mesh, &options).unwrap_err();
+        assert!(matches!(&refused, Error::Argument(m) if m.contains("radius factor")), "{refused}");
+    }
+}
+
+/// Every pair of kinds of tables, every start, the cache of whatever query was before: one verdict, intervals with a common point,
+/// and answers that pass their check.
+#[test]
+fn answers_do_not_depend_on_tables_or_starts() {
+    let kinds = [LookupKind::Automatic, LookupKind::None, LookupKind::Spherical];
+    let starts = [Start::Automatic, Start::Cache, Start::Table, Start::Cold];
+    let mut intersecting = 0;
+    for (name, mesh) in bodies() {
+        let shapes = kinds.map(|kind| shape(&mesh, kind, 0));
+        for orbit in ORBITS {
+            let mut caches = [PairCache::default(); 36];
+            for (index, numbers) in poses(orbit, Step::Random, 60).iter().enumerate() {
+                let pose = |k: usize| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap());
+                let poses = [pose(0), pose(1)];
+                let mut first: Option<PairAnswer> = None;
+                for (k, cache) in caches.iter_mut().enumerate() {
+                    let shapes = [&shapes[k % 3], &shapes[k / 3 % 3]];
+                    let config = PairConfig { start: starts[k / 9], ..PairConfig::default() };
+                    let mut answer = PairAnswer::default();
+                    pair::distance(shapes[0], &poses[0], shapes[1], &poses[1], cache, &config, &mut answer).unwrap();
+                    verify(shapes[0], &poses[0], shapes[1], &poses[1], &answer).unwrap();
+                    let first = first.get_or_insert(answer);
+                    let agrees =
+                        first.outcome == answer.outcome && first.lower <= answer.upper && answer.lower <= first.upper;
+                    assert!(agrees, "{name}, {} orbit, pose {index}: {first:?}\nbut {answer:?}", orbit.name);
+                    intersecting += usize::from(answer.outcome == Outcome::Intersecting);
+                }
+            }
+        }
+    }
+    assert!(intersecting > 1_000, "{intersecting}");
+}
+
+/// What the tables are for: hardly more steps anywhere than for a body of a tenth of the vertices.
+#[test]
+fn steps_from_a_table_hardly_grow_with_the_number_of_vertices() {
+    for half_axes in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]] {
+        let shape = Shape::from_mesh(&ellipsoid(half_axes, 1_000).unwrap(), &ShapeOptions::default()).unwrap();
+        let mean_steps = |start| {
+            let (mut cache, mut answer, mut steps) = (PairCache::default(), PairAnswer::default(), 0);
+            let config = PairConfig { start, ..PairConfig::default() };
+            let poses = poses(ORBITS[0], Step::Random, 500);
+            for numbers in &poses {
+                let pose = |k: usize| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap());
+                pair::distance(&shape, &pose(0), &shape, &pose(1), &mut cache, &config, &mut answer).unwrap();
+                steps += answer.statistics.marching_steps;
+            }
+            f64::from(steps) / poses.len() as f64
+        };
+        let [automatic, table, cache] = [Start::Automatic, Start::Table, Start::Cache].map(mean_steps);
+        println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
+        assert!(automatic < 5.5 && table < 5.5 && cache > 15.0);
+    }
+}
