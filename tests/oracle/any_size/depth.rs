@@ -11,7 +11,7 @@ use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use super::integers::{Placed, Point, cross, difference, dot, is_zero};
+use super::integers::{Placed, Point, cross, difference, dot, is_zero, negative};
 use super::nearest::affine_minimiser;
 
 /// The depth, or where it lies when the polytope was not grown to the end.
@@ -92,7 +92,7 @@ fn finished(placed: &Placed, vertices: &[Vertex], facets: &[Facet], nearest: usi
     let points = found.as_ref().map(|(f, weights)| {
         [0, 1].map(|side| {
             let body = if side == 0 { &placed.a } else { &placed.b };
-            let corner = |c: usize| &body[vertices[c].pair[side]];
+            let corner = |c: usize| body.vertex(vertices[c].pair[side]);
             [0, 1, 2].map(|k| {
                 f.corners
                     .iter()
@@ -165,9 +165,8 @@ fn closer(f: &Facet, g: &Facet) -> Ordering {
 
 /// The vertex of the difference body farthest along a direction.
 fn support(placed: &Placed, direction: &Point) -> Vertex {
-    let highest = (0..placed.a.len()).max_by_key(|&i| dot(direction, &placed.a[i])).expect("a vertex");
-    let lowest = (0..placed.b.len()).min_by_key(|&j| dot(direction, &placed.b[j])).expect("a vertex");
-    Vertex { pair: [highest, lowest], position: difference(&placed.a[highest], &placed.b[lowest]) }
+    let pair = [placed.a.farthest(direction), placed.b.farthest(&negative(direction))];
+    Vertex { pair, position: difference(&placed.a.vertex(pair[0]), &placed.b.vertex(pair[1])) }
 }
 
 /// Four vertices of the difference body that are not in a plane, if there are such, the last below the plane of the others.
@@ -176,7 +175,7 @@ fn tetrahedron(placed: &Placed) -> Option<Vec<Vertex>> {
     let first = support(placed, &axes[0]);
     // The farthest from the first point along ±directions that span what is still open; `None` when nothing sticks out.
     let off = |directions: &[Point]| {
-        let both = directions.iter().flat_map(|d| [d.clone(), [-&d[0], -&d[1], -&d[2]]]);
+        let both = directions.iter().flat_map(|d| [d.clone(), negative(d)]);
         both.filter(|d| !is_zero(d))
             .map(|d| (support(placed, &d), d))
             .find(|(vertex, d)| !dot(d, &difference(&vertex.position, &first.position)).is_zero())

@@ -5,7 +5,7 @@
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use super::integers::{Placed, Point, difference, dot};
+use super::integers::{Body, Placed, Point, difference, dot, negative};
 
 /// The nearest points of two hulls.
 pub struct Nearest {
@@ -22,7 +22,7 @@ pub fn nearest(placed: &Placed) -> Nearest {
     // Wolfe's corral: affinely independent points, and x, the point nearest to the origin of their affine hull, inside
     // their convex hull.
     let mut pairs = vec![[0, 0]];
-    let mut corral = vec![difference(&a[0], &b[0])];
+    let mut corral = vec![difference(&a.vertex(0), &b.vertex(0))];
     let mut weights = vec![RBig::ONE];
     loop {
         let (x, denominator) = combination(&corral, &weights);
@@ -30,9 +30,8 @@ pub fn nearest(placed: &Placed) -> Nearest {
         if square.is_zero() {
             return Nearest { square: RBig::ZERO, pairs, weights };
         }
-        let lowest = (0..a.len()).min_by_key(|&i| dot(&x, &a[i])).expect("a vertex");
-        let highest = (0..b.len()).max_by_key(|&j| dot(&x, &b[j])).expect("a vertex");
-        let w = difference(&a[lowest], &b[highest]);
+        let (lowest, highest) = (a.farthest(&negative(&x)), b.farthest(&x));
+        let w = difference(&a.vertex(lowest), &b.vertex(highest));
         if dot(&x, &w) * IBig::from(denominator.clone()) >= square {
             return Nearest { square: RBig::from_parts(square, denominator.sqr()), pairs, weights };
         }
@@ -67,9 +66,9 @@ impl Nearest {
         if placed.exponent < 0 { &self.square / (&unit * &unit) } else { &self.square * (&unit * &unit) }
     }
 
-    /// The nearest point of the body whose vertices these are: A's for `side` 0, B's for 1.
-    pub fn point(&self, vertices: &[Point], side: usize) -> [RBig; 3] {
-        let corners: Vec<Point> = self.pairs.iter().map(|pair| vertices[pair[side]].clone()).collect();
+    /// The nearest point of one body, which is A for `side` 0, B for 1.
+    pub fn point(&self, body: &Body, side: usize) -> [RBig; 3] {
+        let corners: Vec<Point> = self.pairs.iter().map(|pair| body.vertex(pair[side])).collect();
         let (sum, denominator) = combination(&corners, &self.weights);
         sum.map(|x| RBig::from_parts(x, denominator.clone()))
     }
