@@ -1,16 +1,19 @@
 //! Any answer from any warm start is the cold one: the right start, the last one, one of another pose, one of another pair, random
-//! bytes, and such as are made to mislead.
+//! bytes, and such as are made to mislead; with any look-up table, and wherever a query is told to start.
 
+use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
-use swiftprox::shape::Shape;
+use swiftprox::pair::{
+    Bounds, Outcome, PairAnswer, PairCache, PairConfig, Start, Status, contact, distance, intersection,
+};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
 use crate::cases::Random;
 use crate::common::hard::flight::{fly, poses};
 use crate::{Flight, ask, contradiction};
 
-/// The number of 32-bit words in a cache: its kind, two feature indices, four vertex pairs, two directions.
+/// The number of 32-bit words in a cache: its kind, two feature indices, four vertex pairs, a place.
 const WORDS: usize = size_of::<PairCache>() / 4;
 
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
@@ -27,6 +30,11 @@ const QUERIES: [(&str, Query, Bounds); 4] = [
     ("distance within the cheapest bounds", distance, Bounds::Verdict),
 ];
 
+/// Every table that a shape may have.
+const TABLES: [LookupKind; 3] = [LookupKind::None, LookupKind::Shells, LookupKind::Spherical];
+
+const STARTS: [Start; 5] = [Start::Automatic, Start::Automatic, Start::Cache, Start::Table, Start::Cold];
+
 /// Asks every pose of a flight from caches of every kind.
 pub fn check(flight: &mut Flight) {
     let shapes = flight.shapes;
@@ -39,6 +47,11 @@ pub fn check(flight: &mut Flight) {
     })
     .expect("accepted poses");
     let foreign = foreign_caches(flight);
+    let [other1, other2] = flight.sequence.bodies.each_ref().map(|body| {
+        let lookup = LookupOptions { kind: TABLES[random.below(3) as usize], ..LookupOptions::default() };
+        let options = ShapeOptions { input: InputPolicy::Hull, lookup, ..ShapeOptions::default() };
+        Shape::from_mesh(body, &options).expect("bodies that the library admits")
+    });
     for (number, pair) in flight.sequence.poses.iter().enumerate() {
         let placed = &poses(pair);
         let cold = ask(shapes, placed.each_ref(), &mut PairCache::default());
@@ -59,7 +72,9 @@ pub fn check(flight: &mut Flight) {
             // Without a limit to the distance, or with one that is as near to it as can be.
             let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
             let distance_tolerance = limits[random.below(12).saturating_sub(6) as usize];
-            let config = PairConfig { bounds, distance_tolerance, ..PairConfig::default() };
+            let start_at = STARTS[random.below(5) as usize];
+            let config = PairConfig { bounds, distance_tolerance, start: start_at, ..PairConfig::default() };
+            let shapes = if random.below(2) == 0 { shapes } else { [&other1, &other2] };
             let (mut used, mut answer) = (cache, PairAnswer::default());
             query(shapes[0], &placed[0], shapes[1], &placed[1], &mut used, &config, &mut answer)
                 .expect("accepted poses");
