@@ -43,11 +43,19 @@ pub struct Minimum<L> {
     pub points: [L; 2],
     /// The points mapped by their bodies' rotations.
     pub rotated: [L; 2],
+    /// x − y for the points x of body 1 and y of body 2 in the world.
+    pub difference: L,
+    /// The rounding error of `difference` beyond [`Frame::difference_error`].
+    pub error: f64,
     /// A world direction from body 2 to body 1, of any length: the difference of the nearest points, or where the features
     /// define it a normal, which keeps its digits at the smallest distance.
     pub direction: L,
     /// The direction's reciprocal length, see [`reciprocal_length`].
     pub inverse: f64,
+    /// |difference|.
+    pub distance: f64,
+    /// How far the difference reaches along the unit direction.
+    pub reach: f64,
     /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
     /// closer look tells.
     pub beyond: f64,
@@ -58,16 +66,10 @@ pub struct Minimum<L> {
 }
 
 impl<L: Lanes> Minimum<L> {
-    /// x − y of its points.
-    #[inline(always)]
-    fn difference(&self, frame: &Frame<L>) -> L {
-        self.rotated[0].add(frame.bodies[0].offset).sub(self.rotated[1])
-    }
-
     /// What follows from it, as far as a quick look tells.
     #[inline(always)]
     pub fn gap(&self, frame: &Frame<L>) -> Gap {
-        gap(frame, self.difference(frame), self.direction, self.inverse, self.beyond, self.outside)
+        self.gap_with(frame, self.beyond, self.outside)
     }
 
     /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the rim of a cone, skewed
@@ -80,8 +82,13 @@ impl<L: Lanes> Minimum<L> {
         ];
         let points = [self.points[0].to_vector(), self.points[1].to_vector()];
         let defect = closely(frame.polyhedra(), state, points, towards, self.height);
-        let beyond = defect.beyond * self.inverse;
-        gap(frame, self.difference(frame), self.direction, self.inverse, beyond, defect.outside)
+        self.gap_with(frame, defect.beyond * self.inverse, defect.outside)
+    }
+
+    #[inline(always)]
+    fn gap_with(&self, frame: &Frame<L>, beyond: f64, outside: f64) -> Gap {
+        let error = frame.difference_error(self.distance) + self.error;
+        Gap { distance: self.distance, interval: interval(self.distance, self.reach, error, beyond, outside) }
     }
 }
 
@@ -180,17 +187,15 @@ pub fn reciprocal_length(square: f64) -> f64 {
     if square >= SHORTEST_SQUARE { 1.0 / square.sqrt() } else { f64::NAN }
 }
 
-/// The interval from the difference D of two points, of which the bodies reach at most `beyond` farther along the direction U/|U|
-/// and which lie at most `outside` out of the bodies; `inverse` is 1/|U|.
+/// The interval from the difference D of two points that is off by at most `error`, its length `distance`, and how far it reaches
+/// along a direction, U·D/|U|; the bodies reach at most `beyond` farther along U/|U| than the points, and these lie at most
+/// `outside` out of the bodies.
 #[inline(always)]
-pub fn gap<L: Lanes>(frame: &Frame<L>, difference: L, direction: L, inverse: f64, beyond: f64, outside: f64) -> Gap {
-    let distance = difference.dot(difference).sqrt();
-    let along = direction.dot(difference);
-    let error = frame.difference_error(distance);
+pub fn interval(distance: f64, reach: f64, error: f64, beyond: f64, outside: f64) -> Interval {
     // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; beyond has been summed with as much.
-    let lower = (along * inverse - beyond * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
+    let lower = (reach - beyond * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
     let upper = (distance * (1.0 + 4.0 * U) + error + outside) * (1.0 + 4.0 * U);
-    Gap { distance, interval: Interval { lower, upper } }
+    Interval { lower, upper }
 }
 
 /// How far a body misses the assumptions at a point of a feature.

@@ -204,7 +204,9 @@ fn supported_interval<L: Lanes>(
     let difference = frame.difference(&points[0], &points[1]);
     let direction = L::from_vector(direction);
     let inverse = certificate::reciprocal_length(direction.dot(direction));
-    certificate::gap(frame, difference, direction, inverse, beyond * inverse, outside).interval
+    let distance = difference.dot(difference).sqrt();
+    let reach = direction.dot(difference) * inverse;
+    certificate::interval(distance, reach, frame.difference_error(distance), beyond * inverse, outside)
 }
 
 impl Simplex {

@@ -127,8 +127,12 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
             let minimum = Minimum {
                 points: [L::from_vector(point1), L::from_vector(point2)],
                 rotated,
+                difference: direction,
+                error: 0.0,
                 direction,
                 inverse: reciprocal_length(square),
+                distance: length,
+                reach: length,
                 beyond: beyond_vertex(test1) + beyond_vertex(test2),
                 outside: 0.0,
                 height: 0.0,
@@ -152,33 +156,40 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let point = far.rotate_back(rotated.add(body.offset));
     let record = &far.polyhedron.edges[edge as usize];
     let values = plane_values(&record.planes, point);
-    let inside = values.greater(L::splat(frame.tolerance));
-    if inside != 0b1111 {
-        let outside = L::splat(-frame.tolerance).greater(values);
-        if outside != 0 {
-            let (_, lane) = values.least();
-            let across = [record.tail, record.head, record.left, record.right][lane & 3];
-            let indices = ordered::<NEAR>(vertex, across);
-            return Step::Move(if lane < 2 {
-                State::vertex_vertex(indices)
-            } else {
-                State::vertex_face(NEAR, vertex, across)
-            });
-        }
+    let inside = values.greater(L::splat(MARGIN * frame.tolerance));
+    if inside != 0b1111 && L::splat(-frame.tolerance).greater(values) != 0 {
+        let (_, lane) = values.least();
+        let across = [record.tail, record.head, record.left, record.right][lane & 3];
+        let indices = ordered::<NEAR>(vertex, across);
+        return Step::Move(if lane < 2 {
+            State::vertex_vertex(indices)
+        } else {
+            State::vertex_face(NEAR, vertex, across)
+        });
     }
+    // All in world axes: no transpose stands for an inverse. The difference of the nearest points, perpendicular to the edge.
     let along = edge_direction(&record.planes);
     let tail = &far.polyhedron.vertices[record.tail as usize].position;
-    let [parameter, ..] = values.to_array();
-    let t = clamp(parameter, 0.0, record.length);
-    // The component across the edge, taken twice: the second time removes what the first one's rounding left.
-    let (along, tail) = (L::from_vector(&along), L::from_vector(tail));
-    let from_tail = point.sub(tail);
-    let across = along.negated_mul_add(L::splat(from_tail.dot(along)), from_tail);
-    let across = along.negated_mul_add(L::splat(across.dot(along)), across);
-    let direction = far.lift(across);
+    let (along_world, tail_world) = (far.rotate(&along), far.rotate(tail));
+    let from_far = rotated.add(body.offset);
+    let from_tail = from_far.sub(tail_world);
+    // One step of Newton's iteration for the reciprocal of |Rê|², which is 1 up to the defect of R.
+    let correction = 2.0 - along_world.dot(along_world);
+    let free = from_tail.dot(along_world) * correction;
+    let t = clamp(free, 0.0, record.length);
+    let difference = along_world.negated_mul_add(L::splat(t), from_tail);
+    let mut direction = difference;
+    let mut square = difference.dot(difference);
+    let distance = square.sqrt();
+    // Close to a long edge the rounding of x − tail leaves a part along the edge that a second time removes.
+    let mut leaning = t;
+    if t > 4.0 * distance {
+        leaning = difference.dot(along_world) * correction;
+        direction = along_world.negated_mul_add(L::splat(leaning), difference);
+        square = direction.dot(direction);
+    }
     let towards_far = body.rotate_back(direction).negate();
-    let square = direction.dot(direction);
-    let test = test_vertex(body.polyhedron, vertex, towards_far, square.sqrt(), frame.tolerance);
+    let test = test_vertex(body.polyhedron, vertex, towards_far, distance, frame.tolerance);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return Step::Move(if leaving == NONE {
             State::vertex_edge(NEAR, head, edge)
@@ -186,16 +197,30 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
             State::edge_edge(ordered::<NEAR>(leaving, edge))
         });
     }
-    // A point inside the last two planes by the tolerance, which pass through the edge, lies across it in the cone of the normals.
-    let is_plain = frame.rigid & (inside & 0b1100 == 0b1100);
-    let beyond = if is_plain { of_edge_in_cone(far.polyhedron, record, RIGID_MISFIT) } else { f64::INFINITY };
-    let foot = along.mul_add(L::splat(t), tail);
-    let minimum = minimum_of::<L, NEAR>(
-        [L::from_vector(position), foot],
-        [rotated, far.rotate_lanes(foot)],
-        direction,
-        [reciprocal_length(square), beyond + beyond_vertex(test), edge_rounding(far.polyhedron), 0.0],
-    );
+    let inverse = reciprocal_length(square);
+    let reach = direction.dot(difference) * inverse;
+    // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals but for a part along the edge:
+    // of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of a
+    // feature miss each other by.
+    let is_plain = frame.rigid & (inside == 0b1111);
+    let misfit = UNIT_ROUNDOFF * (29.0 + 10.5 * leaning.abs() * inverse);
+    let beyond = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
+    // R·tail is one of the products that the frame's bound is for; R·ê, the length of x − tail and the last difference come on top.
+    let error = 10.0 * UNIT_ROUNDOFF * (t + distance);
+    let foot = L::from_vector(&along).mul_add(L::splat(t), L::from_vector(tail));
+    let minimum = Minimum {
+        points: in_order::<L, NEAR>(L::from_vector(position), foot),
+        rotated: in_order::<L, NEAR>(rotated, from_far.sub(difference)),
+        difference: signed::<L, NEAR>(difference),
+        error,
+        direction: signed::<L, NEAR>(direction),
+        inverse,
+        distance,
+        reach,
+        beyond: beyond + beyond_vertex(test),
+        outside: edge_rounding(far.polyhedron),
+        height: 0.0,
+    };
     judge.certify(frame, State::vertex_edge(NEAR, vertex, edge), &minimum);
     Step::Minimum
 }
@@ -215,7 +240,7 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     // Lane 0 is the height over the face, lanes 1 to 3 the sides.
     let values = plane_values(&record.planes, point);
     // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
-    let inside = values.greater(L::splat(SIDE_MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
+    let inside = values.greater(L::splat(MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
     if (record.side_count > 3) | !inside
         && let Some(side) = most_violated_side(far.polyhedron, record, values, point, frame.tolerance)
     {
@@ -242,21 +267,32 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     } else {
         (reciprocal_length(square), f64::INFINITY)
     };
-    let outside = record.slack + face_rounding(far.polyhedron, height);
-    let minimum = minimum_of::<L, NEAR>(
-        [L::from_vector(position), foot],
-        [rotated, far.rotate_lanes(foot)],
-        direction,
-        [inverse, beyond + beyond_vertex(test), outside, height],
-    );
+    let rotated_foot = far.rotate_lanes(foot);
+    let difference = rotated.add(body.offset).sub(rotated_foot);
+    let minimum = Minimum {
+        points: in_order::<L, NEAR>(L::from_vector(position), foot),
+        rotated: in_order::<L, NEAR>(rotated, rotated_foot),
+        difference: signed::<L, NEAR>(difference),
+        error: 0.0,
+        direction: signed::<L, NEAR>(direction),
+        inverse,
+        distance: difference.dot(difference).sqrt(),
+        reach: direction.dot(difference) * inverse,
+        beyond: beyond + beyond_vertex(test),
+        outside: record.slack + face_rounding(far.polyhedron, height),
+        height,
+    };
     judge.certify(frame, State::vertex_face(NEAR, vertex, face), &minimum);
     Step::Minimum
 }
 
-/// A point of a triangle's prism deeper inside its sides than this many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, has its foot inside
-/// by [`is_inside_sides`]: that asks for 64u·ρ, and the foot's values differ from the point's by a few u of the height and of both
-/// points' magnitudes.
-const SIDE_MARGIN: f64 = 3.0;
+/// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as inside for sure.
+///
+/// Over a triangle: its foot is inside by [`is_inside_sides`], which asks for 64u·ρ; the foot's values differ from the point's by a
+/// few u of the height and of both points' magnitudes. By an edge: with x seen from the far body as p = Rᵀx and U = x − R·foot, RᵀU = p
+/// − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what they would say of RᵀU + foot by 37u·ρ for E, 8u(|p| + ρ) for
+/// planes and their values, 6u|p| for the product and 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p| for x: at most 70u·(ρ₁ + ρ₂ + |Δ|) in all.
+const MARGIN: f64 = 3.0;
 
 /// An upper bound of the length of a vector that is unit up to 1 %.
 const NEARLY_UNIT: f64 = 1.02;
@@ -306,7 +342,8 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     let (world1, world2) = (body1.rotate(&along1), body2.rotate(&along2));
     let tail1 = &body1.polyhedron.vertices[record1.tail as usize].position;
     let tail2 = &body2.polyhedron.vertices[record2.tail as usize].position;
-    let between = frame.difference(tail1, tail2);
+    let (rotated1, rotated2) = (body1.rotate(tail1), body2.rotate(tail2));
+    let between = rotated1.add(body1.offset).sub(rotated2);
     let mut normal = world1.cross(world2);
     // sin² of the angle from the cross product: 1 − cos² has no digits left below 1e-8.
     let sine_squared = normal.dot(normal);
@@ -355,10 +392,11 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
             walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
         };
     }
-    // Of g = RᵀU, |U| = sine, the part along the edge is the rounding of U and of the rotated unit directions, 12u; across it g
-    // is in the cone up to its own rounding.
+    // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it the slopes,
+    // found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a feature miss each
+    // other by.
     let inverse = reciprocal_length(sine_squared);
-    let misfit = 40.0 * UNIT_ROUNDOFF + 16.0 * UNIT_ROUNDOFF * inverse;
+    let misfit = UNIT_ROUNDOFF * (28.0 + 3.0 * inverse);
     let is_plain = L::splat(0.0).greater(across) == 0;
     let beyond = if is_plain {
         of_edge_in_cone(body1.polyhedron, record1, misfit) + of_edge_in_cone(body2.polyhedron, record2, misfit)
@@ -369,11 +407,19 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
         L::from_vector(&along1).mul_add(L::splat(s), L::from_vector(tail1)),
         L::from_vector(&along2).mul_add(L::splat(t), L::from_vector(tail2)),
     ];
+    let rotated = [world1.mul_add(L::splat(s), rotated1), world2.mul_add(L::splat(t), rotated2)];
+    let difference = world2.negated_mul_add(L::splat(t), world1.mul_add(L::splat(s), between));
+    let distance = difference.dot(difference).sqrt();
     let minimum = Minimum {
         points,
-        rotated: [body1.rotate_lanes(points[0]), body2.rotate_lanes(points[1])],
+        rotated,
+        difference,
+        // R·tail are the products that the frame's bound is for; R·ê, the length of x − y between the tails and two sums come on top.
+        error: 10.0 * UNIT_ROUNDOFF * (s + t + distance),
         direction: normal,
         inverse,
+        distance,
+        reach: normal.dot(difference) * inverse,
         beyond,
         outside: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
         height: 0.0,
@@ -439,22 +485,16 @@ fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &V
     Step::Behind(State::vertex_vertex(if NEAR == 0 { [vertex, support] } else { [support, vertex] }))
 }
 
-/// A minimum from what the state has as near and far; `direction` is from the far body to the near one; the numbers are `inverse`,
-/// `beyond`, `outside` and `height`.
+/// What belongs to body NEAR and what to the other, in the order of the bodies.
 #[inline(always)]
-fn minimum_of<L: Lanes, const NEAR: usize>(
-    [near_point, far_point]: [L; 2],
-    [near_rotated, far_rotated]: [L; 2],
-    direction: L,
-    [inverse, beyond, outside, height]: [f64; 4],
-) -> Minimum<L> {
-    if NEAR == 0 {
-        let (points, rotated) = ([near_point, far_point], [near_rotated, far_rotated]);
-        Minimum { points, rotated, direction, inverse, beyond, outside, height }
-    } else {
-        let (points, rotated) = ([far_point, near_point], [far_rotated, near_rotated]);
-        Minimum { points, rotated, direction: direction.negate(), inverse, beyond, outside, height }
-    }
+fn in_order<L: Lanes, const NEAR: usize>(near: L, far: L) -> [L; 2] {
+    if NEAR == 0 { [near, far] } else { [far, near] }
+}
+
+/// A direction from the far body to body NEAR as one from body 2 to body 1.
+#[inline(always)]
+fn signed<L: Lanes, const NEAR: usize>(direction: L) -> L {
+    if NEAR == 0 { direction } else { direction.negate() }
 }
 
 /// The index of body NEAR's feature and that of the other body's, in the order of the bodies.
