@@ -2,6 +2,7 @@
 # make test                   everything that is tested: lint, test-rust and test-c
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
+# make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
@@ -17,7 +18,7 @@ CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c bench cases clean
+.PHONY: build demo test lint test-rust test-c bench cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -61,6 +62,13 @@ cases:
 	$(MAKE) build
 	@scripts/require.sh python3=python3
 	python3 scripts/cases.py $(BUILD)/tools/swiftprox-query $(CASES) $(if $(ANSWERS),--answers $(ANSWERS))
+
+# SEED and COUNT, the sequences a family, make others.
+hard:
+	@scripts/require.sh $(CC_PACKAGES)
+	rm -rf $(BUILD)/hard
+	cargo run --locked --release --example hard_cases -- $(BUILD)/hard $(if $(SEED),--seed $(SEED)) $(if $(COUNT),--count $(COUNT))
+	$(MAKE) cases CASES=$(BUILD)/hard
 
 clean:
 	cargo clean
