@@ -152,6 +152,30 @@ fn hulls_with_slivers_are_accepted() {
     accepted(&hull_mesh(&corners), 1e-9);
 }
 
+/// The area of a needle's side against its length is too small for a square in double precision.
+#[test]
+fn the_longest_needles_are_accepted() {
+    for length in [1e150, 1e200, 1e280, 1e300] {
+        let mut points: Vec<Vector> =
+            cube_vertices().iter().map(|v| v.component_mul(&Vector::new(13.0, 3.25, length))).collect();
+        // In the middle of an edge, so that there are more than the six planes.
+        points.push(0.5 * (points[0] + points[1]) + Vector::new(0.0, -1.0, 0.0));
+        accepted(&hull_mesh(&points), 1e-9 * length);
+    }
+}
+
+/// Sides a billion times as long as wide, askew: their normals want more digits than doubles have.
+#[test]
+fn long_narrow_sides_askew_are_accepted() {
+    for apex in [1e7, 1e9, 1e11, 1e13] {
+        let mut points: Vec<Vector> = spiral(12).iter().map(|v| turned(v) * 30.0).collect();
+        points.push(Vector::new(apex, 1.1 * apex, 0.9 * apex));
+        let hull = convex_hull(&points).unwrap();
+        let corners: Vec<Vector> = hull.vertices.iter().map(|v| points[*v as usize]).collect();
+        accepted(&hull_mesh(&corners), 1e-9 * apex);
+    }
+}
+
 #[test]
 fn a_tolerance_must_be_a_number() {
     for tolerance in [f64::NAN, -1e-9] {

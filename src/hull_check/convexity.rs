@@ -8,6 +8,7 @@ use crate::error::{Error, Result};
 use crate::hull_build::Hull;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::mesh::PolygonMesh;
+use crate::normal::{area_vector, normal_of, unit};
 use crate::predicates::ExactPoints;
 
 /// In units of the largest coordinate: bounds the rounding of a distance from a plane as computed
@@ -129,9 +130,11 @@ impl<'a> Polygon<'a> {
     /// All vertices of the mesh at most `allowed` outside of the face's plane, its own on either
     /// side.
     fn check_plane(&self, position: &[Vector], search: &mut Search, allowed: f64) -> std::result::Result<(), Outside> {
-        let Some(normal) = self.area.try_normalize(0.0) else {
+        // The area of a needle's side may be too small for its square.
+        let normal = unit(&self.area);
+        if normal == Vector::zeros() {
             return Err(Outside { vertex: self.corners[0], distance: f64::INFINITY });
-        };
+        }
         let distance = |v: u32| normal.dot(&(position[v as usize] - self.centre));
         search.begin_at(self.corners);
         let own = self.corners.iter().map(|&v| Outside { vertex: v, distance: distance(v).abs() });
@@ -154,7 +157,7 @@ impl<'a> Polygon<'a> {
         }
         search.walk_to(&self.centre);
         search.boundary.around(search.triangle).into_iter().any(|t| {
-            let normal = search.boundary.normals[t];
+            let normal = search.boundary.normal(t);
             if normal == Vector::zeros() {
                 return false;
             }
@@ -172,25 +175,30 @@ struct Extent {
     volume: f64,
     /// The sum over all faces.
     perimeter: f64,
+    /// The sum over all faces of the square of the perimeter times the number of corners.
+    squares: f64,
     faces: usize,
 }
 
 impl Extent {
     fn of<'a>(polygons: impl Iterator<Item = &'a Polygon<'a>>) -> Extent {
-        let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, faces: 0 };
+        let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, squares: 0.0, faces: 0 };
         for p in polygons {
             sum.area += p.area.norm();
             sum.volume += p.centre.dot(&p.area) / 3.0;
             sum.perimeter += p.perimeter;
+            sum.squares += p.corners.len() as f64 * p.perimeter * p.perimeter;
             sum.faces += 1;
         }
         sum
     }
 
     /// Each face's term is at most its area times the size (below 4 in scaled units) over 3, the
-    /// sum's rounding at most that of all times their number.
+    /// sum's rounding at most that of all times their number. The cross products that make the area
+    /// of a long narrow face are off by 4u of the lengths' product, each below a quarter of the
+    /// perimeter's square, not of the area.
     fn volume_rounding(&self) -> f64 {
-        (self.faces as f64 + 16.0) * 2.0 * UNIT_ROUNDOFF * self.area
+        2.0 * UNIT_ROUNDOFF * ((self.faces as f64 + 16.0) * self.area + self.squares)
     }
 }
 
@@ -237,8 +245,6 @@ fn check_single_cover(
 struct Boundary<'a> {
     hull: &'a Hull,
     position: &'a [Vector],
-    /// Unit normals of the triangles; zero where that cannot be computed.
-    normals: Vec<Vector>,
     /// The triangle across each of its edges, three each; empty for a flat hull.
     across: Vec<u32>,
     /// The neighbours of vertex v (an input index) are `neighbours[starts[v]..starts[v + 1]]`.
@@ -252,10 +258,6 @@ struct Boundary<'a> {
 
 impl<'a> Boundary<'a> {
     fn new(hull: &'a Hull, position: &'a [Vector]) -> Boundary<'a> {
-        let normal = |t: &[u32; 3]| {
-            let [a, b, c] = t.map(|v| position[v as usize]);
-            (b - a).cross(&(c - a)).try_normalize(0.0).unwrap_or_default()
-        };
         let edges: Vec<(u32, u32)> = hull.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
         // In a hull of dimension 3 each directed edge occurs once; in a flat one twice, which does
         // no harm.
@@ -279,8 +281,7 @@ impl<'a> Boundary<'a> {
             Vec::new()
         };
         let centre = hull.vertices.iter().map(|v| position[*v as usize]).sum::<Vector>() / hull.vertices.len() as f64;
-        let normals = hull.triangles.iter().map(normal).collect();
-        Boundary { hull, position, normals, across, neighbours, beside, starts, centre }
+        Boundary { hull, position, across, neighbours, beside, starts, centre }
     }
 
     /// Edges (lower vertex first) between triangles of clearly different planes, once each.
@@ -297,10 +298,17 @@ impl<'a> Boundary<'a> {
                     && (side == 1 || (side == 0 && t == rim_spokes[0]) || (side == 2 && t == rim_spokes[1]))
             } else {
                 let other = self.across[corner] as usize;
-                t < other && self.normals[t].dot(&self.normals[other]) < 0.999
+                t < other && self.normal(t).dot(&self.normal(other)) < 0.999
             };
             sharp.then(|| (tail.min(head), tail.max(head)))
         })
+    }
+
+    /// The unit normal of a triangle; zero if its corners are collinear up to rounding. In plain doubles that of a triangle a
+    /// billion times as long as wide would be off by more than a tolerance of 1e-9.
+    fn normal(&self, t: usize) -> Vector {
+        let [a, b, c] = self.hull.triangles[t].map(|v| self.position[v as usize]);
+        normal_of(&area_vector(&a, &b, &c), &a, &b, &c)
     }
 
     /// How many neighbours a vertex of the mesh has on the hull; 0 when it is no hull vertex.
