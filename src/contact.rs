@@ -68,11 +68,20 @@ pub fn fill_placed(
     let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
     answer.local1 = local[0].into();
     answer.local2 = local[1].into();
-    answer.world1 = poses[0].transform(&local[0]).into();
-    answer.world2 = poses[1].transform(&local[1]).into();
+    answer.world1 = placed(poses[0], &local[0]).into();
+    answer.world2 = placed(poses[1], &local[1]).into();
     answer.normal = normalised(direction);
     answer.feature1 = label(polyhedra[0], features[0], &points[0]);
     answer.feature2 = label(polyhedra[1], features[1], &points[1]);
+}
+
+/// A local point in the world, infinite only where the world is larger than the doubles: not where terms that cancel are.
+fn placed(pose: &Pose, local: &Vector) -> Vector {
+    let world = pose.transform(local);
+    if world.iter().all(|x| x.is_finite()) {
+        return world;
+    }
+    (pose.rotate(&(0.125 * local)) + 0.125 * pose.translation()) * 8.0
 }
 
 /// The vertex pairs that prove an intersection, in the caller's numbering.

@@ -5,7 +5,7 @@ use crate::enclosure::{self, Enclosure};
 use crate::exact::{self, VertexPair};
 use crate::frame::Frame;
 use crate::gjk::{self, Supports};
-use crate::math::{Pose, ROTATION_LIMIT, Vector};
+use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::polyhedron::Polyhedron;
 use crate::simd::{self, Kernel, Lanes};
 
@@ -158,8 +158,16 @@ impl Kernel for Propose<'_> {
 /// Convex combinations of the pairs' vertices, in centred local coordinates.
 pub fn combinations(polyhedra: [&Polyhedron; 2], pairs: &[VertexPair], weights: &[f64; 4]) -> [Vector; 2] {
     std::array::from_fn(|i| {
-        let position = |k: usize| polyhedra[i].vertices[pairs[k][i] as usize].position;
-        let first = position(0);
-        (1..pairs.len()).fold(first, |sum, k| sum + (position(k) - first) * weights[k])
+        let combination = |unit: f64| {
+            let position = |k: usize| polyhedra[i].vertices[pairs[k][i] as usize].position * unit;
+            let first = position(0);
+            (1..pairs.len()).fold(first, |sum, k| sum + (position(k) - first) * weights[k])
+        };
+        let sum = combination(1.0);
+        if sum.iter().all(|x| x.is_finite()) {
+            return sum;
+        }
+        // Between the largest doubles differences overflow, but no point is beyond its ends.
+        combination(0.125).map(|x| clamp(8.0 * x, -f64::MAX, f64::MAX))
     })
 }

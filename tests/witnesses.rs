@@ -26,6 +26,26 @@ fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer
     answer
 }
 
+/// Differences of vertices, and terms of a pose that cancel, are beyond the doubles; the witness points are not.
+#[test]
+fn witness_points_of_the_largest_bodies_are_finite() {
+    let corner = |k: usize| [7e182, f64::MAX, 2.875].map(|half| half * if k & 1 == 0 { -1.0 } else { 1.0 });
+    let corners: Vec<[f64; 3]> = (0..8)
+        .map(|k| {
+            let [x, y, z] = [corner(k), corner(k >> 1), corner(k >> 2)];
+            [x[0], y[1], z[2]]
+        })
+        .collect();
+    let small = hull(&[[0.0, 0.0, -1.0], [-1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]]);
+    let turn = |y: f64| Pose { rows: [[0.0, -1.0, 0.0, 1.0], [0.0, 0.0, 1.0, y], [-1.0, 0.0, 0.0, f64::MAX]] };
+    let mut beside = turn(f64::MAX);
+    beside.rows[0][3] = f64::MAX;
+    let answer = ask(&hull(&corners), &beside, &small, &turn(1.797_693_134_862_310_3e308));
+    assert_eq!(answer.outcome, Outcome::Separated);
+    let points = [answer.local1, answer.local2, answer.world1, answer.world2];
+    assert!(points.as_flattened().iter().all(|x| x.is_finite()), "{answer:?}");
+}
+
 /// Two triangles make each side of this cube: either is found as such, by marching and by the fallback.
 #[test]
 fn the_face_is_the_callers_triangle_that_holds_the_point() {
