@@ -78,7 +78,7 @@ pub struct Edge {
     pub slacks: [f64; 2],
     /// Length of the edge.
     pub length: f64,
-    /// The largest of `slacks` and that of the bevel.
+    /// The largest of `slacks` and that of the bevel; +∞, which asks for a closer look, where rounding hides the dihedral angle.
     pub slack: f64,
     /// 1 / (−n_left·side_right), the reciprocal sine of the exterior dihedral angle; +∞ where that is not positive.
     pub reciprocal_sine: f64,

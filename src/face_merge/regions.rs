@@ -119,7 +119,8 @@ impl Regions<'_> {
                     let mut candidate = reference;
                     candidate[k] = apex;
                     let candidate_size = area(candidate);
-                    if candidate_size >= 2.0 * size {
+                    // Where squares underflow all sizes are 0.
+                    if candidate_size > 0.0 && candidate_size >= 2.0 * size {
                         let [a, b, c] = candidate.map(position);
                         let candidate_normal = normal_of(&area_vector(a, b, c), a, b, c);
                         normal = if candidate_normal.dot(&normal) < 0.0 { -candidate_normal } else { candidate_normal };

@@ -32,6 +32,9 @@ fn side_plane(positions: &[Vector], normal: &Vector, from: u32, to: u32) -> (Vec
     (inward, -inward.dot(tail))
 }
 
+/// The sine of a dihedral angle that is surely one: the planes' normals and products with them are each right to some 8u.
+const SMALLEST_SINE: f64 = 64.0 * UNIT_ROUNDOFF;
+
 /// An edge from its ends, the lower one first, and the faces beside it.
 fn edge_between(
     [tail, head]: [u32; 2],
@@ -53,12 +56,16 @@ fn edge_between(
     set_plane(&mut planes, 2, &-side_left, -offset_left);
     set_plane(&mut planes, 3, &-side_right, -offset_right);
     let sine = -normals[0].dot(&side_right);
+    // Where rounding hides the dihedral angle, as between coplanar triangles that were not merged, the two side planes bound no
+    // wedge but a whole plane, of which half is inside the body. A quick look takes it for the normal cone, so it must not do.
+    let is_flat = sine <= SMALLEST_SINE && normals[0].dot(&normals[1]) > 0.0;
+    let slack = if is_flat { f64::INFINITY } else { slacks[left as usize].max(slacks[right as usize]) };
     Edge {
         planes,
         normals,
         slacks: [slacks[left as usize], slacks[right as usize]],
         length,
-        slack: slacks[left as usize].max(slacks[right as usize]),
+        slack,
         reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
         tail,
         head,
