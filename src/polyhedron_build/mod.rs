@@ -41,7 +41,9 @@ pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&Polygo
 
     let factor = factor_to_middle_scale(&centred);
     let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
-    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(centre * factor)?;
+    // At another scale the centre may be beyond the doubles.
+    let about = if factor == 1.0 { centre } else { Vector::zeros() };
+    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about)?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
             label_by_polygons(&mut polyhedron, &scaled, mesh);

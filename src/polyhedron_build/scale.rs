@@ -17,7 +17,7 @@ pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
     2.0_f64.powi(-(size.log2() as i32).clamp(-1000, 1000))
 }
 
-/// Undoes the scaling of a polyhedron. Vertices come back exactly and bounds remain bounds; what else is lost to underflow or
+/// Undoes the scaling of a polyhedron that was laid out about the local origin. Vertices come back exactly and bounds remain bounds; what else is lost to underflow or
 /// overflow is data for a search that bodies of such a size are too large or too small for anyway.
 pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vector, factor: f64) {
     for (vertex, label) in polyhedron.vertices.iter_mut().zip(&polyhedron.vertex_labels) {
@@ -45,7 +45,7 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
     polyhedron.centre = centre;
     polyhedron.mass = MassProperties {
         volume: mass.volume * factor * factor * factor,
-        centre_of_mass: mass.centre_of_mass * factor,
+        centre_of_mass: mass.centre_of_mass * factor + centre,
         radius: mass.radius * factor,
         lower,
         upper,

@@ -203,6 +203,12 @@ fn any_scale() {
         let p = build(&points.into_iter().map(Vector::from).collect::<Vec<_>>(), None).unwrap();
         assert_eq!((p.dimension, counts(&p)), (3, (4, 6, 4)));
     }
+    // So small and so far that the scale at which the body is laid out takes its centre beyond the doubles.
+    for far in [1e300, f64::MAX] {
+        let ends = [[far, -1e-200, 7.0], [far, 3e-200, 7.0]].map(Vector::from);
+        let mass = build(&ends, None).unwrap().mass;
+        assert_eq!(mass.centre_of_mass, Vector::new(far, 1e-200, 7.0));
+    }
 }
 
 #[test]
