@@ -95,7 +95,7 @@ static void query_from(const struct peer *peer, const struct scene *scene, struc
     while (progress->next < scene->pose_count) {
         const double *pose = scene->poses[progress->next];
         alarm(PEER_SECONDS);
-        peer->query(&scene->bodies[0], pose, &scene->bodies[1], pose + 12, &progress->answers[progress->next]);
+        peer->query(peer, &scene->bodies[0], pose, &scene->bodies[1], pose + 12, &progress->answers[progress->next]);
         ++progress->next;
     }
 }
@@ -109,7 +109,7 @@ static struct progress *query_all(const struct peer *peer, struct scene *scene)
         exit(2);
     }
     for (int k = 0; k < 2; ++k)
-        scene->bodies[k].of_peer = peer->create ? peer->create(&scene->bodies[k]) : NULL;
+        scene->bodies[k].of_peer = peer->create(&scene->bodies[k]);
     while (progress->next < scene->pose_count) {
         fflush(NULL);
         pid_t child = fork();

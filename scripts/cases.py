@@ -88,7 +88,8 @@ def read_numbers(path):
 
 
 def read_off_vertices(path):
-    words = " ".join(line.split("#")[0] for line in open(path)).split()
+    with open(path) as lines:
+        words = " ".join(line.split("#")[0] for line in lines).split()
     if words[0] != "OFF":
         sys.exit("%s: not an OFF file" % path)
     count = int(words[1])

@@ -1,7 +1,6 @@
-// Distances, nearest points and verdicts against FCL 0.7, with both of its solvers.
+// Verdicts, distances and nearest points of FCL 0.7, with both of its solvers.
 
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <vector>
@@ -10,7 +9,7 @@
 #include <fcl/narrowphase/collision.h>
 #include <fcl/narrowphase/distance.h>
 
-#include "comparison.h"
+#include "peers.h"
 
 namespace {
 
@@ -26,7 +25,8 @@ void *create(const body *body)
     std::vector<double> coordinates(3 * info.vertex_count);
     std::vector<uint32_t> corners(3 * info.triangle_count);
     if (swift_shape_copy_vertices(body->shape, coordinates.data(), nullptr, info.vertex_count) != SWIFT_OK ||
-        swift_shape_copy_triangles(body->shape, corners.data(), info.triangle_count) != SWIFT_OK)
+        (info.triangle_count > 0 &&
+         swift_shape_copy_triangles(body->shape, corners.data(), info.triangle_count) != SWIFT_OK))
         return nullptr;
     auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
     for (std::size_t i = 0; i < info.vertex_count; ++i)
@@ -56,7 +56,8 @@ fcl::Transform3d transform(const double pose[12])
     return result;
 }
 
-void query(fcl::GJKSolverType solver, const body *body1, const double *pose1, const body *body2, const double *pose2,
+template <fcl::GJKSolverType solver>
+void query(const peer *peer, const body *body1, const double *pose1, const body *body2, const double *pose2,
            peer_answer *answer)
 {
     const double unsaid = std::numeric_limits<double>::quiet_NaN();
@@ -68,6 +69,7 @@ void query(fcl::GJKSolverType solver, const body *body1, const double *pose1, co
 
         fcl::CollisionRequestd collision_request;
         collision_request.gjk_solver_type = solver;
+        collision_request.gjk_tolerance = peer->tolerance;
         fcl::CollisionResultd collision;
         fcl::collide(first, at1, second, at2, collision_request, collision);
         if (collision.isCollision()) {
@@ -78,6 +80,7 @@ void query(fcl::GJKSolverType solver, const body *body1, const double *pose1, co
         fcl::DistanceRequestd distance_request;
         distance_request.enable_nearest_points = true;
         distance_request.gjk_solver_type = solver;
+        distance_request.distance_tolerance = peer->tolerance;
         fcl::DistanceResultd distance;
         fcl::distance(first, at1, second, at2, distance_request, distance);
         answer->outcome = PEER_SEPARATED;
@@ -90,27 +93,10 @@ void query(fcl::GJKSolverType solver, const body *body1, const double *pose1, co
     }
 }
 
-void query_libccd(const body *body1, const double *pose1, const body *body2, const double *pose2, peer_answer *answer)
-{
-    query(fcl::GST_LIBCCD, body1, pose1, body2, pose2, answer);
-}
-
-void query_indep(const body *body1, const double *pose1, const body *body2, const double *pose2, peer_answer *answer)
-{
-    query(fcl::GST_INDEP, body1, pose1, body2, pose2, answer);
-}
-
 } // namespace
 
-int main(int argc, char **argv)
-{
-    const peer peers[] = {
-        {"FCL, GST_LIBCCD", create, destroy, query_libccd},
-        {"FCL, GST_INDEP", create, destroy, query_indep},
-    };
-    if (argc != 2) {
-        std::fprintf(stderr, "usage: %s EXACT_ORACLE\n", argv[0]);
-        return 2;
-    }
-    return compare("against_fcl", argv[1], peers, sizeof peers / sizeof *peers);
-}
+const peer all_peers[] = {
+    {"FCL, GST_LIBCCD", "fcl-libccd", 1e-6, 1, create, destroy, query<fcl::GST_LIBCCD>},
+    {"FCL, GST_INDEP", "fcl-indep", 1e-6, 1, create, destroy, query<fcl::GST_INDEP>},
+};
+const std::size_t all_peer_count = sizeof all_peers / sizeof *all_peers;
