@@ -1,6 +1,7 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
 # make test                   everything that is tested: lint, test-rust and test-c
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
+# make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make build                  the libraries, tools and examples, in build/
@@ -16,9 +17,11 @@ TESTING = OFF
 # gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
 CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
+COAL = $(BUILD)/coal/bin/python
+STABILITY = benches/results/stability
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c bench cases hard clean
+.PHONY: build demo test lint test-rust test-c bench stability cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -56,6 +59,20 @@ bench:
 	mkdir -p $(dir $(RESULTS))
 	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --csv $(RESULTS)
 	python3 benches/plot.py $(RESULTS)
+
+# Peers that are not installed are left out; coal comes from PyPI into an environment of its own in build/.
+stability:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	-@scripts/require.sh $(PEERS)
+	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
+	cmake --build $(BUILD) --target stability_runners
+	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	rm -rf $(BUILD)/hard
+	cargo run --locked --release --example hard_cases -- $(BUILD)/hard
+	-@test -x $(COAL) || { python3 -m venv $(BUILD)/coal && $(BUILD)/coal/bin/pip install -q coal==3.0.3; } || rm -rf $(BUILD)/coal
+	python3 benches/stability/stability.py $(BUILD)/hard --build $(BUILD) --coal $(COAL) \
+		--compare $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare --csv $(STABILITY).csv --cost $(STABILITY)-cost.csv
+	python3 benches/stability/chart.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 
 cases:
 	$(if $(CASES),,$(error make cases CASES=DIR: the folder of cases is missing))

@@ -252,4 +252,5 @@ def main():
         draw_accuracy(os.path.join(directory, f"accuracy-{n}.svg"), head, n, here)
 
 
-main()
+if __name__ == "__main__":
+    main()

@@ -5,6 +5,7 @@ use std::process::Command;
 fn main() {
     println!("cargo:rerun-if-changed=src/fcl.cpp");
     println!("cargo:rustc-env=COMPILER={}", compiler());
+    println!("cargo:rustc-env=PARRY={}", parry());
     println!("cargo:rustc-check-cfg=cfg(fcl)");
     let Some(flags) = pkg_config("--cflags") else {
         println!("cargo:warning=pkg-config finds no fcl (Debian: libfcl-dev): compared without it");
@@ -21,6 +22,14 @@ fn main() {
         println!("cargo:rustc-link-arg={flag}");
     }
     println!("cargo:rustc-cfg=fcl");
+}
+
+/// The version of parry that Cargo.toml pins.
+fn parry() -> String {
+    println!("cargo:rerun-if-changed=Cargo.toml");
+    let manifest = std::fs::read_to_string("Cargo.toml").expect("the manifest of this package");
+    let version = manifest.lines().find_map(|line| line.strip_prefix("parry3d-f64 = \"="));
+    version.expect("parry3d-f64 pinned to a version").trim_end_matches('"').to_string()
 }
 
 /// For the head of result files: `rustc --version` and the code generation flags in force.

@@ -1,12 +1,14 @@
 //! Exact distance with witness points: every method on every scene.
 
+use std::rc::Rc;
+
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::Bounds;
 
 use crate::method::{Method, Reply};
 use crate::options::Options;
 use crate::ours::Ours;
-use crate::parry::{Parry, Turning};
+use crate::parry::{Parry, Rings, Turning};
 use crate::report::{self, Row};
 use crate::timing::{median, time_methods};
 use crate::{model, motion};
@@ -54,8 +56,9 @@ fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>
     for bounds in [Bounds::Tight, Bounds::Verdict] {
         all.push(Box::new(Ours::new(mesh, bounds).map_err(|e| e.to_string())?));
     }
+    let rings = Rc::new(Rings::new(mesh));
     for turning in [Turning::Quaternion, Turning::Matrix] {
-        all.push(Box::new(Parry::new(mesh, turning)));
+        all.push(Box::new(Parry::new([rings.clone(), rings.clone()], turning)));
     }
     #[cfg(fcl)]
     for tolerance in [1e-6, 1e-10] {

@@ -1,5 +1,6 @@
 //! `compare --help`.
 
+mod answers;
 mod build_time;
 mod distance;
 #[cfg(fcl)]
@@ -28,6 +29,9 @@ fn main() -> ExitCode {
         if options.help {
             print!("{}", options::HELP);
             return Ok(());
+        }
+        if let Some(arguments) = &options.answers {
+            return answers::run(arguments);
         }
         if options.build { build_time::run(&options) } else { distance::run(&options) }
     };

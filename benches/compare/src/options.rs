@@ -19,6 +19,9 @@ usage: compare [options]
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
   --build           time the building of shapes instead
+  --answers METHOD A B POSES
+                    print METHOD's answers for two meshes and a file of poses instead, in the form that
+                    benches/stability reads; METHOD is parry, parry-hull or parry-hc
   --csv FILE        write the results there, too
 lists are separated by commas
 ";
@@ -34,6 +37,7 @@ pub struct Options {
     pub passes: usize,
     pub workload: Option<PathBuf>,
     pub build: bool,
+    pub answers: Option<[String; 4]>,
     pub csv: Option<PathBuf>,
     pub help: bool,
 }
@@ -51,6 +55,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         passes: 9,
         workload: None,
         build: false,
+        answers: None,
         csv: None,
         help: false,
     };
@@ -68,6 +73,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--passes" => options.passes = number(&value()?)?.max(1),
             "--workload" => options.workload = Some(value()?.into()),
             "--build" => options.build = true,
+            "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,
             _ => return Err(format!("{name}: no such option (see --help)")),

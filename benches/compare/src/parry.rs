@@ -3,6 +3,7 @@
 //! in. Poses are stored as parry's own (quaternion and translation), the relative pose is formed within the timing.
 
 use std::cell::Cell;
+use std::rc::Rc;
 
 use parry3d_f64::math::{Matrix3, Pose, Rotation, Vector};
 use parry3d_f64::query::details::closest_points_support_map_support_map_with_params as distance;
@@ -13,8 +14,18 @@ use crate::method::{Method, Reply};
 use crate::scenes::PosePair;
 use swiftprox::mesh::PolygonMesh;
 
+/// Parry's own form of two poses. A quaternion cannot hold a matrix that is not quite orthonormal.
+pub fn pose_pair(poses: &PosePair) -> (Pose, Pose) {
+    let pose = |m: &[f64]| {
+        let column = |j: usize| Vector::new(m[j], m[4 + j], m[8 + j]);
+        let rotation = Matrix3::from_cols(column(0), column(1), column(2));
+        Pose::from_parts(column(3), Rotation::from_mat3(&rotation).normalize())
+    };
+    (pose(&poses[..12]), pose(&poses[12..]))
+}
+
 /// A hull as rings of neighbours.
-struct Rings {
+pub struct Rings {
     vertices: Vec<Vector>,
     /// Vertex v's ring is `ring[starts[v]..starts[v + 1]]`.
     starts: Vec<u32>,
@@ -22,7 +33,9 @@ struct Rings {
 }
 
 impl Rings {
-    fn new(mesh: &PolygonMesh) -> Rings {
+    /// Every vertex must be extreme: a climb ends at a vertex as high as all its neighbours, which one inside a face can be
+    /// without being the highest.
+    pub fn new(mesh: &PolygonMesh) -> Rings {
         let vertices: Vec<Vector> = mesh.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
         let mut neighbours = vec![Vec::new(); vertices.len()];
         for f in 0..mesh.face_count() {
@@ -30,6 +43,9 @@ impl Rings {
             for (k, &from) in face.iter().enumerate() {
                 neighbours[from as usize].push(face[(k + 1) % face.len()]);
             }
+        }
+        if mesh.face_count() == 0 && vertices.len() == 2 {
+            neighbours = vec![vec![1], vec![0]];
         }
         let (mut starts, mut ring) = (vec![0], Vec::new());
         for list in neighbours {
@@ -104,7 +120,7 @@ pub enum Turning {
 
 pub struct Parry {
     turning: Turning,
-    rings: Rings,
+    rings: [Rc<Rings>; 2],
     poses: Vec<(Pose, Pose)>,
     last: [Cell<u32>; 2],
     direction: Option<Vector>,
@@ -113,10 +129,10 @@ pub struct Parry {
 }
 
 impl Parry {
-    pub fn new(mesh: &PolygonMesh, turning: Turning) -> Parry {
+    pub fn new(rings: [Rc<Rings>; 2], turning: Turning) -> Parry {
         Parry {
             turning,
-            rings: Rings::new(mesh),
+            rings,
             poses: Vec::new(),
             last: [Cell::new(0), Cell::new(0)],
             direction: None,
@@ -135,12 +151,7 @@ impl Method for Parry {
     }
 
     fn load(&mut self, poses: &[PosePair]) {
-        let pose = |m: &[f64]| {
-            let column = |j: usize| Vector::new(m[j], m[4 + j], m[8 + j]);
-            let rotation = Matrix3::from_cols(column(0), column(1), column(2));
-            Pose::from_parts(column(3), Rotation::from_mat3(&rotation))
-        };
-        self.poses = poses.iter().map(|p| (pose(&p[..12]), pose(&p[12..]))).collect();
+        self.poses = poses.iter().map(pose_pair).collect();
     }
 
     fn forget(&mut self) {
@@ -152,7 +163,7 @@ impl Method for Parry {
     fn ask(&mut self, i: usize) {
         let (pose1, pose2) = &self.poses[i];
         let pose12 = pose1.inv_mul(pose2);
-        let [climber1, climber2] = self.last.each_ref().map(|last| Climber { rings: &self.rings, last });
+        let [climber1, climber2] = [0, 1].map(|k| Climber { rings: &self.rings[k], last: &self.last[k] });
         let (simplex, direction) = (&mut self.simplex, self.direction);
         self.answer = match self.turning {
             Turning::Quaternion => distance(&pose12, &climber1, &climber2, f64::MAX, simplex, direction),
