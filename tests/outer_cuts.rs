@@ -26,7 +26,7 @@ fn levels(base: &Polyhedron, plane_counts: &[usize]) -> Vec<Polyhedron> {
 /// The largest distance of a vertex from the body, rounded up.
 fn deviation(level: &Polyhedron, base: &Polyhedron) -> f64 {
     let distance = PointDistance::new(base).unwrap();
-    level.vertices.iter().filter_map(|v| distance.nearest(&v.position, 0)).map(|n| n.upper).fold(0.0, f64::max)
+    level.vertices.iter().map(|v| distance.nearest(&v.position, 0).upper).fold(0.0, f64::max)
 }
 
 /// Every triangle of the level against every vertex of the body, exactly.

@@ -41,8 +41,8 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
     let hints = hints_for_children(&parents, above);
     let mut children = Links::new(above);
     for (v, vertex) in above.vertices.iter().enumerate() {
-        // The nearest point is said by three vertices of a feature at most; a face may have others that are nearer.
-        let start = below.nearest(&vertex.position, hints[v]).map_or(hints[v], |nearest| nearest.vertex);
+        // The nearest point lies in a triangle; the face that the triangle is a part of may have vertices that are nearer.
+        let start = below.nearest(&vertex.position, hints[v]).vertex;
         children.vertices[v] = FeatureId::Vertex(nearest_vertex_by_walking(polyhedron, &vertex.position, start));
     }
     for (edge, child) in above.edges.iter().zip(&mut children.edges) {

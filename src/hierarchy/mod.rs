@@ -3,9 +3,6 @@
 //!
 //! The makers (quadric error simplification, Dobkin-Kirkpatrick, cutting planes) propose points; what all have in common is here. A
 //! level is the *exact* hull of its points, laid out like P₀, so all that runs on a body runs on its levels.
-//!
-//! This module stands above the pair machinery, which its deviations need: the distance of a level's vertex from P₀ is an ordinary
-//! certified query with a one-vertex body, and a second, lower way to a certified distance would be one more to trust.
 
 mod bounding;
 mod correspondence;
@@ -361,13 +358,9 @@ impl<'a> Builder<'a> {
                 _ => 0,
             };
             // The distance from a convex body is a convex function: over a polyhedron it is largest at a vertex.
-            match self.distance.nearest(&vertex.position, hint) {
-                Some(nearest) => {
-                    deviation = deviation.max(nearest.upper);
-                    near.push(nearest.vertex);
-                }
-                None => near.push(hint),
-            }
+            let nearest = self.distance.nearest(&vertex.position, hint);
+            deviation = deviation.max(nearest.upper);
+            near.push(nearest.vertex);
         }
         self.near = near;
         self.hierarchy.levels.push(Level { polyhedron, deviation, children, parents });

@@ -12,7 +12,7 @@ use crate::error::Result;
 use crate::hull_build::convex_hull;
 use crate::math::{Matrix, UNIT_ROUNDOFF, Vector};
 use crate::normal::area_vector;
-use crate::point_distance::PointDistance;
+use crate::point_distance::{NearestPoint, PointDistance};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::build;
 use crate::progress::Progress;
@@ -176,13 +176,10 @@ impl<'a> Cuts<'a> {
 
     fn add_corner(&mut self, planes: [u32; 3], neighbours: [u32; 3], hint: u32) -> u32 {
         let position = self.place(planes);
-        let mut corner = Corner { planes, neighbours, position, nearest: position, vertex: hint, removed: false };
         let index = self.corners.len() as u32;
-        if let Some(found) = self.block.distance.nearest(&position, hint) {
-            (corner.nearest, corner.vertex) = (found.point, found.vertex);
-            self.queue.push(Waiting { deviation: found.upper.to_bits(), corner: Reverse(index) });
-        }
-        self.corners.push(corner);
+        let NearestPoint { point: nearest, upper, vertex } = self.block.distance.nearest(&position, hint);
+        self.queue.push(Waiting { deviation: upper.to_bits(), corner: Reverse(index) });
+        self.corners.push(Corner { planes, neighbours, position, nearest, vertex, removed: false });
         self.corner_count += 1;
         index
     }

@@ -11,6 +11,9 @@ pub fn spread_of(body: &Polyhedron, centre: &Vector) -> Option<Matrix> {
     // found in the new coordinates.
     for round in 0..4 {
         let covariance = covariance(body, centre, &spread.try_inverse()?)?;
+        if (covariance - Matrix::identity()).amax() < 1e-3 {
+            break;
+        }
         let eigen = covariance.symmetric_eigen();
         let least = UNIT_ROUNDOFF * UNIT_ROUNDOFF * eigen.eigenvalues.amax();
         let roots = Matrix::from_diagonal(&eigen.eigenvalues.map(|value| value.max(least).sqrt()));
