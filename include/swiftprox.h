@@ -636,6 +636,28 @@ swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
                                             struct swift_shape **shape);
 
 /**
+ * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's encoding
+ * (UTF-8 on Windows). The file is the same on every machine; versions of this library that do not know its version refuse it.
+ *
+ * SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
+ * argument.
+ */
+swift_status swift_shape_save(const struct swift_shape *shape,
+                              const char *path);
+
+/**
+ * Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers rely on is
+ * not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged file is refused.
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ *
+ * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged. SWIFT_ERROR_NULL_POINTER,
+ * SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+ */
+swift_status swift_shape_load(const char *path,
+                              struct swift_shape **shape);
+
+/**
  * Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.
  *
  * Always SWIFT_OK.

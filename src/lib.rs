@@ -39,6 +39,7 @@ pub mod containment;
 pub mod outer_cuts;
 pub mod hierarchy;
 pub mod shape;
+pub mod shape_file;
 pub mod contact_direction;
 pub mod answer;
 pub mod contact;

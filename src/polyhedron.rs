@@ -194,6 +194,15 @@ pub struct Polyhedron {
 }
 
 impl Polyhedron {
+    /// Moves the frame; the centred coordinates stay. The sums of centre and coordinates need not be doubles any more.
+    pub fn move_frame(&mut self, by: &Vector) {
+        self.centre += by;
+        self.ordinary &= self.centre == Vector::zeros();
+        self.mass.centre_of_mass += by;
+        self.mass.lower += by;
+        self.mass.upper += by;
+    }
+
     /// A vertex in the object's frame, as the caller gave it (after the input transform).
     pub fn local_position(&self, vertex: u32) -> Vector {
         self.centre + self.vertices[vertex as usize].position

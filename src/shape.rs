@@ -145,6 +145,11 @@ impl Shape {
         Ok(Shape { polyhedron, hierarchy })
     }
 
+    /// From parts that belong together.
+    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Shape {
+        Shape { polyhedron, hierarchy }
+    }
+
     /// The same body with levels of detail built anew, those that it has dropped.
     ///
     /// # Errors

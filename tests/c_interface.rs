@@ -270,6 +270,19 @@ fn levels_are_built_counted_and_read_back() {
         assert_eq!(swift_shape_get_level_info(given, 1, &mut same), StatusCode::Ok);
         assert_eq!((same.vertex_count, same.triangle_count), (count, triangles));
         assert!((same.deviation - level.deviation).abs() < 1e-12, "{:e} {:e}", same.deviation, level.deviation);
+
+        // Through a file.
+        let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_interface.shape");
+        let path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
+        let mut loaded = null_mut();
+        assert_eq!(swift_shape_save(given, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+        assert_eq!(swift_shape_load(path.as_ptr(), &mut loaded), StatusCode::Ok, "{}", last_message());
+        assert!(*loaded == *given);
+        release(loaded);
+        assert_eq!(swift_shape_save(null(), path.as_ptr()), StatusCode::ErrorNullPointer);
+        assert_eq!(swift_shape_load(null(), &mut loaded), StatusCode::ErrorNullPointer);
+        assert_eq!(swift_shape_load(c"no/such/file".as_ptr(), &mut loaded), StatusCode::ErrorFile);
+        assert!(loaded.is_null() && last_message().contains("no/such/file"), "{}", last_message());
         release(given);
 
         let bad = [levels[0], mesh(&vertices[..9], &[])];

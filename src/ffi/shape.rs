@@ -18,6 +18,7 @@ use crate::mesh::PolygonMesh;
 use crate::polyhedron::Polyhedron;
 use crate::progress::Progress;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
+use crate::shape_file;
 
 /// Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
 /// Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must return,
@@ -369,6 +370,33 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
         let options = ShapeOptions { hierarchy: making.hierarchy, ..making.options.clone() };
         Ok(Shape::from_levels(&meshes, &options, &mut Progress::new(&mut |fraction| making.report(fraction)))?)
     })
+}
+
+/// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's encoding
+/// (UTF-8 on Windows). The file is the same on every machine; versions of this library that do not know its version refuse it.
+///
+/// SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
+/// argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let (shape, path) = unsafe { (input(shape, "shape")?, read_path(path)?) };
+        Ok(shape_file::save(shape, path)?)
+    })
+}
+
+/// Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers rely on is
+/// not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged file is refused.
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+///
+/// SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged. SWIFT_ERROR_NULL_POINTER,
+/// SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_load(path: *const c_char, shape: *mut *mut Shape) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe { Ok(shape_file::load(read_path(path)?)?) })
 }
 
 /// Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.

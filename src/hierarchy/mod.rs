@@ -9,6 +9,7 @@ mod correspondence;
 
 use std::borrow::Cow;
 
+use crate::containment::contains;
 use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
 use crate::error::{Error, Result};
 use crate::math::Vector;
@@ -94,6 +95,18 @@ impl Links {
             edges: links(polyhedron.edges.len()),
             faces: links(polyhedron.faces.len()),
         }
+    }
+
+    /// Whether there is one for each feature of a polyhedron, to a feature that the other has.
+    fn lead(&self, from: &Polyhedron, to: &Polyhedron) -> bool {
+        let exists = |feature: &FeatureId| match *feature {
+            FeatureId::Vertex(v) => (v as usize) < to.vertices.len(),
+            FeatureId::Edge(e) => (e as usize) < to.edges.len(),
+            FeatureId::Face(f) => (f as usize) < to.faces.len(),
+        };
+        let Links { vertices, edges, faces } = self;
+        (vertices.len(), edges.len(), faces.len()) == (from.vertices.len(), from.edges.len(), from.faces.len())
+            && vertices.iter().chain(edges).chain(faces).all(exists)
     }
 
     /// What a feature is linked to.
@@ -200,6 +213,35 @@ impl Hierarchy {
         Ok(builder.finish(base))
     }
 
+    /// From levels that were built before, the finest first: each polyhedron in the centred coordinates of `base`, with its children and
+    /// parents. What a query relies on is found out anew: that every level contains the body, exactly, and how far it stands off.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a level that does not contain the body, or links out of range.
+    pub fn restored(
+        base: &Polyhedron,
+        kind: HierarchyKind,
+        levels: Vec<(Polyhedron, Links, Links)>,
+    ) -> Result<Hierarchy> {
+        let centred = centred(base);
+        let mut builder = Builder::new(&centred, kind)?;
+        for (i, (polyhedron, children, parents)) in levels.into_iter().enumerate() {
+            let refused = |what: &str| Err(Error::Argument(format!("level {} {what}", i + 1)));
+            if polyhedron.centre != centred.centre {
+                return refused("is not in the frame of the body");
+            }
+            if !contains(&polyhedron, &centred) {
+                return refused("does not contain the body");
+            }
+            let below = builder.below();
+            if !(children.lead(&polyhedron, below) && parents.lead(below, &polyhedron)) {
+                return refused("has links to features that do not exist");
+            }
+            builder.add_linked(polyhedron, Correspondence { children, parents });
+        }
+        Ok(builder.finish(base))
+    }
+
     /// Memory held, in bytes.
     pub fn heap_bytes(&self) -> usize {
         self.levels.iter().map(Level::bytes).sum()
@@ -212,17 +254,9 @@ fn centred(polyhedron: &Polyhedron) -> Cow<'_, Polyhedron> {
         return Cow::Borrowed(polyhedron);
     }
     let mut centred = polyhedron.clone();
-    shift(&mut centred, &-polyhedron.centre);
+    centred.move_frame(&-polyhedron.centre);
     centred.centre = Vector::zeros();
     Cow::Owned(centred)
-}
-
-/// Moves the frame of a polyhedron; its centred coordinates stay.
-fn shift(polyhedron: &mut Polyhedron, by: &Vector) {
-    polyhedron.centre += by;
-    polyhedron.mass.centre_of_mass += by;
-    polyhedron.mass.lower += by;
-    polyhedron.mass.upper += by;
 }
 
 /// Levels under construction, all in the centred coordinates of P₀.
@@ -370,7 +404,7 @@ impl<'a> Builder<'a> {
     fn finish(self, base: &Polyhedron) -> Hierarchy {
         let mut hierarchy = self.hierarchy;
         if base.centre != Vector::zeros() {
-            hierarchy.levels.iter_mut().for_each(|level| shift(&mut level.polyhedron, &base.centre));
+            hierarchy.levels.iter_mut().for_each(|level| level.polyhedron.move_frame(&base.centre));
         }
         hierarchy
     }

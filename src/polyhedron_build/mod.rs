@@ -59,15 +59,73 @@ pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&Polygo
     Ok(polyhedron)
 }
 
+/// What a polyhedron calls its vertices and faces: the members of the same names of [`Polyhedron`].
+#[derive(Debug, Clone, PartialEq)]
+pub struct Labels {
+    /// See [`Polyhedron::vertex_labels`].
+    pub vertex_labels: Vec<u32>,
+    /// See [`Polyhedron::face_labels`].
+    pub face_labels: Vec<u32>,
+    /// See [`Polyhedron::face_label_starts`].
+    pub face_label_starts: Vec<u32>,
+    /// See [`Polyhedron::polygon_corners`].
+    pub polygon_corners: Vec<Vector>,
+    /// See [`Polyhedron::polygon_starts`].
+    pub polygon_starts: Vec<u32>,
+}
+
+impl Labels {
+    /// The labels of a polyhedron.
+    pub fn of(polyhedron: &Polyhedron) -> Labels {
+        Labels {
+            vertex_labels: polyhedron.vertex_labels.clone(),
+            face_labels: polyhedron.face_labels.clone(),
+            face_label_starts: polyhedron.face_label_starts.clone(),
+            polygon_corners: polyhedron.polygon_corners.clone(),
+            polygon_starts: polyhedron.polygon_starts.clone(),
+        }
+    }
+
+    /// Gives a polyhedron other labels. `false`, and nothing is changed, if they are not labels of such a polyhedron.
+    pub fn give_to(self, polyhedron: &mut Polyhedron) -> bool {
+        let divide = |starts: &[u32], parts: usize, whole: usize| {
+            starts.len() == parts + 1 && starts[0] == 0 && starts[parts] as usize == whole && starts.is_sorted()
+        };
+        let Labels { vertex_labels, face_labels, face_label_starts, polygon_corners, polygon_starts } = self;
+        let every_face_has_one = face_label_starts.windows(2).all(|pair| pair[0] < pair[1]);
+        // A polygon is only kept where it has to be found among several.
+        let polygons = match polygon_starts.len() {
+            0 => polygon_corners.is_empty(),
+            _ => divide(&polygon_starts, face_labels.len(), polygon_corners.len()),
+        };
+        let fit = vertex_labels.len() == polyhedron.vertices.len()
+            && divide(&face_label_starts, polyhedron.faces.len(), face_labels.len())
+            && every_face_has_one
+            && polygons
+            && polygon_corners.iter().flat_map(|corner| corner.iter()).all(|x| x.is_finite());
+        if fit {
+            polyhedron.vertex_labels = vertex_labels;
+            polyhedron.face_labels = face_labels;
+            polyhedron.face_label_starts = face_label_starts;
+            polyhedron.polygon_corners = polygon_corners;
+            polyhedron.polygon_starts = polygon_starts;
+            copy_labels(polyhedron);
+        }
+        fit
+    }
+}
+
 /// Puts the labels where an answer reads them together with the feature.
 fn copy_labels(polyhedron: &mut Polyhedron) {
     for edge in &mut polyhedron.edges {
         edge.labels = [edge.tail, edge.head].map(|v| polyhedron.vertex_labels[v as usize]);
     }
     for face in 0..polyhedron.faces.len() {
-        if let &[label] = polyhedron.labels_of_face(face as u32) {
-            polyhedron.faces[face].label = label;
-        }
+        let label = match *polyhedron.labels_of_face(face as u32) {
+            [label] => label,
+            _ => NONE,
+        };
+        polyhedron.faces[face].label = label;
     }
 }
 

@@ -1,0 +1,285 @@
+//! Shapes in files: saved once, loaded as they were, levels of detail included.
+//!
+//! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
+//! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels) or takes long to find
+//! (the levels' vertices). A checksum finds damage, not intent, so nothing that an answer's certainty rests on is believed: the hulls are
+//! proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and measured.
+//! A file of any content gives a sound shape or an error.
+
+use std::fs;
+use std::path::Path;
+
+use crate::error::{Error, Result};
+use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
+use crate::hull_build::{Hull, convex_hull};
+use crate::hull_check::check_hull;
+use crate::lookup::Table;
+use crate::lookup_build::{LookupKind, LookupOptions, build_lookup};
+use crate::math::Vector;
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron_build::{Labels, build_on_hull};
+use crate::shape::Shape;
+use crate::state::FeatureId;
+
+/// What a shape file begins with. The last byte keeps it from passing for text.
+const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
+
+/// The version that is written, and the only one that is read.
+const VERSION: u32 = 1;
+
+/// Saves a shape in a file, replacing what was there.
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be written.
+pub fn save(shape: &Shape, path: &Path) -> Result<()> {
+    fs::write(path, to_bytes(shape)).map_err(|e| Error::File(format!("{}: {e}", path.display())))
+}
+
+/// Loads a shape that was [saved](save).
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be read, is no shape file, is of another version or damaged.
+pub fn load(path: &Path) -> Result<Shape> {
+    let bytes = fs::read(path).map_err(|e| Error::File(format!("{}: {e}", path.display())))?;
+    from_bytes(&bytes).map_err(|e| Error::File(format!("{}: {}", path.display(), e.message())))
+}
+
+/// What [`save`] writes.
+pub fn to_bytes(shape: &Shape) -> Vec<u8> {
+    let mut writer = Writer { bytes: Vec::new() };
+    writer.bytes.extend(MAGIC);
+    writer.number(VERSION);
+    let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
+    writer.polyhedron(polyhedron);
+    let (kind, resolution, factor) = match &polyhedron.lookup.table {
+        Table::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
+        Table::Shells(table) => (LookupKind::Shells, table.resolution, LookupOptions::DEFAULT.radius_factor),
+        Table::Spherical(table) => (LookupKind::Spherical, table.resolution, table.radius_factor),
+    };
+    writer.number(kind as u32);
+    writer.number(resolution as u32);
+    writer.real(factor);
+    writer.number(hierarchy.kind as u32);
+    writer.number(hierarchy.levels.len() as u32);
+    for level in &hierarchy.levels {
+        writer.polyhedron(&level.polyhedron);
+        writer.links(&level.children);
+        writer.links(&level.parents);
+    }
+    let checksum = checksum(&writer.bytes);
+    writer.bytes.extend(checksum.to_le_bytes());
+    writer.bytes
+}
+
+/// What [`load`] makes of a file's bytes.
+///
+/// # Errors
+/// [`Error::File`] if they are no shape, of another version or damaged.
+pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
+    let mut reader = Reader { rest: bytes };
+    if reader.take(8).ok() != Some(&MAGIC[..]) {
+        return Err(Error::File("this is no shape file".into()));
+    }
+    let version = reader.number()?;
+    if version != VERSION {
+        return Err(Error::File(format!("a shape file of version {version}; this library reads version {VERSION}")));
+    }
+    let Some((content, sum)) = bytes.split_last_chunk::<8>() else {
+        return damaged("it is cut off");
+    };
+    if checksum(content) != u64::from_le_bytes(*sum) {
+        return damaged("its checksum is wrong");
+    }
+    reader.rest = content.get(12..).unwrap_or_default();
+    let mut polyhedron = reader.polyhedron(None)?;
+    let kind = reader.number()?;
+    let kinds = [LookupKind::None, LookupKind::Shells, LookupKind::Spherical];
+    let Some(&kind) = kinds.iter().find(|known| **known as u32 == kind) else {
+        return damaged("an unknown kind of look-up table");
+    };
+    let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
+    polyhedron.lookup = build_lookup(&polyhedron, &lookup).or_else(|e| damaged(e.message()))?;
+    let kind = reader.number()?;
+    use HierarchyKind::{DobkinKirkpatrick, Given, OuterCuts, Quadric};
+    let kinds = [HierarchyKind::None, Quadric, DobkinKirkpatrick, OuterCuts, Given];
+    let Some(&kind) = kinds.iter().find(|known| **known as u32 == kind) else {
+        return damaged("an unknown kind of levels");
+    };
+    let mut levels = Vec::new();
+    for _ in 0..reader.number()? {
+        levels.push((reader.polyhedron(Some(polyhedron.centre))?, reader.links()?, reader.links()?));
+    }
+    if !reader.rest.is_empty() {
+        return damaged("there is more behind its end");
+    }
+    let hierarchy = Hierarchy::restored(&polyhedron, kind, levels).or_else(|e| damaged(e.message()))?;
+    Ok(Shape::from_parts(polyhedron, hierarchy))
+}
+
+fn damaged<T>(what: &str) -> Result<T> {
+    Err(Error::File(format!("the shape file is damaged: {what}")))
+}
+
+/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    fn number(&mut self, x: u32) {
+        self.bytes.extend(x.to_le_bytes());
+    }
+
+    fn real(&mut self, x: f64) {
+        self.bytes.extend(x.to_le_bytes());
+    }
+
+    fn numbers(&mut self, list: &[u32]) {
+        self.number(list.len() as u32);
+        list.iter().for_each(|x| self.number(*x));
+    }
+
+    fn vectors(&mut self, list: impl ExactSizeIterator<Item = Vector>) {
+        self.number(list.len() as u32);
+        list.for_each(|v| v.iter().for_each(|x| self.real(*x)));
+    }
+
+    /// Centre and centred coordinates, so that a level, whose sums are not exact, comes back as it was.
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) {
+        self.number(u32::from(polyhedron.dimension));
+        polyhedron.centre.iter().for_each(|x| self.real(*x));
+        self.vectors(polyhedron.vertices.iter().map(|v| v.position));
+        self.numbers(polyhedron.triangles.as_flattened());
+        let Labels { vertex_labels, face_labels, face_label_starts, polygon_corners, polygon_starts } =
+            Labels::of(polyhedron);
+        self.numbers(&vertex_labels);
+        self.numbers(&face_labels);
+        self.numbers(&face_label_starts);
+        self.vectors(polygon_corners.into_iter());
+        self.numbers(&polygon_starts);
+    }
+
+    fn links(&mut self, links: &Links) {
+        for list in [&links.vertices, &links.edges, &links.faces] {
+            self.number(list.len() as u32);
+            for feature in list {
+                let (kind, index) = match *feature {
+                    FeatureId::Vertex(v) => (0, v),
+                    FeatureId::Edge(e) => (1, e),
+                    FeatureId::Face(f) => (2, f),
+                };
+                self.bytes.push(kind);
+                self.number(index);
+            }
+        }
+    }
+}
+
+/// Reads what is left of a file.
+struct Reader<'a> {
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    fn take(&mut self, count: usize) -> Result<&'a [u8]> {
+        match self.rest.split_at_checked(count) {
+            Some((taken, rest)) => {
+                self.rest = rest;
+                Ok(taken)
+            }
+            None => damaged("it is cut off"),
+        }
+    }
+
+    fn number(&mut self) -> Result<u32> {
+        let bytes = self.take(4)?;
+        Ok(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+    }
+
+    fn real(&mut self) -> Result<f64> {
+        let bytes = self.take(8)?.first_chunk().copied().unwrap_or_default();
+        Ok(f64::from_le_bytes(bytes))
+    }
+
+    /// A list of items of so many bytes each; its length is checked against what is left before anything is allocated.
+    fn list<T>(&mut self, size: usize, item: impl Fn(&mut Reader<'a>) -> Result<T>) -> Result<Vec<T>> {
+        let count = self.number()? as usize;
+        if count > self.rest.len() / size {
+            return damaged("it is cut off");
+        }
+        (0..count).map(|_| item(self)).collect()
+    }
+
+    fn numbers(&mut self) -> Result<Vec<u32>> {
+        self.list(4, Reader::number)
+    }
+
+    fn vector(&mut self) -> Result<Vector> {
+        let vector = Vector::new(self.real()?, self.real()?, self.real()?);
+        if vector.iter().all(|x| x.is_finite()) { Ok(vector) } else { damaged("a coordinate is not finite") }
+    }
+
+    /// A polyhedron in a frame of its own, or a level in the centred coordinates of a body whose centre is given.
+    fn polyhedron(&mut self, body: Option<Vector>) -> Result<Polyhedron> {
+        let dimension = self.number()?;
+        let centre = self.vector()?;
+        let positions = self.list(24, Reader::vector)?;
+        let corners = self.numbers()?;
+        let (triangles, []) = corners.as_chunks::<3>() else {
+            return damaged("a triangle is incomplete");
+        };
+        let labels = Labels {
+            vertex_labels: self.numbers()?,
+            face_labels: self.numbers()?,
+            face_label_starts: self.numbers()?,
+            polygon_corners: self.list(24, Reader::vector)?,
+            polygon_starts: self.numbers()?,
+        };
+        // What a body is stored as are exact sums; those of a level are not, and its hull is that of its centred coordinates.
+        let points = match body {
+            None => positions.iter().map(|p| p + centre).collect(),
+            Some(_) => positions.clone(),
+        };
+        let hull = match dimension {
+            3 => {
+                let vertices = (0..positions.len() as u32).collect();
+                let hull = Hull { dimension: 3, vertices, triangles: triangles.to_vec() };
+                check_hull(&points, &hull).or_else(|e| damaged(e.message()))?;
+                hull
+            }
+            // Of a flat hull the triangulation is known.
+            _ => convex_hull(&points).or_else(|e| damaged(e.message()))?,
+        };
+        if u32::from(hull.dimension) != dimension || hull.vertices.len() != positions.len() {
+            return damaged("the vertices are not those of a hull");
+        }
+        let mut polyhedron = build_on_hull(&points, hull, None).or_else(|e| damaged(e.message()))?;
+        let expected = if body.is_some() { Vector::zeros() } else { centre };
+        let is_same = polyhedron.vertices.iter().zip(&positions).all(|(vertex, p)| vertex.position == *p);
+        if !(is_same && polyhedron.centre == expected && body.is_none_or(|body| body == centre)) {
+            return damaged("vertices are not in the order or the frame in which they are saved");
+        }
+        if !labels.give_to(&mut polyhedron) {
+            return damaged("labels that do not fit");
+        }
+        Ok(polyhedron)
+    }
+
+    fn links(&mut self) -> Result<Links> {
+        let feature = |reader: &mut Reader<'a>| {
+            let kind = reader.take(1)?[0];
+            let index = reader.number()?;
+            match kind {
+                0 => Ok(FeatureId::Vertex(index)),
+                1 => Ok(FeatureId::Edge(index)),
+                2 => Ok(FeatureId::Face(index)),
+                _ => damaged("an unknown kind of feature"),
+            }
+        };
+        Ok(Links { vertices: self.list(5, feature)?, edges: self.list(5, feature)?, faces: self.list(5, feature)? })
+    }
+}

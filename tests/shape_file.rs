@@ -1,0 +1,178 @@
+//! Shapes saved and loaded: the same comes back, and bytes of any content give a sound shape or an error.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use std::fs;
+use std::path::Path;
+
+use common::models::{cuboid, ellipsoid, prism, random_hull};
+use common::random::Random;
+use swiftprox::error::Error;
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::lookup_build::{LookupKind, LookupOptions};
+use swiftprox::math::Vector;
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::progress::Progress;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
+
+const KINDS: [HierarchyKind; 4] =
+    [HierarchyKind::None, HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
+
+fn with_levels(mesh: &PolygonMesh, kind: HierarchyKind) -> Shape {
+    let hierarchy = HierarchyOptions { kind, decimation: 0.4, minimum_triangles: 20, most_levels: 5 };
+    Shape::from_mesh(mesh, &ShapeOptions { hierarchy, ..ShapeOptions::default() }).unwrap()
+}
+
+fn triangulated_cuboid() -> PolygonMesh {
+    let polygons = cuboid([1.0, 2.0, 3.0]).unwrap();
+    let corners = (0..6).flat_map(|f| {
+        let [a, b, c, d] = *polygons.face(f) else { panic!("a quadrilateral") };
+        [a, b, c, a, c, d]
+    });
+    let corners: Vec<u32> = corners.collect();
+    PolygonMesh::new(polygons.vertices.clone(), corners, None).unwrap()
+}
+
+fn shapes() -> Vec<Shape> {
+    let mut all = Vec::new();
+    let moved = |by: Vector| {
+        let mut mesh = ellipsoid([1.0, 0.7, 0.2], 150).unwrap();
+        mesh.vertices.iter_mut().for_each(|v| *v += by);
+        mesh
+    };
+    let meshes = [
+        ellipsoid([1.0, 1.0, 0.1], 200).unwrap(),
+        random_hull(300, 5).unwrap(),
+        prism(40, 0.3).unwrap(),
+        moved(Vector::new(1e6, -3e3, 0.1)),
+        moved(Vector::new(1.7, 0.0, 0.0)),
+        // Two labels a face.
+        triangulated_cuboid(),
+    ];
+    for mesh in &meshes {
+        all.extend(KINDS.map(|kind| with_levels(mesh, kind)));
+    }
+    let coarse = [ellipsoid([1.0, 1.0, 0.1], 200).unwrap(), cuboid([1.0; 3]).unwrap()];
+    let given = Shape::from_levels(&coarse, &ShapeOptions::default(), &mut Progress::new(&mut |_| true));
+    all.push(given.unwrap());
+    for (kind, resolution) in [(LookupKind::None, 0), (LookupKind::Shells, 8), (LookupKind::Spherical, 16)] {
+        let lookup = LookupOptions { kind, resolution, radius_factor: 1.5 };
+        all.push(Shape::from_mesh(&meshes[0], &ShapeOptions { lookup, ..ShapeOptions::default() }).unwrap());
+    }
+    // Without interior, with points that are no vertices, of extreme size.
+    let hull = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.5, 0.0, 0.0], [0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [0.2, 0.3, 0.4]];
+    for count in [1, 3, 4, 5, 6] {
+        for scale in [1.0, 1e-250, 1e150] {
+            let points: Vec<Vector> = points[..count].iter().map(|p| Vector::from(*p) * scale).collect();
+            all.push(Shape::from_points(&points, &hull).unwrap());
+        }
+    }
+    all
+}
+
+#[test]
+fn what_is_saved_comes_back() {
+    let mut levels = 0;
+    for shape in shapes() {
+        let bytes = to_bytes(&shape);
+        let loaded = from_bytes(&bytes).unwrap();
+        assert_eq!(loaded, shape);
+        assert_eq!(to_bytes(&loaded), bytes);
+        levels += shape.hierarchy().levels.len();
+    }
+    assert!(levels > 40, "{levels}");
+}
+
+#[test]
+fn through_a_file() {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let path = folder.join("through_a_file.shape");
+    let shape = with_levels(&ellipsoid([1.0; 3], 100).unwrap(), HierarchyKind::Quadric);
+    save(&shape, &path).unwrap();
+    assert_eq!(load(&path).unwrap(), shape);
+    let message = |path: &Path| match load(path) {
+        Err(Error::File(message)) => message,
+        other => panic!("{other:?}"),
+    };
+    // The message names the file and says what is wrong.
+    let mut bytes = fs::read(&path).unwrap();
+    let middle = bytes.len() / 2;
+    bytes[middle] ^= 1;
+    fs::write(&path, &bytes).unwrap();
+    assert!(
+        message(&path).contains("through_a_file.shape: the shape file is damaged: its checksum"),
+        "{}",
+        message(&path)
+    );
+    bytes[8] = 2;
+    fs::write(&path, &bytes).unwrap();
+    assert!(message(&path).contains("version 2; this library reads version 1"), "{}", message(&path));
+    fs::write(&path, "OFF\n4 4 6\n").unwrap();
+    assert!(message(&path).contains("no shape file"), "{}", message(&path));
+    assert!(message(&folder.join("no-such.shape")).contains("no-such.shape"));
+    assert!(matches!(save(&shape, &folder.join("no/such/folder")), Err(Error::File(_))));
+}
+
+/// FNV-1a, to make damage that the checksum does not find.
+fn with_checksum(mut content: Vec<u8>) -> Vec<u8> {
+    let step = |sum: u64, byte: &u8| (sum ^ u64::from(*byte)).wrapping_mul(0x100_0000_01b3);
+    let sum = content.iter().fold(0xcbf2_9ce4_8422_2325, step);
+    content.extend(sum.to_le_bytes());
+    content
+}
+
+#[test]
+fn damage_is_found() {
+    let bytes = to_bytes(&with_levels(&ellipsoid([1.0, 1.0, 0.1], 60).unwrap(), HierarchyKind::Quadric));
+    for length in (0..bytes.len()).step_by(7).chain([bytes.len() - 1]) {
+        assert!(matches!(from_bytes(&bytes[..length]), Err(Error::File(_))), "{length}");
+    }
+    for i in 0..bytes.len() {
+        let mut damaged = bytes.clone();
+        damaged[i] ^= 1 << (i % 8);
+        assert!(matches!(from_bytes(&damaged), Err(Error::File(_))), "{i}");
+    }
+}
+
+/// Whatever loads is sound: its levels contain it, and its hull passed the proof when it was loaded.
+#[test]
+fn forged_files_give_a_sound_shape_or_an_error() {
+    let mut random = Random::new(77);
+    let (mut accepted, mut refused) = (0, 0);
+    let originals: Vec<Vec<u8>> = shapes().iter().map(to_bytes).filter(|bytes| bytes.len() < 60_000).collect();
+    for round in 0..6000 {
+        let original = &originals[random.next_u64() as usize % originals.len()];
+        let mut content = original[..original.len() - 8].to_vec();
+        for _ in 0..1 + round % 3 {
+            let place = 12 + random.next_u64() as usize % (content.len() - 12);
+            match random.next_u64() % 5 {
+                0 => content[place] = random.next_u64() as u8,
+                1 => content[place] ^= 1 << (random.next_u64() % 8),
+                2 => content.truncate(place.max(13)),
+                3 => {
+                    let length = (random.next_u64() % 16) as usize;
+                    let end = (place + length).min(content.len());
+                    let copy = content[12 + (place - 12) / 2..][..end - place].to_vec();
+                    content[place..end].copy_from_slice(&copy);
+                }
+                _ => content.insert(place, random.next_u64() as u8),
+            }
+        }
+        match from_bytes(&with_checksum(content)) {
+            Ok(shape) => {
+                accepted += 1;
+                for level in &shape.hierarchy().levels {
+                    assert!(swiftprox::containment::contains(&level.polyhedron, shape.polyhedron()));
+                }
+                assert_eq!(from_bytes(&to_bytes(&shape)).unwrap(), shape);
+            }
+            Err(Error::File(_)) => refused += 1,
+            Err(other) => panic!("{other:?}"),
+        }
+    }
+    // A label may be any number, and a coordinate may change by a little.
+    assert!(accepted > 100 && refused > 1000, "{accepted} {refused}");
+}
