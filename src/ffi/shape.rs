@@ -373,7 +373,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
 }
 
 /// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's encoding
-/// (UTF-8 on Windows). The file is the same on every machine; versions of this library that do not know its version refuse it.
+/// (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file refuses it.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
 /// argument.
