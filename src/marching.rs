@@ -210,7 +210,8 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let foot = L::from_vector(&along).mul_add(L::splat(t), L::from_vector(tail));
     let minimum = Minimum {
         points: in_order::<L, NEAR>(L::from_vector(position), foot),
-        rotated: in_order::<L, NEAR>(rotated, from_far.sub(difference)),
+        // Not x − (x − foot), which loses the foot's digits where x is far away.
+        rotated: in_order::<L, NEAR>(rotated, along_world.mul_add(L::splat(t), tail_world)),
         difference: signed::<L, NEAR>(difference),
         error,
         direction: signed::<L, NEAR>(direction),

@@ -7,6 +7,12 @@ use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer, PairCache, Pair
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use common::models::random_hull;
+use common::random::Random;
+
 const OPTIONS: fn() -> ShapeOptions = || ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
 
 fn hull(points: &[[f64; 3]]) -> Shape {
@@ -112,6 +118,29 @@ fn the_point_of_a_contact_is_common() {
             let apart = (Vector::from(answer.world1) - Vector::from(answer.world2)).norm();
             // As wide as the widest interval of a hard pair.
             assert!(apart <= 1e-13 * (2.0 * length + 4.0), "length {length:e}: {apart:e} apart, {answer:?}");
+        }
+    }
+}
+
+/// A body at the origin keeps the digits of its witness point however far away the other one is.
+#[test]
+fn a_witness_point_is_as_accurate_as_its_own_body_allows() {
+    let mut random = Random::new(1);
+    for exponent in 0..=12 {
+        for seed in 0..40 {
+            let shape = Shape::from_mesh(&random_hull(20, seed).unwrap(), &OPTIONS()).unwrap();
+            let near = Pose::new(&random.rotation(), &Vector::zeros());
+            let far = Pose::new(&random.rotation(), &(4.0 * 10f64.powi(exponent) * random.direction()));
+            for [pose1, pose2] in [[near, far], [far, near]] {
+                let answer = ask(&shape, &pose1, &shape, &pose2);
+                let points = [(pose1, answer.local1, answer.world1), (pose2, answer.local2, answer.world2)];
+                for (pose, local, world) in points {
+                    let error = (Vector::from(world) - pose.transform(&Vector::from(local))).norm();
+                    // A dozen roundings of numbers up to the body's size, and of its place.
+                    let allowed = 16.0 * f64::EPSILON / 2.0 * (1.0 + pose.translation().norm());
+                    assert!(error <= allowed, "1e{exponent}: {error:e} off, {answer:?}");
+                }
+            }
         }
     }
 }
