@@ -393,21 +393,21 @@ impl Acceptance<'_> {
     }
 }
 
-/// A minimum that a quick look leaves open, looked at more closely.
-struct Closely<'a> {
+/// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
+struct Closely<'a, const BETWEEN_PLANES: bool> {
     judge: Acceptance<'a>,
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
     at: State,
 }
 
-impl Kernel for Closely<'_> {
+impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, BETWEEN_PLANES> {
     type Output = ();
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        let mut closer = CloserLook { found: None };
+        let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
         marching::march(&frame, self.at, 1, &mut closer);
         if let Some((minimum, gap)) = &closer.found {
             self.judge.accepted = self.judge.is_enough(frame.size, &gap.interval);
@@ -546,9 +546,14 @@ impl PairQuery<'_> {
     fn closely(&mut self, at: State, steps: u32) -> bool {
         let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
         let judge = Acceptance { query, config, cache, answer, accepted: false };
-        let mut look = Closely { judge, polyhedra, poses, at };
+        let mut look = Closely::<false> { judge, polyhedra, poses, at };
         simd::dispatch(&mut look);
-        let accepted = look.judge.accepted;
+        let mut accepted = look.judge.accepted;
+        if !accepted {
+            let mut look = Closely::<true> { judge: look.judge, polyhedra, poses, at };
+            simd::dispatch(&mut look);
+            accepted = look.judge.accepted;
+        }
         if accepted {
             self.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
             if steps > 1 {
