@@ -23,7 +23,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "far_origin",
-        why: "both objects 1e3 to 1e9 from the world's origin: world coordinates lose the digits that the gap needs",
+        why: "both objects 1e3 to 1e9 from the world's origin, or one of them: world coordinates lose the digits that the gap needs",
         sources: &[
             "https://github.com/MattiaMontanari/openGJK/issues/52",
             "https://github.com/dimforge/parry/issues/166",
@@ -97,6 +97,12 @@ fn far_origin(random: &mut Random, index: usize) -> Sequence {
         .map(|gap| moved(touching(random, [&surfaces[0], &surfaces[1]], gap), &far))
         .collect();
     poses.extend((0..6).map(|_| moved(anywhere(random, 2.0), &far)));
+    // One there, the other at the origin.
+    poses.extend((0..4).map(|_| {
+        let mut pair = anywhere(random, 2.0);
+        (0..3).for_each(|k| pair[15 + 4 * k] += far[k]);
+        pair
+    }));
     Sequence { name: format!("1e{exponent}"), bodies, poses }
 }
 
