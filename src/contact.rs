@@ -4,10 +4,13 @@ use crate::answer::{Feature, FeatureKind, PairAnswer};
 use crate::exact::VertexPair;
 use crate::frame::Frame;
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
-use crate::polyhedron::{Edge, NONE, Polyhedron};
+use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
 use crate::simd::{Lanes, Portable};
 use crate::state::FeatureId;
 use crate::voronoi::edge_direction;
+
+/// Neighbours of a vertex beyond which all faces in the order of memory are looked through sooner than those around it.
+const MOST_NEIGHBOURS: usize = 64;
 
 const NOTHING: [f64; 3] = [f64::NAN; 3];
 
@@ -159,36 +162,57 @@ fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector
             return FeatureId::Edge(edge);
         }
     }
+    if vertices.iter().any(|&v| polyhedron.neighbour_capacity(v) > MOST_NEIGHBOURS) {
+        return nearest_face(polyhedron, point, towards).map_or(FeatureId::Vertex(first), FeatureId::Face);
+    }
     let around = vertices.iter().flat_map(|&v| edges_at(polyhedron, v)).flat_map(|edge| {
         let edge = &polyhedron.edges[edge as usize];
         [edge.left, edge.right]
     });
     // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
-    let near = best_face(polyhedron, around, point, towards);
-    let face = match near {
-        Some((face, 0.0)) => Some(face),
-        _ => best_face(polyhedron, 0..polyhedron.faces.len() as u32, point, towards).map(|(face, _)| face),
-    };
+    let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
 }
 
-/// The face that misses a point least, of several the one that looks most towards the other body; and by how much it misses.
-fn best_face(
+/// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
+fn face_holding(
     polyhedron: &Polyhedron,
     faces: impl Iterator<Item = u32>,
     point: &Vector,
     towards: &Vector,
-) -> Option<(u32, f64)> {
-    let mut best = None;
-    let (mut least, mut steepest) = (f64::INFINITY, f64::NEG_INFINITY);
+) -> Option<u32> {
+    let (mut best, mut steepest) = (None, f64::NEG_INFINITY);
     for face in faces {
-        let (misses, slope) =
-            (misses_face(polyhedron, face, point), polyhedron.faces[face as usize].normal.dot(towards));
-        if misses < least || (misses == least && slope > steepest) {
-            (least, steepest, best) = (misses, slope, Some((face, misses)));
+        let slope = polyhedron.faces[face as usize].normal.dot(towards);
+        // The plane tells first of most that do not hold it.
+        let is_on_plane = polyhedron.faces[face as usize].planes.value(0, point).abs() <= rounding(polyhedron);
+        if is_on_plane && slope > steepest && misses_face(polyhedron, face, point) == 0.0 {
+            (best, steepest) = (Some(face), slope);
         }
     }
     best
+}
+
+/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose plane is
+/// nearest: the foot on it lies in the body, so in the face. Where rounding leaves several planes, the distances tell.
+fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Option<u32> {
+    let height = |face: &Face| face.planes.value(0, point);
+    let highest = polyhedron.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
+    let (mut best, mut least, mut steepest) = (None, f64::INFINITY, f64::NEG_INFINITY);
+    for (face, record) in (0..).zip(&polyhedron.faces) {
+        if height(record) >= highest - 2.0 * rounding(polyhedron) {
+            let (misses, slope) = (misses_face(polyhedron, face, point), record.normal.dot(towards));
+            if misses < least || (misses == least && slope > steepest) {
+                (best, least, steepest) = (Some(face), misses, slope);
+            }
+        }
+    }
+    best
+}
+
+/// What a point of a face may miss its plane and its sides' planes by.
+fn rounding(polyhedron: &Polyhedron) -> f64 {
+    64.0 * UNIT_ROUNDOFF * polyhedron.radius
 }
 
 /// The edges at a vertex.
@@ -196,7 +220,7 @@ fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
     polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|&edge| edge != NONE)
 }
 
-/// The distance of a point from a face; 0 within the rounding of its planes (64u·ρ). At the sharp corner of a sliver a point may
+/// The distance of a point from a face; 0 within the rounding of its planes. At the sharp corner of a sliver a point may
 /// violate the sides by next to nothing and still be far away, so that the sides only tell whether it is inside.
 fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
     let record = &polyhedron.faces[face as usize];
@@ -210,7 +234,7 @@ fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
         let edges = polyhedron.sides[range].iter().map(|&side| &polyhedron.edges[side as usize]);
         edges.map(|edge| distance_to_edge(polyhedron, edge, point)).fold(f64::INFINITY, f64::min)
     };
-    if misses <= 64.0 * UNIT_ROUNDOFF * polyhedron.radius { 0.0 } else { misses }
+    if misses <= rounding(polyhedron) { 0.0 } else { misses }
 }
 
 fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64 {

@@ -8,13 +8,19 @@
 
 use crate::exact::VertexPair;
 use crate::math::{Pose, Vector};
-use crate::polyhedron::{NONE, NeighbourBlock, Polyhedron};
+use crate::normal_cone::separating_direction;
+use crate::polyhedron::{NONE, Polyhedron};
 
 /// Pairs of vertices whose candidates are looked at: at a touching point one is enough.
 const ROUND_LIMIT: u32 = 8;
 
-/// Neighbours of a vertex that serve as factors of cross products, to bound the work at the apex of a cone.
-const FACTOR_LIMIT: usize = 64;
+/// Neighbours of a vertex beyond which not all are looked at, to bound the work at the apex of a cone: each candidate takes a look at
+/// all of them.
+const MOST_NEIGHBOURS: usize = 64;
+
+/// How many are looked at then: those along which the direction found so far runs steepest. Where it is in the normal cone these are
+/// the nearest to the cone's boundary, and on it the extreme rays are.
+const STEEPEST_NEIGHBOURS: usize = 12;
 
 /// How far, as a sine, a cross product of edges may miss a normal cone to be looked at; the overlap itself then decides.
 const CONE_TOLERANCE: f64 = 1e-9;
@@ -28,22 +34,43 @@ struct Search<'a> {
     overlap: f64,
     /// The vertices that reach farthest along it.
     ends: VertexPair,
+    /// Vertices that reach far along other directions.
+    met: [VertexPair; 8],
+    /// The entry of `met` to be overwritten next.
+    oldest: usize,
 }
 
 /// A world unit direction from body 2 to body 1 for a pair that intersects. `pairs` are vertex pairs whose differences hold the
 /// origin in their hull.
 pub fn contact_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: &[VertexPair]) -> Vector {
     let ends = pairs.first().copied().unwrap_or_default();
-    let mut search = Search { polyhedra, poses, direction: Vector::x(), overlap: f64::INFINITY, ends };
+    let mut met = [ends; 8];
+    for (known, pair) in met.iter_mut().zip(pairs) {
+        *known = *pair;
+    }
+    let oldest = pairs.len().min(7);
+    let mut search = Search { polyhedra, poses, direction: Vector::x(), overlap: f64::INFINITY, ends, met, oldest };
     let world_centre = |i: usize| poses[i].transform(&polyhedra[i].mass.centre_of_mass);
     search.consider(&(world_centre(0) - world_centre(1)));
-    for &pair in pairs {
-        search.consider_normals(pair);
+    let has_many = |i: usize| pairs.iter().any(|pair| has_many_neighbours(polyhedra[i], pair[i]));
+    if (has_many(0) || has_many(1))
+        && let Some(direction) = separating_direction(polyhedra, poses, pairs)
+    {
+        search.consider(&direction);
+        search.consider(&-direction);
+    }
+    for (k, pair) in pairs.iter().enumerate() {
+        for i in 0..2 {
+            if pairs[..k].iter().all(|other| other[i] != pair[i]) {
+                search.consider_normals(i, pair[i]);
+            }
+        }
     }
     search.consider_cross_products(ends);
     let mut from = search.ends;
     for _ in 0..ROUND_LIMIT {
-        search.consider_normals(from);
+        search.consider_normals(0, from[0]);
+        search.consider_normals(1, from[1]);
         search.consider_cross_products(from);
         if search.ends == from {
             break;
@@ -61,40 +88,57 @@ impl Search<'_> {
             return;
         }
         let direction = direction / length;
-        let mut overlap = -direction.dot(&(self.poses[0].translation() - self.poses[1].translation()));
+        let apart = -direction.dot(&(self.poses[0].translation() - self.poses[1].translation()));
+        let towards = [self.towards(0, &direction), self.towards(1, &direction)];
+        let height = |i: usize, vertex: u32| towards[i].dot(&self.polyhedra[i].local_position(vertex));
+        // No body reaches less far than a vertex of it, which rules most directions out at once.
         let mut ends = self.ends;
         for (i, end) in ends.iter_mut().enumerate() {
-            let (polyhedron, towards) = (self.polyhedra[i], self.towards(i, &direction));
+            for pair in &self.met {
+                if height(i, pair[i]) > height(i, *end) {
+                    *end = pair[i];
+                }
+            }
+        }
+        if apart + height(0, ends[0]) + height(1, ends[1]) >= self.overlap {
+            return;
+        }
+        for (i, end) in ends.iter_mut().enumerate() {
+            let polyhedron = self.polyhedra[i];
             // A climb that starts at a flat vertex does not leave it along the normal of its face, either way.
             let start = if is_flat(polyhedron, *end) { polyhedron.edges[0].tail } else { *end };
-            (*end, _) = polyhedron.support(&towards, start);
-            overlap += towards.dot(&polyhedron.local_position(*end));
+            (*end, _) = polyhedron.support(&towards[i], start);
         }
+        self.met[self.oldest] = ends;
+        self.oldest = (self.oldest + 1) % self.met.len();
+        let overlap = apart + height(0, ends[0]) + height(1, ends[1]);
         if overlap < self.overlap {
             (self.direction, self.overlap, self.ends) = (direction, overlap, ends);
         }
     }
 
-    /// The normals of the faces around two vertices.
-    fn consider_normals(&mut self, pair: VertexPair) {
-        for (i, polyhedron) in self.polyhedra.into_iter().enumerate() {
-            for block in polyhedron.neighbour_blocks(pair[i]) {
-                for edge in block.edge {
-                    // NONE is beyond all indices.
-                    let Some(edge) = polyhedron.edges.get(edge as usize) else { continue };
-                    for normal in &edge.normals {
-                        self.consider_normal(i, normal);
-                    }
-                }
+    /// The normals of the faces around a vertex.
+    fn consider_normals(&mut self, i: usize, vertex: u32) {
+        let polyhedron = self.polyhedra[i];
+        for neighbour in self.neighbours(i, vertex).as_slice() {
+            // NONE is beyond all indices.
+            let Some(edge) = polyhedron.edges.get(neighbour.edge as usize) else { continue };
+            for normal in &edge.normals {
+                self.consider_normal(i, normal);
             }
-            if is_flat(polyhedron, pair[i]) {
-                for (triangle, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
-                    if triangle.contains(&pair[i]) {
-                        self.consider_normal(i, &polyhedron.faces[face as usize].normal);
-                    }
+        }
+        if is_flat(polyhedron, vertex) {
+            for (triangle, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
+                if triangle.contains(&vertex) {
+                    self.consider_normal(i, &polyhedron.faces[face as usize].normal);
                 }
             }
         }
+    }
+
+    /// The neighbours of a vertex that are looked at.
+    fn neighbours(&self, i: usize, vertex: u32) -> Neighbours {
+        Neighbours::new(self.polyhedra[i], vertex, &self.towards(i, &self.direction))
     }
 
     /// An outward face normal of one body, in its own frame.
@@ -110,34 +154,44 @@ impl Search<'_> {
 
     /// The cross products of edges at two vertices that lie in the normal cones of both.
     fn consider_cross_products(&mut self, pair: VertexPair) {
-        for first in factors(self.polyhedra[0], pair[0]) {
-            let first = self.poses[0].rotate(&first);
-            for second in factors(self.polyhedra[1], pair[1]) {
-                let product = first.cross(&self.poses[1].rotate(&second));
-                self.consider_in_cones(product, pair);
+        let (polyhedra, poses) = (self.polyhedra, self.poses);
+        let neighbours = [self.neighbours(0, pair[0]), self.neighbours(1, pair[1])];
+        let factor = |i: usize, neighbour: &Neighbour| {
+            let position = |v: u32| polyhedra[i].vertices[v as usize].position;
+            let along = position(neighbour.head) - position(pair[i]);
+            // The largest component ±1, so that no product leaves the range of doubles.
+            poses[i].rotate(&(along / along.amax()))
+        };
+        for first in neighbours[0].as_slice() {
+            let first = factor(0, first);
+            for second in neighbours[1].as_slice() {
+                self.consider_in_cones(first.cross(&factor(1, second)), pair, &neighbours);
             }
         }
         // A segment has no plane of its own and a point no direction: they are crossed with the axes.
-        if self.polyhedra[0].dimension.min(self.polyhedra[1].dimension) < 2 {
-            for (i, polyhedron) in self.polyhedra.into_iter().enumerate() {
-                for factor in factors(polyhedron, pair[i]) {
-                    let world = self.poses[i].rotate(&factor);
+        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
+            for (i, own) in neighbours.iter().enumerate() {
+                for neighbour in own.as_slice() {
+                    let world = factor(i, neighbour);
                     for axis in [Vector::x(), Vector::y(), Vector::z()] {
-                        self.consider_in_cones(world.cross(&axis), pair);
+                        self.consider_in_cones(world.cross(&axis), pair, &neighbours);
                     }
                 }
             }
         }
     }
 
-    fn consider_in_cones(&mut self, direction: Vector, pair: VertexPair) {
+    /// Both senses of a direction, where they lie in the normal cones of a pair of vertices; `neighbours` are some of theirs.
+    fn consider_in_cones(&mut self, direction: Vector, pair: VertexPair, neighbours: &[Neighbours; 2]) {
         for direction in [direction, -direction] {
             let is_in_cone = |i: usize| {
                 let towards = self.towards(i, &direction);
                 let limit = CONE_TOLERANCE * towards.norm();
-                self.polyhedra[i]
-                    .neighbour_blocks(pair[i])
-                    .all(|block| (0..8).all(|lane| block_direction(block, lane).dot(&towards) <= limit))
+                let is_behind = |edge: &Vector| edge.dot(&towards) <= limit;
+                neighbours[i].as_slice().iter().all(|neighbour| is_behind(&neighbour.direction))
+                    && self.polyhedra[i]
+                        .neighbour_blocks(pair[i])
+                        .all(|block| (0..8).all(|lane| is_behind(&block.direction(lane))))
             };
             if is_in_cone(0) && is_in_cone(1) {
                 self.consider(&direction);
@@ -146,29 +200,78 @@ impl Search<'_> {
     }
 }
 
+/// A neighbour of a vertex.
+#[derive(Clone, Copy, Default)]
+struct Neighbour {
+    head: u32,
+    /// The edge to it, or NONE.
+    edge: u32,
+    /// The unit vector to it.
+    direction: Vector,
+    /// How steeply that runs along the direction asked about.
+    slope: f64,
+}
+
+/// Some neighbours of a vertex.
+struct Neighbours {
+    list: [Neighbour; MOST_NEIGHBOURS],
+    count: usize,
+}
+
+impl Neighbours {
+    /// All neighbours of a vertex; of more than `MOST_NEIGHBOURS` the steepest along `towards`.
+    fn new(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Neighbours {
+        let mut chosen = Neighbours { list: [Neighbour::default(); MOST_NEIGHBOURS], count: 0 };
+        let has_many = has_many_neighbours(polyhedron, vertex);
+        let mut least = f64::NEG_INFINITY;
+        for block in polyhedron.neighbour_blocks(vertex) {
+            let slopes: [f64; 8] = std::array::from_fn(|lane| block.direction(lane).dot(towards));
+            if has_many && slopes.iter().all(|slope| *slope <= least) {
+                continue;
+            }
+            // Unused lanes repeat lane 0.
+            for lane in (0..8).filter(|&lane| lane == 0 || block.head[lane] != block.head[0]) {
+                let (head, edge) = (block.head[lane], block.edge[lane]);
+                let neighbour = Neighbour { head, edge, direction: block.direction(lane), slope: slopes[lane] };
+                if has_many {
+                    least = chosen.insert(neighbour, STEEPEST_NEIGHBOURS);
+                } else {
+                    chosen.list[chosen.count] = neighbour;
+                    chosen.count += 1;
+                }
+            }
+        }
+        chosen
+    }
+
+    /// Adds a neighbour if it belongs to the `count` steepest, the steepest first; returns what the next has to be steeper than.
+    fn insert(&mut self, neighbour: Neighbour, count: usize) -> f64 {
+        if self.count < count {
+            self.count += 1;
+        } else if self.list[count - 1].slope >= neighbour.slope {
+            return self.list[count - 1].slope;
+        }
+        let mut place = self.count - 1;
+        while place > 0 && self.list[place - 1].slope < neighbour.slope {
+            self.list[place] = self.list[place - 1];
+            place -= 1;
+        }
+        self.list[place] = neighbour;
+        if self.count < count { f64::NEG_INFINITY } else { self.list[count - 1].slope }
+    }
+
+    fn as_slice(&self) -> &[Neighbour] {
+        &self.list[..self.count]
+    }
+}
+
+/// Whether a vertex has more than `MOST_NEIGHBOURS` neighbours.
+fn has_many_neighbours(polyhedron: &Polyhedron, vertex: u32) -> bool {
+    polyhedron.neighbour_capacity(vertex) > MOST_NEIGHBOURS
+}
+
 /// Whether a vertex only lies inside a merged face or edge.
 fn is_flat(polyhedron: &Polyhedron, vertex: u32) -> bool {
     !polyhedron.edges.is_empty()
         && polyhedron.neighbour_blocks(vertex).all(|block| block.edge.iter().all(|&edge| edge == NONE))
-}
-
-/// Vectors along the edges from a vertex to its neighbours, the largest component ±1, so that no product leaves the range of
-/// doubles; at most `FACTOR_LIMIT`.
-fn factors(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = Vector> {
-    let own = polyhedron.vertices[vertex as usize].position;
-    // Unused lanes repeat lane 0.
-    let heads = |block: &NeighbourBlock| {
-        let head = block.head;
-        (0..8).filter(move |&lane| lane == 0 || head[lane] != head[0]).map(move |lane| head[lane])
-    };
-    polyhedron
-        .neighbour_blocks(vertex)
-        .flat_map(heads)
-        .map(move |head| polyhedron.vertices[head as usize].position - own)
-        .map(|along| along / along.amax())
-        .take(FACTOR_LIMIT)
-}
-
-fn block_direction(block: &NeighbourBlock, lane: usize) -> Vector {
-    Vector::new(block.x[lane], block.y[lane], block.z[lane])
 }

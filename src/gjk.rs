@@ -14,9 +14,9 @@ use crate::voronoi::climb;
 
 /// Up to four vertices of the difference body, affinely independent up to rounding, with the convex weights of the point of
 /// their hull nearest to the origin.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Simplex {
-    /// Entries in use: 1 to 4.
+    /// Entries in use: 1 to 4, 0 in the beginning.
     pub count: usize,
     /// The vertex pairs.
     pub pairs: [VertexPair; 4],
@@ -116,7 +116,7 @@ const SAMPLE: usize = 16;
 /// direction that separates the bodies ends it.
 #[inline(always)]
 pub fn solve<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, start: &[VertexPair], tight: bool) -> (Outcome, u32) {
-    let mut simplex = Simplex { count: 0, pairs: [[0; 2]; 4], differences: [Vector::zeros(); 4], weights: [0.0; 4] };
+    let mut simplex = Simplex::default();
     for &pair in start.iter().take(4) {
         simplex.add(pair, difference(frame, pair));
     }
@@ -210,13 +210,15 @@ fn supported_interval<L: Lanes>(
 }
 
 impl Simplex {
-    /// Adds a vertex pair and its difference, if it is not there yet.
-    fn add(&mut self, pair: VertexPair, difference: Vector) {
-        if !self.pairs[..self.count].contains(&pair) {
+    /// Adds a vertex pair and its difference, if it is not there yet; says whether it did. There are at most three before.
+    pub fn add(&mut self, pair: VertexPair, difference: Vector) -> bool {
+        let is_new = !self.pairs[..self.count].contains(&pair);
+        if is_new {
             self.pairs[self.count] = pair;
             self.differences[self.count] = difference;
             self.count += 1;
         }
+        is_new
     }
 
     /// Σ weightₖ·differenceₖ.
@@ -226,7 +228,7 @@ impl Simplex {
 
     /// Drops the vertices that the nearest point does not need, sets the weights and returns the nearest point. All four stay
     /// when they seem to enclose the origin.
-    fn reduce(&mut self) -> Vector {
+    pub fn reduce(&mut self) -> Vector {
         let p = &self.differences;
         let mut weights = [0.0; 4];
         match self.count {

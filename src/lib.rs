@@ -40,6 +40,7 @@ pub mod outer_cuts;
 pub mod hierarchy;
 pub mod shape;
 pub mod shape_file;
+pub mod normal_cone;
 pub mod contact_direction;
 pub mod answer;
 pub mod contact;

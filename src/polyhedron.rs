@@ -246,6 +246,12 @@ impl Polyhedron {
         std::iter::once(&self.neighbours[vertex as usize]).chain(further)
     }
 
+    /// Lanes in the neighbour blocks of a vertex: an upper bound of the number of its neighbours, by less than eight.
+    #[inline]
+    pub fn neighbour_capacity(&self, vertex: u32) -> usize {
+        8 * (1 + self.vertices[vertex as usize].more as usize)
+    }
+
     /// A vertex that is farthest along `direction` as far as plain doubles tell, and the number of steps from `start`: hill
     /// climbing along the steepest edge of the triangulated hull until none leads up.
     pub fn support(&self, direction: &Vector, start: u32) -> (u32, u32) {
@@ -259,10 +265,18 @@ impl Polyhedron {
             let mut steepest = level;
             let mut next = vertex;
             for block in self.neighbour_blocks(vertex) {
-                for lane in 0..8 {
-                    let slope = block.x[lane] * direction.x + block.y[lane] * direction.y + block.z[lane] * direction.z;
-                    if slope > steepest {
-                        (steepest, next) = (slope, block.head[lane]);
+                // In two loops, the first of which compiles to vector instructions.
+                let mut slopes = [0.0; 8];
+                let mut is_any_steeper = false;
+                for (lane, slope) in slopes.iter_mut().enumerate() {
+                    *slope = block.x[lane] * direction.x + block.y[lane] * direction.y + block.z[lane] * direction.z;
+                    is_any_steeper |= *slope > steepest;
+                }
+                if is_any_steeper {
+                    for (slope, head) in slopes.into_iter().zip(block.head) {
+                        if slope > steepest {
+                            (steepest, next) = (slope, head);
+                        }
                     }
                 }
             }
@@ -322,6 +336,14 @@ impl Polyhedron {
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
             + lookup.heap_bytes()
+    }
+}
+
+impl NeighbourBlock {
+    /// The unit vector to one neighbour.
+    #[inline]
+    pub fn direction(&self, lane: usize) -> Vector {
+        Vector::new(self.x[lane], self.y[lane], self.z[lane])
     }
 }
 
