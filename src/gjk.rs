@@ -7,6 +7,7 @@
 use crate::certificate::{self, Interval};
 use crate::exact::VertexPair;
 use crate::frame::Frame;
+use crate::lookup::Table;
 use crate::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::simd::Lanes;
@@ -83,10 +84,15 @@ impl Supports {
         pair
     }
 
-    /// The farthest of the vertices met before and, of large bodies, of a sample.
+    /// What the bodies' look-up tables say, or else the farthest of the vertices met before and, of large bodies, of a sample.
     fn nearest_start(&self, polyhedra: [&Polyhedron; 2], towards: [&Vector; 2]) -> VertexPair {
         let mut start = [0; 2];
         for i in 0..2 {
+            if let Table::Shells(table) = &polyhedra[i].lookup.table {
+                let direction = towards[i] * (1.0 / towards[i].amax());
+                start[i] = table.farthest([direction.x as f32, direction.y as f32, direction.z as f32]);
+                continue;
+            }
             let vertices = &polyhedra[i].vertices;
             let mut highest = f64::NEG_INFINITY;
             let mut look = |vertex: u32| {

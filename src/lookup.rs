@@ -103,6 +103,18 @@ impl Shells {
         let square = x * x + y * y + z * z;
         let distance = (square.to_bits() as i32 >> (23 - MANTISSA_BITS)) - LEAST;
         let first = self.first_cells[distance.clamp(0, DISTANCES as i32 - 1) as usize];
+        self.cells.get(first as usize + self.cell(point))
+    }
+
+    /// A vertex nearly farthest in a direction: from far away nearest is farthest along the view.
+    #[inline(always)]
+    pub fn farthest(&self, direction: [f32; 3]) -> u32 {
+        self.cells.get(self.first_cells[DISTANCES - 1] as usize + self.cell(direction))
+    }
+
+    /// The cell of a shell in which a point is seen from the centre.
+    #[inline(always)]
+    fn cell(&self, [x, y, z]: [f32; 3]) -> usize {
         // The octahedron |x| + |y| + |z| = 1 seen from above; its lower half is folded out to the corners of the square, where
         // 1 − |v| = |u| + |w|. Without a branch, which would be guessed wrong half of the time.
         let scale = 1.0 / (x.abs() + y.abs() + z.abs());
@@ -115,7 +127,7 @@ impl Shells {
         let mask = self.resolution as u32 - 1;
         let column = ((u * grid + shift).to_bits() >> 3) & mask;
         let row = ((v * grid + shift).to_bits() >> 3) & mask;
-        self.cells.get(first as usize + row as usize * self.resolution + column as usize)
+        row as usize * self.resolution + column as usize
     }
 
     /// The direction of a cell's middle, a unit vector.

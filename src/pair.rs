@@ -14,7 +14,7 @@ use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::simd::{self, Kernel, Lanes, Portable, Work};
-use crate::start;
+use crate::start::{self, Beginning, Guess};
 use crate::state::State;
 
 /// What a pair remembers from its last query. Any bytes are safe; all zero is cold. It changes how fast an answer comes,
@@ -297,8 +297,12 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
         let frame = self.frame;
         if limit == TRIAL_STEPS && has_jumped(&frame, &judge.cache.marker) && config.start != Start::Cache {
-            state = start_anew(polyhedra, poses, config.start);
+            let beginning = start::anew(polyhedra, poses, true);
+            state = State::vertex_vertex(beginning.vertices);
             limit = step_limit(polyhedra);
+            if beginning.guess == Guess::Overlapping {
+                return Attempt::Open { at: state, is_minimum: false, steps };
+            }
         }
         let (at, is_minimum) = loop {
             let (march, more) = marching::march(&frame, state, limit, &mut judge);
@@ -308,7 +312,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
                 March::Open(at) => break (at, false),
                 March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
                 March::Limit(at) if config.start == Start::Cache => at,
-                March::Limit(_) => start_anew(polyhedra, poses, config.start),
+                March::Limit(_) => State::vertex_vertex(start::anew(polyhedra, poses, true).vertices),
             };
             limit = step_limit(polyhedra);
         };
@@ -325,6 +329,8 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
 /// The general case: any bodies, poses and caches.
 struct General<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
+    /// Where to start if the cache holds no features, if that is known.
+    beginning: Option<Beginning>,
 }
 
 impl Kernel for General<'_, '_> {
@@ -339,7 +345,17 @@ impl Kernel for General<'_, '_> {
         }
         let (start, limit) = match State::checked(cache.kind, cache.indices, polyhedra) {
             Some(state) => (state, TRIAL_STEPS),
-            None => (start_anew(polyhedra, poses, config.start), step_limit(polyhedra)),
+            None => {
+                let beginning = match self.beginning {
+                    Some(beginning) => beginning,
+                    None => start::anew(polyhedra, poses, config.start != Start::Cold),
+                };
+                let state = State::vertex_vertex(beginning.vertices);
+                if beginning.guess == Guess::Overlapping {
+                    return Attempt::Open { at: state, is_minimum: false, steps: 0 };
+                }
+                (state, step_limit(polyhedra))
+            }
         };
         // A segment or a point has no faces to march over.
         if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
@@ -426,13 +442,6 @@ fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
 
 // What follows is out of line, for the sake of the registers of the common case.
 
-/// Where to start if not at the last features.
-#[inline(always)]
-fn start_anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: Start) -> State {
-    let (vertex1, vertex2) = start::anew(polyhedra, poses, start != Start::Cold);
-    State::vertex_vertex([vertex1, vertex2])
-}
-
 /// Whether the pair has moved so far that the tables know better than the last features where to start. Not for garbage.
 #[inline(always)]
 fn has_jumped<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
@@ -492,21 +501,30 @@ impl PairQuery<'_> {
                 if let Some(pairs) = self.cache.recall_pairs(polyhedra) {
                     return self.decide(pairs, 0);
                 }
-                simd::dispatch(&mut General { pair: self })
+                simd::dispatch(&mut General { pair: self, beginning: None })
             }
             open => open,
         };
-        match attempt {
-            Attempt::Done => Ok(()),
-            Attempt::Open { at, is_minimum: true, steps } if self.closely(at, steps) => Ok(()),
-            Attempt::Open { at, steps, .. } => self.decide(Pairs::new(&[at.vertices(polyhedra)]), steps),
-            Attempt::Unusual | Attempt::Cold => self.decide(Pairs::new(&[[0, 0]]), 0),
+        match self.settle(attempt) {
+            None => Ok(()),
+            Some((at, steps)) => self.decide(Pairs::new(&[at.vertices(polyhedra)]), steps),
         }
     }
 
-    /// Decides what marching left open; `hint` are vertex pairs to begin with, `steps` those made so far.
+    /// What an attempt left open, after a closer look: where to go on and the steps made so far.
+    fn settle(&mut self, attempt: Attempt) -> Option<(State, u32)> {
+        match attempt {
+            Attempt::Done => None,
+            Attempt::Open { at, is_minimum: true, steps } if self.closely(at, steps) => None,
+            Attempt::Open { at, steps, .. } => Some((at, steps)),
+            Attempt::Unusual | Attempt::Cold => Some((State::vertex_vertex([0, 0]), 0)),
+        }
+    }
+
+    /// Decides what marching left open; `hint` are vertex pairs to begin with, those of an intersection from the cache or one that
+    /// marching came to, `steps` those made so far.
     #[inline(never)]
-    fn decide(&mut self, hint: Pairs, steps: u32) -> Result<()> {
+    fn decide(&mut self, mut hint: Pairs, steps: u32) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, config, .. } = self;
         let limit = config.rotation_limit.min(ROTATION_LIMIT);
         let frame = Frame::<Portable>::new(polyhedra, poses, limit);
@@ -527,6 +545,22 @@ impl PairQuery<'_> {
             self.fill(&decision);
             return Ok(());
         }
+        // Bodies that intersected the last time and have jumped apart are for marching.
+        if let Some(frame) = &frame
+            && self.cache.kind > PAIRS
+            && has_jumped(frame, &self.cache.marker)
+            && let beginning = start::anew(polyhedra, poses, true)
+            && beginning.guess == Guess::Apart
+        {
+            let attempt = simd::dispatch(&mut General { pair: self, beginning: Some(beginning) });
+            match self.settle(attempt) {
+                None => return Ok(()),
+                Some((at, steps)) => {
+                    hint = Pairs::new(&[at.vertices(polyhedra)]);
+                    statistics.marching_steps = steps;
+                }
+            }
+        }
         // Cheap bounds or not, nearest points are to be nearest.
         let tight = query != Query::Intersection;
         let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), tight);
@@ -536,8 +570,8 @@ impl PairQuery<'_> {
         self.answer.statistics = statistics;
         self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
         self.fill(&decision);
-        if matches!(decision, Decision::Separated { .. }) {
-            self.remember_marker();
+        if let Some(frame) = &frame {
+            self.cache.marker = bits(frame.marker().0.to_vector());
         }
         Ok(())
     }
