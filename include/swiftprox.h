@@ -112,6 +112,30 @@ enum {
 };
 typedef int32_t swift_start;
 
+/** Which levels of detail a query goes through, of those that the shapes have. */
+enum {
+  /** Those that save time: none, but for an approximate query that a coarse level can answer. */
+  SWIFT_LEVELS_AUTOMATIC = 0,
+  /** None. */
+  SWIFT_LEVELS_NONE = 1,
+  /** All, whatever is asked (Ehmann & Lin 2000). */
+  SWIFT_LEVELS_ALL = 2
+};
+typedef int32_t swift_levels;
+
+/** Which object goes to a finer level, and by how many, when a pair of levels is too coarse. */
+enum {
+  /** The object whose level has the larger deviation, by one. */
+  SWIFT_REFINEMENT_ADAPTIVE = 0,
+  /** One object by one: that at the coarser level, object 1 where both are at the same. */
+  SWIFT_REFINEMENT_SINGLE = 1,
+  /** Both by one. */
+  SWIFT_REFINEMENT_SINGLE_SINGLE = 2,
+  /** Both by two. */
+  SWIFT_REFINEMENT_DOUBLE_DOUBLE = 3
+};
+typedef int32_t swift_refinement;
+
 /** The outcome of a pair query. */
 enum {
   /** Nothing is said yet: the value of a fresh answer. */
@@ -121,7 +145,9 @@ enum {
   /** The objects are disjoint and farther apart than the distance tolerance: only `lower` is said. */
   SWIFT_OUTCOME_BEYOND = 2,
   /** The closed objects have a common point (touching included). */
-  SWIFT_OUTCOME_INTERSECTING = 3
+  SWIFT_OUTCOME_INTERSECTING = 3,
+  /** The step budget of an approximate query ran out before the verdict: `0 = lower <= distance <= upper`. */
+  SWIFT_OUTCOME_UNDECIDED = 4
 };
 typedef int32_t swift_outcome;
 
@@ -136,7 +162,11 @@ enum {
   /** Gilbert-Johnson-Keerthi decided. */
   SWIFT_PAIR_STATUS_FALLBACK = 3,
   /** Integer arithmetic decided. */
-  SWIFT_PAIR_STATUS_EXACT = 4
+  SWIFT_PAIR_STATUS_EXACT = 4,
+  /** An approximate query stopped because its interval was narrow enough. */
+  SWIFT_PAIR_STATUS_WITHIN_TOLERANCE = 5,
+  /** The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from there. */
+  SWIFT_PAIR_STATUS_BUDGET_SPENT = 6
 };
 typedef int32_t swift_pair_status;
 
@@ -345,6 +375,19 @@ typedef struct swift_pair_config {
   swift_bounds bounds;
   /** Where marching starts. */
   swift_start start;
+  /** Of an approximate query: `upper - lower` may be as large as this ... */
+  double absolute_error;
+  /** ... or as this times `lower`. Both 0 (the default): as narrow as exact answers. */
+  double relative_error;
+  /**
+   * Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default): no limit.
+   * What marching leaves open is decided all the same, however long it takes.
+   */
+  uint32_t step_budget;
+  /** Which levels of detail a query goes through. */
+  swift_levels levels;
+  /** How it goes from level to level. */
+  swift_refinement refinement;
 } swift_pair_config;
 
 /**
@@ -368,10 +411,12 @@ typedef struct swift_feature {
 typedef struct swift_statistics {
   /** Voronoi marching: feature pairs visited. */
   uint32_t marching_steps;
-  /** Fallback: Gilbert-Johnson-Keerthi iterations in floating point. */
+  /** Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries. */
   uint32_t fallback_iterations;
   /** Exact tier: iterations in integer arithmetic (it allocates; nothing else does). */
   uint32_t exact_iterations;
+  /** The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself. */
+  uint16_t levels[2];
 } swift_statistics;
 
 /** The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal. */
@@ -466,6 +511,24 @@ typedef struct swift_scene_query {
    * tight one.
    */
   int32_t bounds;
+  /** swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0. */
+  double absolute_error;
+  /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
+  double relative_error;
+  /**
+   * swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in equal
+   * shares, whatever the two errors say. Default: infinity.
+   */
+  double error_budget;
+  /**
+   * swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default: UINT32_MAX,
+   * no limit.
+   */
+  uint32_t step_budget;
+  /** A swift_levels: which levels of detail queries go through. Default: the automatic choice. */
+  int32_t levels;
+  /** A swift_refinement: how they go from level to level. Default: the adaptive one. */
+  int32_t refinement;
 } swift_scene_query;
 
 /** One pair of convex pieces in a query's list. */
@@ -521,6 +584,17 @@ typedef struct swift_scene_statistics {
   uint64_t fallback_iterations;
   /** Iterations in integer arithmetic. */
   uint64_t exact_iterations;
+  /** Of the pairs, those that an approximate query stopped at because their interval was narrow enough. */
+  uint64_t within_tolerance;
+  /** ... of which the step budget ran out. */
+  uint64_t budget_spent;
+  /**
+   * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects themselves; the
+   * last entry is for all levels beyond, too.
+   */
+  uint64_t by_level[8];
+  /** Sum of `upper - lower` over the pairs answered as SWIFT_OUTCOME_SEPARATED. */
+  double error_spent;
 } swift_scene_statistics;
 
 
@@ -794,6 +868,21 @@ swift_status swift_pair_contact(const struct swift_shape *shape1,
                                 struct swift_pair_answer *answer);
 
 /**
+ * The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most config->absolute_error or
+ * config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the distance, `distance` is the lower end unless
+ * the answer is exact. The verdict is as certain as that of swift_pair_distance, unless config->step_budget ran out: then
+ * the status is SWIFT_BUDGET_SPENT, and the next call with the same cache goes on from there. Points and features are
+ * not said of an answer that comes from levels of detail. Arguments and errors as of swift_pair_distance.
+ */
+swift_status swift_pair_approximate(const struct swift_shape *shape1,
+                                    const double *pose1,
+                                    const struct swift_shape *shape2,
+                                    const double *pose2,
+                                    struct swift_pair_cache *cache,
+                                    const struct swift_pair_config *config,
+                                    struct swift_pair_answer *answer);
+
+/**
  * Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
  * and its witness points, an intersecting one by the exact position of the origin in its vertex pairs. SWIFT_OK: it holds for
  * these shapes and poses.
@@ -1040,6 +1129,15 @@ swift_status swift_scene_query_tolerance(struct swift_scene *scene,
 swift_status swift_scene_query_exact_distance(struct swift_scene *scene,
                                               const struct swift_scene_query *query,
                                               struct swift_scene_answer *answer);
+
+/**
+ * As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask for
+ * and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+ * (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
+ */
+swift_status swift_scene_query_approximate_distance(struct swift_scene *scene,
+                                                    const struct swift_scene_query *query,
+                                                    struct swift_scene_answer *answer);
 
 /**
  * As swift_scene_query_exact_distance, with what swift_pair_contact says of each pair. Errors as of

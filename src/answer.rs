@@ -13,6 +13,8 @@ pub enum Outcome {
     Beyond = 2,
     /// The closed objects have a common point (touching included).
     Intersecting = 3,
+    /// The step budget of an approximate query ran out before the verdict: `0 = lower ≤ distance ≤ upper`.
+    Undecided = 4,
 }
 
 /// How a pair query ended. Values are never reused.
@@ -30,6 +32,10 @@ pub enum Status {
     Fallback = 3,
     /// Integer arithmetic decided.
     Exact = 4,
+    /// An approximate query stopped because its interval was narrow enough.
+    WithinTolerance = 5,
+    /// The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from there.
+    BudgetSpent = 6,
 }
 
 /// Kind of a feature.
@@ -63,10 +69,12 @@ pub struct Feature {
 pub struct Statistics {
     /// Voronoi marching: feature pairs visited.
     pub marching_steps: u32,
-    /// Fallback: Gilbert-Johnson-Keerthi iterations in floating point.
+    /// Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries.
     pub fallback_iterations: u32,
     /// Exact tier: iterations in integer arithmetic (it allocates; nothing else does).
     pub exact_iterations: u32,
+    /// The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself.
+    pub levels: [u16; 2],
 }
 
 /// The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal.

@@ -168,14 +168,14 @@ pub fn difference<L: Lanes>(frame: &Frame<L>, [v, w]: VertexPair) -> Vector {
 
 /// −R₁ᵀ·direction and R₂ᵀ·direction.
 #[inline(always)]
-fn towards<L: Lanes>(frame: &Frame<L>, direction: &Vector) -> [L; 2] {
+pub fn towards<L: Lanes>(frame: &Frame<L>, direction: &Vector) -> [L; 2] {
     let lanes = L::from_vector(direction);
     [frame.bodies[0].rotate_back(lanes.negate()), frame.bodies[1].rotate_back(lanes)]
 }
 
 /// The interval of a simplex from its witness points, and from supports proved at `pair`.
 #[inline(always)]
-fn certify<L: Lanes>(frame: &Frame<L>, simplex: Simplex, direction: &Vector, pair: VertexPair) -> Nearest {
+pub fn certify<L: Lanes>(frame: &Frame<L>, simplex: Simplex, direction: &Vector, pair: VertexPair) -> Nearest {
     let points: [Vector; 2] = std::array::from_fn(|i| {
         let polyhedron = frame.bodies[i].polyhedron;
         let position = |k: usize| polyhedron.vertices[simplex.pairs[k][i] as usize].position;

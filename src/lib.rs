@@ -41,6 +41,7 @@ pub mod hierarchy;
 pub mod shape;
 pub mod shape_file;
 pub mod normal_cone;
+pub mod descent;
 pub mod contact_direction;
 pub mod answer;
 pub mod contact;

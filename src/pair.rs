@@ -1,9 +1,13 @@
 //! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
 
+mod levels;
+
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
 use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
 use crate::contact;
 use crate::contact_direction::contact_direction;
+pub use crate::descent::Refinement;
+use crate::descent::{Accuracy, Leveled, Place};
 use crate::enclosure::encloses_origin;
 use crate::error::{Error, Result};
 use crate::exact::VertexPair;
@@ -22,7 +26,8 @@ use crate::state::State;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct PairCache {
-    /// 0: nothing; 1 to 6: a feature pair, the number of its kind; 8 + n: n vertex pairs of an intersection.
+    /// 0: nothing; 1 to 6: a feature pair, the number of its kind; 8 + n: n vertex pairs of an intersection; 16 + the number of
+    /// its kind: a feature pair of two levels of detail, which are `pairs[0]`.
     kind: u32,
     /// The indices of a feature pair.
     indices: [u32; 2],
@@ -34,6 +39,9 @@ pub struct PairCache {
 
 /// `PairCache::kind` of no vertex pairs.
 const PAIRS: u32 = 8;
+
+/// What `PairCache::kind` of a feature pair of levels has more.
+const LEVELS: u32 = 16;
 
 impl PairCache {
     /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
@@ -57,6 +65,34 @@ impl PairCache {
     fn remember_pairs(&mut self, pairs: &[VertexPair]) {
         self.kind = PAIRS + pairs.len() as u32;
         self.pairs[..pairs.len()].copy_from_slice(pairs);
+    }
+
+    /// A place among levels, if the bodies have it. A feature pair without levels is one, too.
+    fn recall_place(&self, bodies: &Leveled) -> Option<Place> {
+        let (kind, levels) = if self.kind > LEVELS { (self.kind - LEVELS, self.pairs[0]) } else { (self.kind, [0, 0]) };
+        let coarsest = bodies.coarsest();
+        let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];
+        if levels[0] > coarsest[0] || levels[1] > coarsest[1] {
+            return None;
+        }
+        State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| Place { levels, state })
+    }
+
+    fn remember_place(&mut self, place: Place) {
+        self.kind = LEVELS + place.state.kind as u32;
+        self.indices = place.state.indices;
+        self.pairs[0] = place.levels.map(u32::from);
+        self.pairs[1] = [0; 2];
+    }
+
+    /// How many answers of one step each this place has given, one after the other; garbage is as good.
+    fn coherent_before(&self) -> u32 {
+        if self.kind > LEVELS { self.pairs[1][1].min(u32::MAX - 1) } else { 0 }
+    }
+
+    /// Steps that queries whose budget ran out have made on the way to this place.
+    fn spent_before(&self) -> u32 {
+        if self.kind > LEVELS { self.pairs[1][0] } else { 0 }
     }
 }
 
@@ -93,6 +129,19 @@ impl Start {
     }
 }
 
+/// Which levels of detail a query goes through, of those that the shapes have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Levels {
+    /// Those that save time: none, but for an approximate query that a coarse level can answer.
+    #[default]
+    Automatic = 0,
+    /// None.
+    None = 1,
+    /// All, whatever is asked (Ehmann & Lin 2000).
+    All = 2,
+}
+
 /// What a pair query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
@@ -107,6 +156,17 @@ pub struct PairConfig {
     pub bounds: Bounds,
     /// Where marching starts.
     pub start: Start,
+    /// Of an approximate query: `upper − lower` may be as large as this …
+    pub absolute_error: f64,
+    /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default): no limit.
+    /// What marching leaves open is decided all the same, however long it takes.
+    pub step_budget: u32,
+    /// Which levels of detail a query goes through.
+    pub levels: Levels,
+    /// How it goes from level to level.
+    pub refinement: Refinement,
 }
 
 impl Default for PairConfig {
@@ -117,7 +177,20 @@ impl Default for PairConfig {
             rotation_limit: ROTATION_LIMIT,
             bounds: Bounds::Tight,
             start: Start::Automatic,
+            absolute_error: 0.0,
+            relative_error: 0.0,
+            step_budget: u32::MAX,
+            levels: Levels::Automatic,
+            refinement: Refinement::Adaptive,
         }
+    }
+}
+
+impl PairConfig {
+    /// What an approximate query wants to know.
+    #[inline(always)]
+    fn accuracy(&self) -> Accuracy {
+        Accuracy { absolute: self.absolute_error, relative: self.relative_error, beyond: self.distance_tolerance }
     }
 }
 
@@ -127,6 +200,7 @@ enum Query {
     Intersection,
     Distance,
     Contact,
+    Approximate,
 }
 
 /// Exact distance with its interval, witness points, normal and features.
@@ -183,6 +257,26 @@ pub fn contact(
     query(Query::Contact, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
+/// The distance as narrow as asked for and no narrower: the interval holds the true distance, and the query stops as soon as
+/// `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact distance.
+///
+/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and features are not
+/// said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only `lower` is said.
+///
+/// # Errors
+/// As [`distance`]; [`Error::Argument`] for an error tolerance that is NaN or negative and a step budget of 0.
+pub fn approximate(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    levels::approximate([shape1, shape2], [pose1, pose2], cache, config, answer)
+}
+
 #[inline(always)]
 fn query(
     query: Query,
@@ -200,10 +294,10 @@ fn query(
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
         match simd::dispatch(&mut Coherent { pair: &mut pair }) {
             Attempt::Done => Ok(()),
-            attempt => pair.go_on(attempt),
+            attempt => pair.go_on(attempt, shapes),
         }
     } else {
-        pair.begin()
+        pair.begin(shapes)
     }
 }
 
@@ -261,7 +355,7 @@ impl Kernel for Coherent<'_, '_> {
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
         let step = marching::visit(&frame, state, &mut judge);
         if judge.accepted {
-            judge.answer.statistics = Statistics { marching_steps: 1, fallback_iterations: 0, exact_iterations: 0 };
+            judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
             return Attempt::Done;
         }
         match step {
@@ -319,7 +413,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         if !judge.accepted {
             return Attempt::Open { at, is_minimum, steps };
         }
-        judge.answer.statistics = Statistics { marching_steps: steps, fallback_iterations: 0, exact_iterations: 0 };
+        judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
         judge.cache.marker = bits(frame.marker().0.to_vector());
         Attempt::Done
@@ -389,8 +483,12 @@ impl Acceptance<'_> {
     /// Whether an interval answers the query.
     #[inline(always)]
     fn is_enough(&self, size: f64, interval: &Interval) -> bool {
-        let loose = self.query == Query::Intersection || self.config.bounds == Bounds::Verdict;
-        interval.is_tight(size) || (loose && interval.lower > 0.0)
+        interval.is_tight(size)
+            || match self.query {
+                Query::Approximate => self.config.accuracy().is_met_by(interval.lower, interval.upper),
+                Query::Intersection => interval.lower > 0.0,
+                Query::Distance | Query::Contact => self.config.bounds == Bounds::Verdict && interval.lower > 0.0,
+            }
     }
 
     /// Answer, but for the statistics, and cache from a minimum.
@@ -482,22 +580,25 @@ fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, con
 impl PairQuery<'_> {
     /// The whole query, for what is not the common case from the start.
     #[cold]
-    fn begin(&mut self) -> Result<()> {
+    fn begin(&mut self, shapes: [&Shape; 2]) -> Result<()> {
         if !(self.config.distance_tolerance >= 0.0 && self.config.rotation_limit >= 0.0) {
             return Err(bad_config(self.config));
         }
         if !self.config.start.asks_cache() {
             *self.cache = PairCache::default();
         }
-        self.go_on(Attempt::Unusual)
+        self.go_on(Attempt::Unusual, shapes)
     }
 
     /// The rest of a query whose first attempt did not answer it.
     #[inline(never)]
-    fn go_on(&mut self, attempt: Attempt) -> Result<()> {
+    fn go_on(&mut self, attempt: Attempt, shapes: [&Shape; 2]) -> Result<()> {
         let polyhedra = self.polyhedra;
         let attempt = match attempt {
             Attempt::Unusual | Attempt::Cold => {
+                if self.config.levels == Levels::All {
+                    return self.descend(shapes);
+                }
                 if let Some(pairs) = self.cache.recall_pairs(polyhedra) {
                     return self.decide(pairs, 0);
                 }
@@ -505,9 +606,14 @@ impl PairQuery<'_> {
             }
             open => open,
         };
+        self.end(attempt)
+    }
+
+    /// What an attempt at the bodies themselves left open is decided.
+    fn end(&mut self, attempt: Attempt) -> Result<()> {
         match self.settle(attempt) {
             None => Ok(()),
-            Some((at, steps)) => self.decide(Pairs::new(&[at.vertices(polyhedra)]), steps),
+            Some((at, steps)) => self.decide(Pairs::new(&[at.vertices(self.polyhedra)]), steps),
         }
     }
 

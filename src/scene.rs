@@ -11,7 +11,7 @@ use crate::activation::Activation;
 use crate::error::{Error, Result};
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::object::{Object, ObjectId, ObjectOptions, ObjectTable};
-use crate::pair::{self, Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status};
+use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
 use crate::shape::Shape;
 
 /// How a scene is made.
@@ -37,11 +37,34 @@ pub struct SceneQuery {
     pub distance_tolerance: f64,
     /// Which interval the answers carry; with a finite distance tolerance the tight one always.
     pub bounds: Bounds,
+    /// [`Scene::query_approximate_distance`]: `upper − lower` of a pair may be as large as this …
+    pub absolute_error: f64,
+    /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// [`Scene::query_approximate_distance`]: finite, it is what `upper − lower` of all tested pairs together may come to, in equal
+    /// shares, whatever the two errors say. Default: +∞.
+    pub error_budget: f64,
+    /// [`Scene::query_approximate_distance`]: as [`PairConfig::step_budget`], of each pair.
+    pub step_budget: u32,
+    /// Which levels of detail queries go through.
+    pub levels: Levels,
+    /// How they go from level to level.
+    pub refinement: Refinement,
 }
 
 impl Default for SceneQuery {
     fn default() -> Self {
-        SceneQuery { early_exit: false, distance_tolerance: f64::INFINITY, bounds: Bounds::Tight }
+        SceneQuery {
+            early_exit: false,
+            distance_tolerance: f64::INFINITY,
+            bounds: Bounds::Tight,
+            absolute_error: 0.0,
+            relative_error: 0.0,
+            error_budget: f64::INFINITY,
+            step_budget: u32::MAX,
+            levels: Levels::Automatic,
+            refinement: Refinement::Adaptive,
+        }
     }
 }
 
@@ -78,7 +101,7 @@ pub struct SceneAnswer<'a> {
 }
 
 /// What the queries of a scene did since it was made or [`Scene::reset_statistics`] was called.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneStatistics {
     /// Queries.
@@ -101,6 +124,15 @@ pub struct SceneStatistics {
     pub fallback_iterations: u64,
     /// Iterations in integer arithmetic.
     pub exact_iterations: u64,
+    /// Of the pairs, those that an approximate query stopped at because their interval was narrow enough.
+    pub within_tolerance: u64,
+    /// … of which the step budget ran out.
+    pub budget_spent: u64,
+    /// Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects themselves; the
+    /// last entry is for all levels beyond, too.
+    pub by_level: [u64; 8],
+    /// Sum of `upper − lower` over the pairs answered as [`Outcome::Separated`].
+    pub error_spent: f64,
 }
 
 impl SceneStatistics {
@@ -112,10 +144,17 @@ impl SceneStatistics {
             Status::Coherent => &mut self.coherent,
             Status::Fallback => &mut self.fallback,
             Status::Exact => &mut self.exact,
+            Status::WithinTolerance => &mut self.within_tolerance,
+            Status::BudgetSpent => &mut self.budget_spent,
         } += 1;
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);
         self.exact_iterations += u64::from(answer.statistics.exact_iterations);
+        let [level1, level2] = answer.statistics.levels.map(usize::from);
+        if answer.outcome == Outcome::Separated {
+            self.error_spent += answer.upper - answer.lower;
+        }
+        self.by_level[level1.max(level2).min(self.by_level.len() - 1)] += 1;
     }
 }
 
@@ -426,6 +465,22 @@ impl Scene {
         self.run(query, tolerance, pair::contact, |answer| within(answer, tolerance))
     }
 
+    /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower ([`pair::approximate`]). A pair whose
+    /// step budget ran out before the verdict ([`Outcome::Undecided`]) is listed and does not count as intersecting.
+    ///
+    /// # Errors
+    /// As [`Scene::query_intersection`]; [`Error::Argument`] for an error or a budget that is negative or NaN and a step budget of 0.
+    pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+        let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
+        if !(absolute_error >= 0.0 && relative_error >= 0.0 && error_budget >= 0.0 && step_budget > 0) {
+            return Err(Error::Argument(format!(
+                "the errors ({absolute_error}, {relative_error}) and their budget ({error_budget}) must be from 0 to +∞, \
+                 the step budget ({step_budget}) at least 1"
+            )));
+        }
+        self.run(query, distance_tolerance, pair::approximate, |answer| within(answer, distance_tolerance))
+    }
+
     /// What the queries did.
     pub fn statistics(&self) -> &SceneStatistics {
         &self.statistics
@@ -452,8 +507,16 @@ impl Scene {
         self.results.clear();
         self.failure = None;
         self.statistics.queries += 1;
+        let share = query.error_budget / self.pairs.len() as f64;
+        let [absolute_error, relative_error] =
+            if share < f64::INFINITY { [share, 0.0] } else { [query.absolute_error, query.relative_error] };
         let config = PairConfig {
             distance_tolerance: tolerance,
+            absolute_error,
+            relative_error,
+            step_budget: query.step_budget,
+            levels: query.levels,
+            refinement: query.refinement,
             // The cheapest bounds prove that a pair is disjoint, which need not tell on which side of a tolerance it is.
             bounds: if tolerance < f64::INFINITY { Bounds::Tight } else { query.bounds },
             ..PairConfig::default()
@@ -499,7 +562,7 @@ impl Scene {
 fn within(answer: &PairAnswer, tolerance: f64) -> bool {
     match answer.outcome {
         Outcome::Intersecting => true,
-        Outcome::Separated | Outcome::Beyond => answer.lower <= tolerance,
+        Outcome::Separated | Outcome::Beyond | Outcome::Undecided => answer.lower <= tolerance,
         Outcome::None => false,
     }
 }

@@ -117,17 +117,19 @@ impl State {
     #[inline(always)]
     pub fn vertices(self, polyhedra: [&Polyhedron; 2]) -> [u32; 2] {
         let [first, second] = self.features();
-        [vertex_of(polyhedra[0], first), vertex_of(polyhedra[1], second)]
+        [first.vertex(polyhedra[0]), second.vertex(polyhedra[1])]
     }
 }
 
-/// A vertex of a feature.
-#[inline(always)]
-fn vertex_of(polyhedron: &Polyhedron, feature: FeatureId) -> u32 {
-    match feature {
-        FeatureId::Vertex(v) => v,
-        FeatureId::Edge(e) => polyhedron.edges[e as usize].tail,
-        FeatureId::Face(f) => polyhedron.faces[f as usize].vertex,
+impl FeatureId {
+    /// A vertex of the feature, one of this polyhedron.
+    #[inline(always)]
+    pub fn vertex(self, polyhedron: &Polyhedron) -> u32 {
+        match self {
+            FeatureId::Vertex(v) => v,
+            FeatureId::Edge(e) => polyhedron.edges[e as usize].tail,
+            FeatureId::Face(f) => polyhedron.faces[f as usize].vertex,
+        }
     }
 }
 

@@ -26,6 +26,7 @@ pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer
     }
     match answer.outcome {
         Outcome::None => Err(Error::Argument("the answer holds no outcome".into())),
+        Outcome::Undecided => Err(Error::Argument("the answer holds no verdict".into())),
         Outcome::Separated | Outcome::Beyond => verify_separated(polyhedra, poses, answer),
         Outcome::Intersecting => verify_intersecting(polyhedra, poses, answer),
     }

@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 8] = [
+const SOURCES: [&str; 9] = [
     "src/lookup_build.rs",
     "src/hierarchy/mod.rs",
     "src/shape.rs",
+    "src/descent.rs",
     "src/answer.rs",
     "src/pair.rs",
     "src/object.rs",

@@ -11,9 +11,11 @@ use std::cell::Cell;
 use std::sync::Arc;
 
 use random_scene::{Random, cuboid, ellipsoid};
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Bounds, Levels, PairAnswer, PairCache, PairConfig};
+use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::Shape;
 
@@ -57,7 +59,11 @@ fn allocations(work: impl FnOnce()) -> usize {
 fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
     let mut shapes = vec![cuboid([0.5, 0.5, 0.5]), cuboid([0.1, 0.4, 1.0])];
     for half in [[0.6, 0.6, 0.6], [0.6, 0.6, 0.06], [0.6, 0.06, 0.06]] {
-        shapes.push(ellipsoid(random, 200, half, Vector::zeros()));
+        let plain = ellipsoid(random, 200, half, Vector::zeros());
+        let options = HierarchyOptions { kind: HierarchyKind::Quadric, ..HierarchyOptions::default() };
+        let leveled = (*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap();
+        assert!(!leveled.hierarchy().levels.is_empty());
+        shapes.extend([plain, Arc::new(leveled)]);
     }
     shapes
 }
@@ -71,14 +77,20 @@ fn the_counter_counts() {
 fn pair_queries_allocate_nothing() {
     let mut random = Random(5);
     let shapes = shapes(&mut random);
-    let queries = [pair::distance, pair::intersection, pair::contact];
+    let queries = [pair::distance, pair::intersection, pair::contact, pair::approximate];
     let mut without_exact_tier = 0;
     for k in 0..4_000 {
         let shape1 = &shapes[random.below(shapes.len())];
         let shape2 = &shapes[random.below(shapes.len())];
         let (pose1, pose2) = (random.pose(0.5), random.pose(0.5));
         let bounds = if k % 2 == 0 { Bounds::Tight } else { Bounds::Verdict };
-        let config = PairConfig { bounds, ..Default::default() };
+        let config = PairConfig {
+            bounds,
+            absolute_error: [0.0, 0.1, 0.01][k % 3],
+            levels: [Levels::Automatic, Levels::All, Levels::None, Levels::All][k / 2 % 4],
+            step_budget: if k % 7 == 0 { 3 } else { u32::MAX },
+            ..Default::default()
+        };
         let mut cache = PairCache::default();
         for query in queries {
             let mut answer = PairAnswer::default();
@@ -90,7 +102,7 @@ fn pair_queries_allocate_nothing() {
             without_exact_tier += usize::from(!exact_tier);
         }
     }
-    assert!(without_exact_tier > 11_000, "integer arithmetic decided all but {without_exact_tier} of 12,000");
+    assert!(without_exact_tier > 14_500, "integer arithmetic decided all but {without_exact_tier} of 16,000");
 }
 
 #[test]
@@ -127,9 +139,14 @@ fn scene_queries_allocate_nothing_after_the_first() {
             early_exit: step % 7 == 0,
             distance_tolerance: if step % 5 == 0 { 0.2 } else { f64::INFINITY },
             bounds: if step % 2 == 0 { Bounds::Tight } else { Bounds::Verdict },
+            absolute_error: if step % 3 == 0 { 0.05 } else { 0.0 },
+            error_budget: if step % 11 == 0 { 1.0 } else { f64::INFINITY },
+            levels: if step % 4 < 2 { Levels::All } else { Levels::Automatic },
+            ..SceneQuery::default()
         };
         let count = allocations(|| {
-            let answer = match step % 4 {
+            let answer = match step % 5 {
+                4 => scene.query_approximate_distance(&query),
                 0 => scene.query_intersection(&query),
                 1 => scene.query_tolerance(&query),
                 2 => scene.query_exact_distance(&query),

@@ -6,9 +6,11 @@ use std::sync::Arc;
 
 use random_scene::{Random, cuboid, ellipsoid};
 use swiftprox::error::Error;
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
@@ -479,4 +481,47 @@ fn answers_do_not_depend_on_the_past() {
     }
     // The test saw what it is about.
     assert!(seen[0] > 1_000 && seen[1] - seen[0] > 1_000, "{seen:?}");
+}
+
+/// Each pair within its error, all pairs within the budget, and what levels answered in the statistics.
+#[test]
+fn approximate_distances_and_a_budget_for_all() {
+    let mut random = Random(77);
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let options = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
+    let plain = ellipsoid(&mut random, 500, [0.6, 0.6, 0.1], Vector::zeros());
+    let shape = Arc::new((*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap());
+    for _ in 0..12 {
+        let options = ObjectOptions { pose: random.pose(3.0), ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap();
+    }
+    let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
+    let all = SceneQuery { levels: Levels::All, ..SceneQuery::default() };
+    let wide = SceneQuery { absolute_error: 0.2, ..all };
+    let budget = SceneQuery { error_budget: 6.6, ..all };
+    let tight = SceneQuery { error_budget: 1e-3, ..all };
+    for (query, error, total) in [(wide, 0.2, f64::INFINITY), (budget, 0.1, 6.6), (tight, 1e-3 / 66.0, 1e-3)] {
+        for _ in 0..2 {
+            scene.reset_statistics();
+            let answer = scene.query_approximate_distance(&query).unwrap();
+            assert_eq!(answer.pairs.len(), 66);
+            for (pair, exact) in answer.pairs.iter().zip(&exact) {
+                let (answer, exact) = (&pair.answer, &exact.answer);
+                assert_eq!(answer.outcome, exact.outcome);
+                assert!(answer.lower <= exact.upper && exact.lower <= answer.upper);
+                assert!(answer.upper - answer.lower <= error, "{answer:?}");
+            }
+            let statistics = scene.statistics();
+            assert!(statistics.error_spent <= total && statistics.by_level.iter().sum::<u64>() == 66);
+            assert_eq!(statistics.by_level[1..].iter().any(|&count| count > 0), error > 0.01, "{statistics:?}");
+        }
+    }
+    for query in [
+        SceneQuery { absolute_error: f64::NAN, ..Default::default() },
+        SceneQuery { relative_error: -1.0, ..Default::default() },
+        SceneQuery { error_budget: -1.0, ..Default::default() },
+        SceneQuery { step_budget: 0, ..Default::default() },
+    ] {
+        assert!(matches!(scene.query_approximate_distance(&query), Err(Error::Argument(_))));
+    }
 }

@@ -34,7 +34,14 @@ static const char HELP[] =
     "                        (the default)\n"
     "  --query distance      the same for disjoint objects; the verdict alone for intersecting ones\n"
     "  --query intersection  the verdict alone; lower and upper are not tight\n"
-    "  --query approximate   not available yet, nor are --error and --levels\n"
+    "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
+    "                        no witness points\n"
+    "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
+    "  --levels none         build no levels of detail (the default)\n"
+    "  --levels auto         build levels cut from outside, and use them where that saves time\n"
+    "  --levels quadric      build levels by quadric error simplification, and send all queries through them\n"
+    "  --levels dk           the same with levels after Dobkin and Kirkpatrick\n"
+    "  --levels outer        the same with levels cut from outside\n"
     "  --start auto          start at the features of the last query while the poses change little, else where the\n"
     "                        look-up tables of the models say (the default)\n"
     "  --start cache         start at the features of the last query, however far the objects moved\n"
@@ -57,7 +64,8 @@ static const char HELP[] =
     "  n              unit normal in the world frame, from B to A\n"
     "  lower, upper   the true distance lies between them, rounding included (lower is printed rounded down\n"
     "                 and upper rounded up, so this holds for the printed decimals); both 0 when intersecting\n"
-    "  status         how the query was decided: marched, coherent, fallback or exact\n"
+    "  status         how the query was decided: marched, coherent, fallback, exact, or tolerance: by\n"
+    "                 levels of detail\n"
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
@@ -78,6 +86,9 @@ struct arguments {
     swift_input input;
     swift_bounds bounds;
     swift_start start;
+    swift_hierarchy hierarchy;
+    swift_levels levels;
+    double error;
     size_t count;
     size_t passes; /* 0: answers, not times */
 };
@@ -112,10 +123,23 @@ static bool parse_count(const char *word, size_t *count)
     return true;
 }
 
+/* A number from 0 on. */
+static bool parse_error(const char *word, double *error)
+{
+    char *end;
+    const double value = strtod(word, &end);
+    if (end == word || *end != '\0' || !(value >= 0)) {
+        return false;
+    }
+    *error = value;
+    return true;
+}
+
 static bool parse_option(const char *name, const char *value, struct arguments *arguments)
 {
-    static const char *const QUERIES[] = {"contact", "distance", "intersection"};
-    static pair_query *const QUERY_FUNCTIONS[] = {swift_pair_contact, swift_pair_distance, swift_pair_intersection};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate"};
+    static pair_query *const QUERY_FUNCTIONS[] = {swift_pair_contact, swift_pair_distance, swift_pair_intersection,
+                                                  swift_pair_approximate};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
     static const swift_input INPUT_VALUES[] = {SWIFT_INPUT_STRICT, SWIFT_INPUT_FLAT, SWIFT_INPUT_HULL};
     static const char *const BOUNDS[] = {"tight", "verdict"};
@@ -123,13 +147,14 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
     static const swift_start START_VALUES[] = {SWIFT_START_AUTOMATIC, SWIFT_START_CACHE, SWIFT_START_TABLE,
                                                SWIFT_START_COLD};
+    static const char *const LEVELS[] = {"none", "auto", "quadric", "dk", "outer"};
+    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_OUTER_CUTS,
+                                                  SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
+                                                  SWIFT_HIERARCHY_OUTER_CUTS};
 
     int choice;
     if (strcmp(name, "--query") == 0) {
-        if (strcmp(value, "approximate") == 0) {
-            return wrong_usage("--query approximate is not available yet", "");
-        }
-        if ((choice = choose(value, QUERIES, 3)) < 0) {
+        if ((choice = choose(value, QUERIES, 4)) < 0) {
             return wrong_usage("--query does not know ", value);
         }
         arguments->query = QUERY_FUNCTIONS[choice];
@@ -152,8 +177,14 @@ static bool parse_option(const char *name, const char *value, struct arguments *
         return parse_count(value, &arguments->count) || wrong_usage("--count wants a number from 1 on, not ", value);
     } else if (strcmp(name, "--bench") == 0) {
         return parse_count(value, &arguments->passes) || wrong_usage("--bench wants a number from 1 on, not ", value);
-    } else {
-        return wrong_usage(name, " is not available yet");
+    } else if (strcmp(name, "--levels") == 0) {
+        if ((choice = choose(value, LEVELS, 5)) < 0) {
+            return wrong_usage("--levels does not know ", value);
+        }
+        arguments->hierarchy = HIERARCHIES[choice];
+        arguments->levels = choice < 2 ? SWIFT_LEVELS_AUTOMATIC : SWIFT_LEVELS_ALL;
+    } else { /* --error */
+        return parse_error(value, &arguments->error) || wrong_usage("--error wants a number from 0 on, not ", value);
     }
     return true;
 }
@@ -166,6 +197,8 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                                     .input = SWIFT_INPUT_STRICT,
                                     .bounds = SWIFT_BOUNDS_TIGHT,
                                     .start = SWIFT_START_AUTOMATIC,
+                                    .hierarchy = SWIFT_HIERARCHY_NONE,
+                                    .levels = SWIFT_LEVELS_AUTOMATIC,
                                     .count = SIZE_MAX};
     int files = 0;
     for (int i = 1; i < argc; i++) {
@@ -276,6 +309,8 @@ static const char *status_word(swift_pair_status status)
         return "fallback";
     case SWIFT_PAIR_STATUS_EXACT:
         return "exact";
+    case SWIFT_PAIR_STATUS_WITHIN_TOLERANCE:
+        return "tolerance";
     default:
         return "none";
     }
@@ -417,6 +452,7 @@ static bool load_shapes(const struct arguments *arguments, swift_shape *shapes[2
     swift_shape_options options;
     swift_shape_options_init(&options);
     options.input = arguments->input;
+    options.hierarchy = arguments->hierarchy;
     if (!load_shape(arguments->files[0], &options, &shapes[0])) {
         return false;
     }
@@ -435,6 +471,8 @@ static int run(const struct arguments *arguments)
     swift_pair_config_init(&job.config);
     job.config.bounds = arguments->bounds;
     job.config.start = arguments->start;
+    job.config.levels = arguments->levels;
+    job.config.absolute_error = arguments->error;
 
     int result = BAD_FILE;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {

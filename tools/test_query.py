@@ -46,7 +46,7 @@ class Query(unittest.TestCase):
         for row in rows:
             self.assertEqual(len(row), 15)
             self.assertEqual(row[1], "nan")
-            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact"))
+            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact", "tolerance"))
             self.assertGreaterEqual(int(row[14]), 0)
         return rows
 
@@ -151,16 +151,24 @@ class Query(unittest.TestCase):
         self.assertIn("--bench", self.run_tool("--help").stdout)
         self.assertRegex(self.run_tool("--version").stdout, r"^swiftprox-query \d+\.\d+\.\d+\n$")
 
-    def test_what_is_not_there_yet_is_refused(self):
-        poses = self.file("poses", APART)
-        for option in (("--query", "approximate"), ("--error", "1"), ("--start", "auto"), ("--levels", "none")):
-            self.refused(1, "not available yet", BOX, BOX, poses, *option)
+    def test_approximate_distances(self):
+        poses = "\n".join("%s %s" % (HERE, pose(3.3 + 0.01 * i, 0.2, 0.1)) for i in range(20))
+        exact = self.answers(poses, "--query", "distance", meshes=(SPHERE, PRISM))
+        for levels in ("none", "auto", "quadric", "dk", "outer"):
+            for error in (0.0, 0.01, 0.5):
+                options = ("--query", "approximate", "--error", str(error), "--levels", levels)
+                for row, true in zip(self.answers(poses, *options, meshes=(SPHERE, PRISM)), exact, strict=True):
+                    self.assertLessEqual(Decimal(row[11]), Decimal(true[12]))
+                    self.assertLessEqual(Decimal(true[11]), Decimal(row[12]))
+                    self.assertLessEqual(Decimal(row[12]) - Decimal(row[11]), max(Decimal(error), Decimal("1e-12")))
+        self.assertEqual(self.answers(INTERSECTING, "--query", "approximate", "--error", "1")[0][11:13], ["0", "0"])
 
     def test_wrong_usage_is_refused(self):
         poses = self.file("poses", APART)
         for wrong in ((), (BOX, BOX), (BOX, BOX, poses, poses), (BOX, BOX, poses, "--query"),
                       (BOX, BOX, poses, "--query", "x"), (BOX, BOX, poses, "--input", "x"),
-                      (BOX, BOX, poses, "--bounds", "x"), (BOX, BOX, poses, "--count", "-1"),
+                      (BOX, BOX, poses, "--error", "-1"), (BOX, BOX, poses, "--error", "x"),
+                      (BOX, BOX, poses, "--levels", "x"), (BOX, BOX, poses, "--bounds", "x"), (BOX, BOX, poses, "--count", "-1"),
                       (BOX, BOX, poses, "--bench", "0"), (BOX, BOX, poses, "--count", "9" * 30), (BOX, BOX, poses, "--x")):
             self.refused(1, "usage: ", *wrong)
 

@@ -21,7 +21,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
 use crate::error::Error;
-use crate::pair::{Bounds, Start};
+use crate::pair::{Bounds, Levels, Refinement, Start};
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -247,6 +247,42 @@ fn read_start(start: i32, owner: &str) -> Checked<Start> {
         _ => Err(Failure::new(
             StatusCode::ErrorInvalidArgument,
             format!("{owner}->start is {start}, which is no swift_start"),
+        )),
+    }
+}
+
+/// Which levels of detail, as C says it in a member of `owner`.
+#[inline(always)]
+fn read_levels(levels: i32, owner: &str) -> Checked<Levels> {
+    const AUTOMATIC: i32 = Levels::Automatic as i32;
+    const NONE: i32 = Levels::None as i32;
+    const ALL: i32 = Levels::All as i32;
+    match levels {
+        AUTOMATIC => Ok(Levels::Automatic),
+        NONE => Ok(Levels::None),
+        ALL => Ok(Levels::All),
+        _ => Err(Failure::new(
+            StatusCode::ErrorInvalidArgument,
+            format!("{owner}->levels is {levels}, which is no swift_levels"),
+        )),
+    }
+}
+
+/// How to go to finer levels, as C says it in a member of `owner`.
+#[inline(always)]
+fn read_refinement(refinement: i32, owner: &str) -> Checked<Refinement> {
+    const ADAPTIVE: i32 = Refinement::Adaptive as i32;
+    const SINGLE: i32 = Refinement::Single as i32;
+    const SINGLE_SINGLE: i32 = Refinement::SingleSingle as i32;
+    const DOUBLE_DOUBLE: i32 = Refinement::DoubleDouble as i32;
+    match refinement {
+        ADAPTIVE => Ok(Refinement::Adaptive),
+        SINGLE => Ok(Refinement::Single),
+        SINGLE_SINGLE => Ok(Refinement::SingleSingle),
+        DOUBLE_DOUBLE => Ok(Refinement::DoubleDouble),
+        _ => Err(Failure::new(
+            StatusCode::ErrorInvalidArgument,
+            format!("{owner}->refinement is {refinement}, which is no swift_refinement"),
         )),
     }
 }

@@ -2,8 +2,8 @@
 //! and configuration are read where the caller has them.
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_start, read_struct,
-    struct_size,
+    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_levels,
+    read_refinement, read_start, read_struct, struct_size,
 };
 use crate::error::{Error, Result};
 use crate::math::Pose;
@@ -96,6 +96,25 @@ pub unsafe extern "C" fn swift_pair_contact(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { query(pair::contact, shape1, pose1, shape2, pose2, cache, config, answer) }
+}
+
+/// The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most config->absolute_error or
+/// config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the distance, `distance` is the lower end unless
+/// the answer is exact. The verdict is as certain as that of swift_pair_distance, unless config->step_budget ran out: then
+/// the status is SWIFT_STATUS_BUDGET_SPENT, and the next call with the same cache goes on from there. Points and features are
+/// not said of an answer that comes from levels of detail. Arguments and errors as of swift_pair_distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_pair_approximate(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CPairCache,
+    config: *const PairConfig,
+    answer: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { query(pair::approximate, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
 /// Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
@@ -199,12 +218,18 @@ unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checke
         // SAFETY: as large as it says, by the caller.
         unsafe { struct_size(config) }?;
     }
-    // SAFETY: `bounds` and `start` have been members since the first version, so these bytes are there, whatever they hold.
+    // SAFETY: the enumerators have been members since the first version, so their bytes are there, whatever they hold.
     let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
     read_bounds(bounds, "config")?;
     // SAFETY: as above.
     let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
     read_start(start, "config")?;
+    // SAFETY: as above.
+    let levels = unsafe { (&raw const (*config).levels).cast::<i32>().read() };
+    read_levels(levels, "config")?;
+    // SAFETY: as above.
+    let refinement = unsafe { (&raw const (*config).refinement).cast::<i32>().read() };
+    read_refinement(refinement, "config")?;
     if size == size_of::<PairConfig>() {
         // SAFETY: as large as today's struct, and its enumerators are valid.
         return Ok(unsafe { &*config });
@@ -251,8 +276,8 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
         ]
     };
     for (name, value, last) in [
-        ("outcome", outcome, Outcome::Intersecting as i32),
-        ("status", status, Status::Exact as i32),
+        ("outcome", outcome, Outcome::Undecided as i32),
+        ("status", status, Status::BudgetSpent as i32),
         ("feature1.kind", kind1, FeatureKind::Face as i32),
         ("feature2.kind", kind2, FeatureKind::Face as i32),
     ] {

@@ -6,12 +6,12 @@ use std::sync::Arc;
 use super::shape::{CShapeOptions, read_arrays, read_options, read_path};
 use super::{
     Checked, Failure, StatusCode, Versioned, array, exclusive, guard, input, keep_panics_quiet, output, read_bounds,
-    read_struct, write_struct,
+    read_levels, read_refinement, read_struct, write_struct,
 };
 use crate::error::Result;
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::object::{ObjectId, ObjectOptions};
-use crate::pair::Bounds;
+use crate::pair::{Bounds, Levels, Refinement};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, SceneStatistics};
 use crate::shape::Shape;
 
@@ -116,6 +116,20 @@ pub struct CSceneQuery {
     /// A swift_bounds: which interval the answers carry; with a finite distance tolerance the tight one always. Default: the
     /// tight one.
     pub bounds: i32,
+    /// swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
+    pub absolute_error: f64,
+    /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in equal
+    /// shares, whatever the two errors say. Default: infinity.
+    pub error_budget: f64,
+    /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default: UINT32_MAX,
+    /// no limit.
+    pub step_budget: u32,
+    /// A swift_levels: which levels of detail queries go through. Default: the automatic choice.
+    pub levels: i32,
+    /// A swift_refinement: how they go from level to level. Default: the adaptive one.
+    pub refinement: i32,
 }
 
 // SAFETY: repr(C), struct_size first.
@@ -130,6 +144,12 @@ impl CSceneQuery {
         distance_tolerance: f64::INFINITY,
         early_exit: 0,
         bounds: Bounds::Tight as i32,
+        absolute_error: 0.0,
+        relative_error: 0.0,
+        error_budget: f64::INFINITY,
+        step_budget: u32::MAX,
+        levels: Levels::Automatic as i32,
+        refinement: Refinement::Adaptive as i32,
     };
 }
 
@@ -583,6 +603,19 @@ pub unsafe extern "C" fn swift_scene_query_exact_distance(
     unsafe { ask(Scene::query_exact_distance, scene, query, answer) }
 }
 
+/// As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask for
+/// and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+/// (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_approximate_distance(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_approximate_distance, scene, query, answer) }
+}
+
 /// As swift_scene_query_exact_distance, with what swift_pair_contact says of each pair. Errors as of
 /// swift_scene_query_intersection.
 #[unsafe(no_mangle)]
@@ -729,6 +762,12 @@ unsafe fn ask(
                 early_exit: query.early_exit != 0,
                 distance_tolerance: query.distance_tolerance,
                 bounds: read_bounds(query.bounds, "query")?,
+                absolute_error: query.absolute_error,
+                relative_error: query.relative_error,
+                error_budget: query.error_budget,
+                step_budget: query.step_budget,
+                levels: read_levels(query.levels, "query")?,
+                refinement: read_refinement(query.refinement, "query")?,
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {

@@ -98,7 +98,7 @@ fn not_as_asked(name: &str, config: &PairConfig, cold: &PairAnswer, answer: &Pai
     let points_due = match answer.outcome {
         Outcome::Separated => name != "intersection",
         Outcome::Intersecting => name == "contact",
-        Outcome::Beyond | Outcome::None => false,
+        Outcome::Beyond | Outcome::Undecided | Outcome::None => false,
     };
     let (limit, is_beyond) = (config.distance_tolerance, answer.outcome == Outcome::Beyond);
     if points_due && !is_said(&[local1, local2, world1, world2, normal]) {

@@ -1,6 +1,7 @@
 //! `compare --help`.
 
 mod answers;
+mod approximate;
 mod build_time;
 mod distance;
 #[cfg(fcl)]
@@ -33,7 +34,13 @@ fn main() -> ExitCode {
         if let Some(arguments) = &options.answers {
             return answers::run(arguments);
         }
-        if options.build { build_time::run(&options) } else { distance::run(&options) }
+        if options.approximate {
+            approximate::run(&options)
+        } else if options.build {
+            build_time::run(&options)
+        } else {
+            distance::run(&options)
+        }
     };
     match run() {
         Ok(()) => ExitCode::SUCCESS,

@@ -18,6 +18,7 @@ usage: compare [options]
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
+  --approximate     time approximate distances over the error asked for instead, with every kind of levels of detail
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -38,6 +39,7 @@ pub struct Options {
     pub workload: Option<PathBuf>,
     pub build: bool,
     pub answers: Option<[String; 4]>,
+    pub approximate: bool,
     pub csv: Option<PathBuf>,
     pub help: bool,
 }
@@ -56,6 +58,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         workload: None,
         build: false,
         answers: None,
+        approximate: false,
         csv: None,
         help: false,
     };
@@ -74,6 +77,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--workload" => options.workload = Some(value()?.into()),
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
+            "--approximate" => options.approximate = true,
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,
             _ => return Err(format!("{name}: no such option (see --help)")),

@@ -64,7 +64,7 @@ impl Method for Ours {
             _ if self.failed => f64::NAN,
             Outcome::Separated => answer.distance,
             Outcome::Intersecting => 0.0,
-            Outcome::None | Outcome::Beyond => f64::NAN,
+            Outcome::None | Outcome::Beyond | Outcome::Undecided => f64::NAN,
         };
         let statistics = &answer.statistics;
         Reply {

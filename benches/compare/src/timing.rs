@@ -20,7 +20,7 @@ pub struct Time {
 }
 
 /// Times `passes` passes over `count` loaded poses, after one pass untimed (the caller's check).
-pub fn time_methods(methods: &mut [Box<dyn Method>], count: usize, passes: usize) -> Vec<Time> {
+pub fn time_methods(methods: &mut [Box<dyn Method + '_>], count: usize, passes: usize) -> Vec<Time> {
     let mut best = vec![[f64::INFINITY; CHUNKS]; methods.len()];
     let mut totals = vec![Vec::with_capacity(passes); methods.len()];
     for _ in 0..passes {

@@ -1,0 +1,286 @@
+//! Marching across levels of detail: from coarse levels to ever finer ones, as far as the query needs (Ehmann & Lin 2000, §3 and §5.2).
+//!
+//! A level contains its body and stands off by at most its deviation. So bodies are at least as far apart as any two levels of theirs, and
+//! at most by the deviations farther: a pair of levels that is disjoint already bounds the distance from both sides, for sure. The level
+//! pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a start.
+
+use crate::certificate::{Certify, CloserLook, Minimum};
+use crate::frame::Frame;
+use crate::marching::{self, March};
+use crate::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+use crate::simd::{Kernel, Lanes};
+use crate::state::{FeatureId, State};
+
+/// Which object goes to a finer level, and by how many, when a pair of levels is too coarse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Refinement {
+    /// The object whose level has the larger deviation, by one.
+    #[default]
+    Adaptive = 0,
+    /// One object by one: that at the coarser level, object 1 where both are at the same.
+    Single = 1,
+    /// Both by one.
+    SingleSingle = 2,
+    /// Both by two.
+    DoubleDouble = 3,
+}
+
+/// How much a query wants to know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// `upper − lower` may be as large as this …
+    pub absolute: f64,
+    /// … or as this times `lower`.
+    pub relative: f64,
+    /// A distance beyond this need not be known.
+    pub beyond: f64,
+}
+
+impl Accuracy {
+    /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known.
+    #[inline(always)]
+    pub fn is_met_by(&self, lower: f64, upper: f64) -> bool {
+        let width = upper - lower;
+        lower > 0.0 && ((width <= self.absolute) | (width <= self.relative * lower) | (lower > self.beyond))
+    }
+}
+
+/// Two placed shapes with their levels; level 0 is the body itself, P₀.
+#[derive(Clone, Copy)]
+pub struct Leveled<'a> {
+    /// Body 1 and body 2.
+    pub shapes: [&'a Shape; 2],
+    /// Where they are.
+    pub poses: [&'a Pose; 2],
+}
+
+/// A pair of levels and a pair of features of theirs.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Place {
+    /// The levels of body 1 and body 2.
+    pub levels: [u16; 2],
+    /// Features of these levels.
+    pub state: State,
+}
+
+impl<'a> Leveled<'a> {
+    /// The coarsest levels.
+    pub fn coarsest(&self) -> [u16; 2] {
+        self.shapes.map(|shape| u16::try_from(shape.hierarchy().levels.len()).unwrap_or(u16::MAX))
+    }
+
+    /// The polyhedra of a pair of levels.
+    #[inline(always)]
+    pub fn polyhedra(&self, levels: [u16; 2]) -> [&'a Polyhedron; 2] {
+        [self.polyhedron(0, levels[0]), self.polyhedron(1, levels[1])]
+    }
+
+    #[inline(always)]
+    fn polyhedron(&self, i: usize, level: u16) -> &'a Polyhedron {
+        match level {
+            0 => self.shapes[i].polyhedron(),
+            level => &self.shapes[i].hierarchy().levels[usize::from(level) - 1].polyhedron,
+        }
+    }
+
+    /// How far a level stands off from its body, at most, in the body's own frame.
+    #[inline(always)]
+    pub fn deviation(&self, i: usize, level: u16) -> f64 {
+        match level {
+            0 => 0.0,
+            level => self.shapes[i].hierarchy().levels[usize::from(level) - 1].deviation,
+        }
+    }
+
+    /// The features of finer (or the same) levels that belong to those of a place.
+    pub fn descended(&self, from: Place, to: [u16; 2]) -> Place {
+        let mut features = from.state.features();
+        for (i, feature) in features.iter_mut().enumerate() {
+            for level in (to[i]..from.levels[i]).rev() {
+                *feature = self.shapes[i].hierarchy().levels[usize::from(level)].children.of(*feature);
+            }
+        }
+        self.place(to, features)
+    }
+
+    fn place(&self, levels: [u16; 2], features: [FeatureId; 2]) -> Place {
+        let polyhedra = self.polyhedra(levels);
+        // There is no state of an edge and a face.
+        let vertices = || State::vertex_vertex([0, 1].map(|i| features[i].vertex(polyhedra[i])));
+        Place { levels, state: State::of_features(features).unwrap_or_else(vertices) }
+    }
+
+    /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap` of the levels
+    /// being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by no more than `most`.
+    pub fn climbed(&self, from: Place, gap: f64, most: f64) -> Place {
+        let coarsest = self.coarsest();
+        let Place { mut levels, state } = from;
+        let mut features = state.features();
+        let (mut left, mut off) = (gap, self.deviation(0, levels[0]) + self.deviation(1, levels[1]));
+        loop {
+            let rise = |i: usize| match levels[i] < coarsest[i] {
+                true => self.deviation(i, levels[i] + 1) - self.deviation(i, levels[i]),
+                false => f64::INFINITY,
+            };
+            let i = if rise(0) <= rise(1) { 0 } else { 1 };
+            let rise = rise(i);
+            // False where no level is left.
+            if !(rise < left && off + rise <= most) {
+                return self.place(levels, features);
+            }
+            left -= rise;
+            off += rise;
+            features[i] = self.shapes[i].hierarchy().levels[usize::from(levels[i])].parents.of(features[i]);
+            levels[i] += 1;
+        }
+    }
+
+    /// The finer levels that come next.
+    fn refined(&self, [level1, level2]: [u16; 2], refinement: Refinement) -> [u16; 2] {
+        let first = match refinement {
+            Refinement::SingleSingle => return [level1.saturating_sub(1), level2.saturating_sub(1)],
+            Refinement::DoubleDouble => return [level1.saturating_sub(2), level2.saturating_sub(2)],
+            Refinement::Single => level1 >= level2,
+            Refinement::Adaptive => self.deviation(0, level1) >= self.deviation(1, level2),
+        };
+        if level2 == 0 || (first && level1 > 0) { [level1 - 1, level2] } else { [level1, level2 - 1] }
+    }
+}
+
+/// What a pair of levels says of its bodies.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Found {
+    /// The levels and the features where they are nearest.
+    pub place: Place,
+    /// A lower bound of the bodies' distance, above 0: that of the levels' distance.
+    pub lower: f64,
+    /// An upper bound of the bodies' distance.
+    pub upper: f64,
+    /// The unit direction, from body 2 to body 1, along which the bodies are `lower` apart.
+    pub normal: Vector,
+}
+
+/// What a search came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Descended {
+    /// An interval as narrow as was asked for, or beyond what has to be known: the one found.
+    Enough,
+    /// The bodies themselves have to be looked at, from the place reached.
+    Finest,
+    /// The trial took too long.
+    Lost,
+    /// The steps are spent.
+    Spent,
+}
+
+/// A search from a place on. It is lent to the kernel and keeps what it finds.
+pub struct Descent<'a> {
+    /// What is searched.
+    pub bodies: Leveled<'a>,
+    /// What is asked for.
+    pub accuracy: Accuracy,
+    /// How it goes to finer levels.
+    pub refinement: Refinement,
+    /// Largest accepted entry of |RᵀR − I|.
+    pub rotation_limit: f64,
+    /// Where it is; the features are features of the levels.
+    pub place: Place,
+    /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
+    pub is_trial: bool,
+    /// Steps of marching that it may make, at least 1.
+    pub step_limit: u32,
+    /// Steps made.
+    pub steps: u32,
+    /// The last that a pair of disjoint levels said.
+    pub found: Option<Found>,
+}
+
+/// Steps of a trial.
+const TRIAL_STEPS: u32 = 3;
+
+impl Kernel for Descent<'_> {
+    type Output = Descended;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Descended {
+        let Leveled { poses, .. } = self.bodies;
+        while self.place.levels != [0, 0] {
+            let Place { levels, state } = self.place;
+            let polyhedra = self.bodies.polyhedra(levels);
+            let frame = Frame::<L>::new(polyhedra, poses, self.rotation_limit);
+            if frame.usual {
+                let all = 64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32;
+                let limit = if self.is_trial { TRIAL_STEPS } else { all }.min(self.step_limit - self.steps);
+                let mut keep = Keep { interval: [f64::NEG_INFINITY, f64::INFINITY], normal: L::splat(0.0) };
+                let (march, more) = marching::march(&frame, state, limit, &mut keep);
+                self.steps += more;
+                let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
+                self.place.state = at;
+                if march == March::Minimum(at) {
+                    // Ties and skewed rotations.
+                    if !(keep.interval[0] > f64::NEG_INFINITY) {
+                        look_closer(&frame, &mut keep, at);
+                    }
+                    let [lower, upper] = keep.interval;
+                    if lower > 0.0 {
+                        // Ends of the shortest connection of the levels have points of the bodies within the deviations.
+                        let off1 = self.bodies.deviation(0, levels[0]) * stretch(&frame, poses[0]);
+                        let off2 = self.bodies.deviation(1, levels[1]) * stretch(&frame, poses[1]);
+                        let upper = (upper + off1 + off2) * (1.0 + 8.0 * U);
+                        let normal = keep.normal.to_vector();
+                        self.found = Some(Found { place: self.place, lower, upper, normal });
+                        if self.accuracy.is_met_by(lower, upper) {
+                            return Descended::Enough;
+                        }
+                    }
+                }
+                if self.steps >= self.step_limit {
+                    return Descended::Spent;
+                }
+                if self.is_trial && march == March::Limit(at) {
+                    return Descended::Lost;
+                }
+            }
+            self.is_trial = false;
+            self.place = self.bodies.descended(self.place, self.bodies.refined(levels, self.refinement));
+        }
+        Descended::Finest
+    }
+}
+
+/// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.
+#[inline(always)]
+fn stretch<L: Lanes>(frame: &Frame<L>, pose: &Pose) -> f64 {
+    // Rounding leaves 25u at most, see `certificate::RIGID_MISFIT`; as computed the defect is right to 4u.
+    if frame.rigid { 1.0 + 64.0 * U } else { 1.0 + 1.5 * (pose.rotation_defect() + 16.0 * U) }
+}
+
+/// The interval of the levels' distance and the unit direction at a minimum.
+struct Keep<L> {
+    /// Lower and upper end.
+    interval: [f64; 2],
+    normal: L,
+}
+
+impl<L: Lanes> Certify<L> for Keep<L> {
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, _: State, minimum: &Minimum<L>) {
+        let interval = minimum.gap(frame).interval;
+        self.interval = [interval.lower, interval.upper];
+        self.normal = minimum.direction.mul(L::splat(minimum.inverse));
+    }
+}
+
+/// What a quick look at a minimum leaves open.
+#[inline(always)]
+fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
+    let mut closer = CloserLook::<L, false> { found: None };
+    marching::visit(frame, at, &mut closer);
+    if let Some((minimum, gap)) = &closer.found {
+        keep.interval = [gap.interval.lower, gap.interval.upper];
+        keep.normal = minimum.direction.mul(L::splat(minimum.inverse));
+    }
+}

@@ -1,0 +1,377 @@
+//! Approximate queries, and queries through levels of detail: more than a million over all settings, each against the exact query's
+//! interval. The verdict is the exact one, the intervals have a number in common, none is wider than asked for, whatever the cache.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicUsize, Ordering};
+
+use common::models::{cuboid, ellipsoid, prism, random_hull};
+use common::random::{Random, rotation};
+use swiftprox::error::Error;
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify;
+
+const KINDS: [HierarchyKind; 4] =
+    [HierarchyKind::None, HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
+
+const REFINEMENTS: [Refinement; 4] =
+    [Refinement::Adaptive, Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble];
+
+/// Bodies of many kinds, with every kind of levels.
+fn shapes() -> Vec<Shape> {
+    let mut meshes: Vec<PolygonMesh> = Vec::new();
+    for half_axes in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]] {
+        meshes.extend([100, 600].map(|n| ellipsoid(half_axes, n).unwrap()));
+    }
+    meshes.extend([random_hull(200, 5).unwrap(), prism(48, 0.3).unwrap(), cuboid([0.4, 0.9, 0.2]).unwrap()]);
+    let mut shapes = Vec::new();
+    for (i, mesh) in meshes.iter().enumerate() {
+        for kind in KINDS {
+            let hierarchy = HierarchyOptions {
+                kind,
+                decimation: [0.25, 0.5][i % 2],
+                minimum_triangles: [50, 12][i / 2 % 2],
+                ..HierarchyOptions::default()
+            };
+            // One in three far from its own origin, sizes from a thousandth to a thousand.
+            let translation = Vector::new(1e3, -2.0, 7.0) * if i % 3 == 2 { 1.0 } else { 0.0 };
+            let scale = [1.0, 1e-3, 1e3][(i + shapes.len()) % 3];
+            let options = ShapeOptions { hierarchy, translation, scale, ..ShapeOptions::default() };
+            shapes.push(Shape::from_mesh(mesh, &options).unwrap());
+        }
+    }
+    // Large enough for levels to be chosen automatically.
+    for (half_axes, kind) in [([1.0, 0.3, 0.1], HierarchyKind::Quadric), ([1.0, 1.0, 0.1], HierarchyKind::OuterCuts)] {
+        let hierarchy = HierarchyOptions { kind, ..HierarchyOptions::default() };
+        let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+        shapes.push(Shape::from_mesh(&ellipsoid(half_axes, 8_000).unwrap(), &options).unwrap());
+    }
+    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(|[x, y]| Vector::new(x, y, 0.0));
+    for count in [1, 2, 4] {
+        shapes.push(Shape::from_points(&square[..count], &options).unwrap());
+    }
+    shapes
+}
+
+/// What went wrong and how often something was checked.
+#[derive(Default)]
+struct Tally {
+    queries: usize,
+    by_levels: usize,
+    spent: usize,
+    intersecting: usize,
+    violations: Vec<String>,
+}
+
+struct Session<'a> {
+    shapes: [&'a Shape; 2],
+    poses: [Pose; 2],
+    random: Random,
+    /// Whatever the queries before have left.
+    warm: PairCache,
+    tally: Tally,
+}
+
+type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
+
+impl Session<'_> {
+    fn ask(&self, query: Query, cache: &mut PairCache, config: &PairConfig) -> PairAnswer {
+        let mut answer = PairAnswer::default();
+        let ([shape1, shape2], [pose1, pose2]) = (self.shapes, &self.poses);
+        query(shape1, pose1, shape2, pose2, cache, config, &mut answer).unwrap();
+        answer
+    }
+
+    fn radius(&self) -> f64 {
+        self.shapes[0].polyhedron().radius + self.shapes[1].polyhedron().radius
+    }
+
+    /// Any setting that approximate queries have.
+    fn any_config(&mut self) -> PairConfig {
+        let random = &mut self.random;
+        let size = self.shapes[0].polyhedron().radius + self.shapes[1].polyhedron().radius;
+        let error = |random: &mut Random| match random.below(8) {
+            0 | 1 => 0.0,
+            k => 10f64.powi(1 - k as i32),
+        };
+        PairConfig {
+            absolute_error: size * error(random),
+            relative_error: error(random),
+            distance_tolerance: if random.below(4) == 0 { size * error(random) } else { f64::INFINITY },
+            step_budget: if random.below(8) == 0 { 1 + random.below(12) as u32 } else { u32::MAX },
+            levels: random.pick(&[Levels::Automatic, Levels::None, Levels::All, Levels::All]),
+            refinement: random.pick(&REFINEMENTS),
+            ..PairConfig::default()
+        }
+    }
+
+    /// One pose: the exact answer, then many others.
+    fn check(&mut self) {
+        let exact = self.ask(pair::distance, &mut PairCache::default(), &PairConfig::default());
+        self.tally.intersecting += usize::from(exact.outcome == Outcome::Intersecting);
+        for k in 0..8 {
+            let config = self.any_config();
+            let queries: [Query; 4] = [pair::approximate, pair::distance, pair::intersection, pair::contact];
+            let which = if k < 6 { 0 } else { 1 + self.random.below(3) };
+            let mut cache = match self.random.below(8) {
+                0 => PairCache::default(),
+                1 => garbage(&mut self.random),
+                _ => self.warm,
+            };
+            let answer = self.ask(queries[which], &mut cache, &config);
+            self.warm = cache;
+            self.tally.queries += 1;
+            self.tally.by_levels += usize::from(answer.statistics.levels != [0, 0]);
+            self.tally.spent += usize::from(answer.status == Status::BudgetSpent);
+            if let Err(what) = self.judge(which, &exact, &answer, &config) {
+                self.tally
+                    .violations
+                    .push(format!("{what}: {answer:?}, exactly {exact:?}, {config:?}, {:?}", self.poses));
+            }
+        }
+    }
+
+    fn judge(
+        &mut self,
+        which: usize,
+        exact: &PairAnswer,
+        answer: &PairAnswer,
+        config: &PairConfig,
+    ) -> Result<(), String> {
+        let is_intersecting = exact.outcome == Outcome::Intersecting;
+        match answer.outcome {
+            Outcome::Undecided if answer.status == Status::BudgetSpent && answer.lower == 0.0 => {}
+            Outcome::Intersecting if is_intersecting => return self.verify_some(answer),
+            Outcome::Separated if !is_intersecting && answer.lower <= config.distance_tolerance => {}
+            Outcome::Beyond if !is_intersecting && answer.lower > config.distance_tolerance => {}
+            _ => return Err("the verdict is wrong".into()),
+        }
+        // Both intervals hold the true distance.
+        if !(answer.lower <= exact.upper && answer.upper >= exact.lower) {
+            return Err("the interval is wrong".into());
+        }
+        let reach = self.poses.iter().map(|pose| pose.translation().amax()).fold(0.0, f64::max);
+        let widest = 1e-13 * (self.radius().max(answer.upper) + 2e-3 * reach);
+        let asked = config.absolute_error.max(config.relative_error * answer.lower);
+        // An intersection query promises no width.
+        let tolerance = [asked, 0.0, f64::INFINITY, 0.0][which].max(widest);
+        let is_answered = answer.outcome == Outcome::Separated && answer.status != Status::BudgetSpent;
+        if is_answered && !(answer.upper - answer.lower <= tolerance) {
+            return Err("the interval is too wide".into());
+        }
+        let [level1, level2] = answer.statistics.levels.map(usize::from);
+        let [most1, most2] = self.shapes.map(|shape| shape.hierarchy().levels.len());
+        if level1 > most1 || level2 > most2 || (config.levels == Levels::None && level1 + level2 > 0) {
+            return Err("there are no such levels".into());
+        }
+        if answer.outcome == Outcome::Undecided { Ok(()) } else { self.verify_some(answer) }
+    }
+
+    /// `verify` takes time in proportion to the vertices.
+    fn verify_some(&mut self, answer: &PairAnswer) -> Result<(), String> {
+        if self.random.below(16) > 0 {
+            return Ok(());
+        }
+        let ([shape1, shape2], [pose1, pose2]) = (self.shapes, &self.poses);
+        verify(shape1, pose1, shape2, pose2, answer).map_err(|e| e.to_string())
+    }
+}
+
+fn garbage(random: &mut Random) -> PairCache {
+    // A feature pair of levels is what most bits are not.
+    const WORDS: usize = size_of::<PairCache>() / 4;
+    let words: [u32; WORDS] = std::array::from_fn(|i| match i {
+        0 => random.below(26) as u32,
+        1 | 2 => random.below(300) as u32,
+        _ => [random.below(5) as u32, random.next_u64() as u32][usize::from(random.below(8) == 0)],
+    });
+    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
+    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
+    unsafe {
+        std::mem::transmute::<[u32; WORDS], PairCache>(words)
+    }
+}
+
+/// A pose pair: near enough to meet or well apart, sometimes skewed, sometimes far from the origin.
+fn any_poses(shapes: [&Shape; 2], random: &mut Random) -> [Pose; 2] {
+    let size = shapes[0].polyhedron().radius + shapes[1].polyhedron().radius;
+    let far = if random.below(4) == 0 { 10f64.powi(2 + random.below(8) as i32) * size } else { 0.0 };
+    let far = far * random.direction();
+    let skew = if random.below(4) == 0 { 10f64.powi(-3 - random.below(5) as i32) } else { 0.0 };
+    let reach = size * [0.6, 1.2, 3.0][random.below(3)];
+    let apart = [Vector::zeros(), random.vector() * reach];
+    std::array::from_fn(|i| {
+        let turn = random.rotation() + Matrix::from_fn(|_, _| skew * random.signed());
+        let centre = shapes[i].polyhedron().mass.centre_of_mass;
+        Pose::new(&turn, &(far + apart[i] - turn * centre))
+    })
+}
+
+/// A step of body 2: most are small.
+fn step(pose: &Pose, size: f64, random: &mut Random) -> Pose {
+    let by = 10f64.powi(-1 - random.below(4) as i32);
+    let turn = rotation(&random.direction(), by);
+    Pose::new(&(turn * pose.rotation()), &(pose.translation() + random.vector() * (by * size)))
+}
+
+#[test]
+fn a_million_approximate_queries_hold_the_exact_distance() {
+    const CHUNKS: usize = 2_800;
+    let shapes = shapes();
+    let next = AtomicUsize::new(0);
+    let total: Mutex<Tally> = Mutex::default();
+    let work = || {
+        loop {
+            let chunk = next.fetch_add(1, Ordering::Relaxed);
+            if chunk >= CHUNKS {
+                return;
+            }
+            let mut random = Random::new(0xa99 + chunk as u64);
+            let pair = [random.below(shapes.len()), random.below(shapes.len())].map(|i| &shapes[i]);
+            let poses = any_poses(pair, &mut random);
+            let size = pair[0].polyhedron().radius + pair[1].polyhedron().radius;
+            let mut session =
+                Session { shapes: pair, poses, random, warm: PairCache::default(), tally: Tally::default() };
+            for _ in 0..50 {
+                session.check();
+                session.poses[1] = step(&session.poses[1], size, &mut session.random);
+                if session.random.below(16) == 0 || session.poses[1].check(5e-3).is_err() {
+                    session.poses = any_poses(pair, &mut session.random);
+                }
+            }
+            let mut total = total.lock().unwrap();
+            total.queries += session.tally.queries;
+            total.by_levels += session.tally.by_levels;
+            total.spent += session.tally.spent;
+            total.intersecting += session.tally.intersecting;
+            total.violations.extend(session.tally.violations);
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        work();
+    });
+    let Tally { queries, by_levels, spent, intersecting, mut violations } = total.into_inner().unwrap();
+    println!(
+        "{queries} queries, {by_levels} answered by levels, {spent} ended by their budget, {intersecting} poses intersecting"
+    );
+    violations.sort_by_key(String::len);
+    assert!(violations.is_empty(), "{} violations: {}", violations.len(), violations[0]);
+    assert!(queries >= 1_000_000 && by_levels > 100_000 && spent > 10_000 && intersecting > 10_000);
+}
+
+/// Two ellipsoids with levels, apart or overlapping.
+fn leveled_pair(kind: HierarchyKind) -> [Shape; 2] {
+    [[1.0, 1.0, 0.1], [1.0, 0.1, 0.1]].map(|half_axes| {
+        let hierarchy = HierarchyOptions { kind, ..HierarchyOptions::default() };
+        let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+        Shape::from_mesh(&ellipsoid(half_axes, 1002).unwrap(), &options).unwrap()
+    })
+}
+
+/// However small the budget, the interval holds, and query after query comes nearer to the answer until it is there.
+#[test]
+fn a_query_goes_on_where_its_budget_ran_out() {
+    for kind in KINDS {
+        let [a, b] = leveled_pair(kind);
+        let mut random = Random::new(7);
+        let (mut spent, mut intersecting) = (0, 0);
+        for k in 0..150 {
+            let poses = any_poses([&a, &b], &mut random);
+            let session = Session {
+                shapes: [&a, &b],
+                poses,
+                random: Random::new(k),
+                warm: PairCache::default(),
+                tally: Tally::default(),
+            };
+            let exact = session.ask(pair::distance, &mut PairCache::default(), &PairConfig::default());
+            for levels in [Levels::All, Levels::None] {
+                let budget = 1 + (k % 6) as u32;
+                let config = PairConfig { step_budget: budget, levels, ..PairConfig::default() };
+                let mut cache = PairCache::default();
+                for round in 0.. {
+                    let answer = session.ask(pair::approximate, &mut cache, &config);
+                    assert!(answer.lower <= exact.upper && answer.upper >= exact.lower, "{answer:?} {exact:?}");
+                    if answer.status != Status::BudgetSpent {
+                        assert_eq!(answer.outcome, exact.outcome);
+                        assert!(answer.upper - answer.lower <= 1e-13 * (2.0 + 2e-3 * poses[0].translation().amax()));
+                        intersecting += usize::from(answer.outcome == Outcome::Intersecting);
+                        break;
+                    }
+                    assert!(answer.statistics.marching_steps <= budget, "{answer:?}");
+                    assert!(
+                        answer.outcome != Outcome::Intersecting
+                            && (answer.lower > 0.0) == (answer.outcome == Outcome::Separated)
+                    );
+                    spent += 1;
+                    assert!(round < 1200, "{answer:?} {exact:?}");
+                }
+            }
+        }
+        assert!(spent > 500 && intersecting > 10, "{spent} {intersecting}");
+    }
+}
+
+#[test]
+fn coarse_questions_are_answered_by_coarse_levels() {
+    for kind in &KINDS[1..] {
+        let [a, b] = leveled_pair(*kind);
+        let apart = Pose::new(&Matrix::identity(), &Vector::new(0.3, 0.2, 1.5));
+        let ask = |query: Query, config: PairConfig| {
+            let mut answer = PairAnswer::default();
+            query(&a, &Pose::IDENTITY, &b, &apart, &mut PairCache::default(), &config, &mut answer).unwrap();
+            answer
+        };
+        let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
+        // The coarsest pair of levels that is disjoint decides an intersection query.
+        let verdict = ask(pair::intersection, all);
+        assert!(verdict.statistics.levels.iter().all(|&level| level > 0), "{verdict:?}");
+        // The larger the error, the coarser the levels; exactly, the objects themselves.
+        let mut finer = u16::MAX;
+        for error in [0.3, 0.1, 0.03, 0.0] {
+            let answer = ask(pair::approximate, PairConfig { absolute_error: error, ..all });
+            let level = answer.statistics.levels.into_iter().max().unwrap();
+            assert!(level <= finer && answer.upper - answer.lower <= error.max(1e-13), "{answer:?}");
+            finer = level;
+        }
+        assert_eq!(finer, 0);
+        let exact = ask(pair::distance, all);
+        assert_eq!((exact.statistics.levels, exact.status), ([0, 0], Status::Marched));
+        // Beyond the tolerance the coarsest levels may tell.
+        let beyond = ask(pair::approximate, PairConfig { distance_tolerance: 0.5, ..all });
+        assert_eq!(beyond.outcome, Outcome::Beyond);
+        assert!(beyond.statistics.levels.iter().all(|&level| level > 0), "{beyond:?}");
+        assert_eq!(ask(pair::distance, PairConfig { distance_tolerance: 0.5, ..all }).outcome, Outcome::Beyond);
+    }
+}
+
+#[test]
+fn settings_out_of_range_are_refused() {
+    let [a, b] = leveled_pair(HierarchyKind::None);
+    let good = PairConfig::default();
+    for config in [
+        PairConfig { absolute_error: -1.0, ..good },
+        PairConfig { absolute_error: f64::NAN, ..good },
+        PairConfig { relative_error: -1e-300, ..good },
+        PairConfig { relative_error: f64::NAN, ..good },
+        PairConfig { distance_tolerance: f64::NAN, ..good },
+        PairConfig { rotation_limit: -1.0, ..good },
+        PairConfig { step_budget: 0, ..good },
+    ] {
+        for levels in [Levels::Automatic, Levels::All] {
+            let config = PairConfig { levels, ..config };
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            let result = pair::approximate(&a, &Pose::IDENTITY, &b, &Pose::IDENTITY, &mut cache, &config, &mut answer);
+            assert!(matches!(result, Err(Error::Argument(_))), "{config:?}");
+            assert_eq!((answer.outcome, cache), (Outcome::None, PairCache::default()));
+        }
+    }
+}
