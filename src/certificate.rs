@@ -118,7 +118,9 @@ impl<L: Lanes> Minimum<L> {
             [_, FeatureId::Edge(second)] => across(1, axis(1, second)?),
             _ => return None,
         };
-        Some(Minimum { direction, inverse: reciprocal_length(direction.dot(direction)), ..*self })
+        let inverse = reciprocal_length(direction.dot(direction));
+        let reach = direction.dot(self.difference) * inverse;
+        Some(Minimum { direction, inverse, reach, ..*self })
     }
 }
 
