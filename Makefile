@@ -1,5 +1,10 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
 # make test                   everything that is tested: lint, test-rust and test-c
+# make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
+# make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
+# make tsan                   tests with threads under the thread sanitizer
+# make miri                   unit tests under Miri
+# make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -14,6 +19,8 @@ MODELS =
 CASES =
 ANSWERS =
 TESTING = OFF
+SECONDS = 15
+TARGET =
 # gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
 CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
@@ -21,7 +28,7 @@ COAL = $(BUILD)/coal/bin/python
 STABILITY = benches/results/stability
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c bench stability cases hard clean
+.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench stability cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -51,6 +58,38 @@ test-c:
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
+
+# Each target begins with its corpus in fuzz/corpus. Without nightly Rust the address sanitizer is left out; the script says so.
+fuzz:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++
+	scripts/fuzz.sh $(SECONDS) $(TARGET)
+
+# What needs nightly Rust, or a component of it, is skipped where that is missing; scripts/nightly.sh says so. The tests are those
+# of unsafe code and of everything that reads what others wrote; C programs are compiled for both sanitizers, the library is not.
+ASAN_TESTS = --lib --test c_interface --test mesh_io --test hull --test hull_check --test verify --test flat_edges
+HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+asan:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake
+	RUSTFLAGS=-Zsanitizer=address scripts/nightly.sh "" test --locked --profile checked --target $(HOST) $(ASAN_TESTS)
+	cmake -S . -B $(BUILD)/asan -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=ON \
+	    -DCMAKE_C_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
+	cmake --build $(BUILD)/asan --target scene_use bad_input threads
+	ctest --test-dir $(BUILD)/asan --output-on-failure --tests-regex '^(scene_use|bad_input|threads)$$'
+
+# The standard library is built for it, too: else its locks look like races.
+tsan:
+	@scripts/require.sh $(CC_PACKAGES)
+	RUSTFLAGS=-Zsanitizer=thread scripts/nightly.sh rust-src test --locked --profile checked -Zbuild-std --target $(HOST) \
+	    --lib --test c_interface --test threads
+
+miri:
+	@scripts/require.sh $(CC_PACKAGES)
+	MIRIFLAGS=-Zmiri-disable-isolation scripts/nightly.sh "miri rust-src" miri test --locked --lib
+
+valgrind:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake valgrind=valgrind
+	$(MAKE) build TESTING=ON
+	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure --tests-regex '_under_(valgrind|helgrind)$$'
 
 # Without FCL, or pkg-config to find it, FCL is left out.
 bench:
@@ -89,4 +128,4 @@ hard:
 
 clean:
 	cargo clean
-	rm -rf $(BUILD) benches/compare/target
+	rm -rf $(BUILD) benches/compare/target fuzz/target

@@ -289,3 +289,50 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
     // SAFETY: its enumerators are valid, and any other bytes are.
     Ok(unsafe { &*answer })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::library::swift_library_last_error_message;
+    use super::*;
+    use crate::math::Vector;
+    use crate::shape::ShapeOptions;
+    use std::ffi::CStr;
+    use std::ptr::null;
+
+    #[test]
+    fn a_panic_in_a_query_resets_its_answer_and_cache_and_no_other() {
+        let corners = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        let shape = Shape::from_points(&corners, &ShapeOptions::default()).unwrap();
+        let poses = [0.0, 3.0].map(|x| [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
+        let ask = |inject: bool, cache: &mut CPairCache, answer: &mut PairAnswer| {
+            let (pose1, pose2) = (poses[0].as_ptr(), poses[1].as_ptr());
+            // SAFETY: every pointer is valid, and cache and answer are this call's.
+            unsafe {
+                if inject {
+                    query(|_, _, _, _, _, _, _| panic!("injected"), &shape, pose1, &shape, pose2, cache, null(), answer)
+                } else {
+                    swift_pair_distance(&shape, pose1, &shape, pose2, cache, null(), answer)
+                }
+            }
+        };
+        std::thread::scope(|threads| {
+            for breaks in [true, false, true, false] {
+                threads.spawn(move || {
+                    let (mut cache, mut answer) = (CPairCache::default(), PairAnswer::default());
+                    for _ in 0..50 {
+                        assert_eq!(ask(false, &mut cache, &mut answer), StatusCode::Ok);
+                        assert!(answer.lower <= 2.0 && 2.0 <= answer.upper, "{answer:?}");
+                        if breaks {
+                            assert_ne!(cache.words, [0; 24]);
+                            assert_eq!(ask(true, &mut cache, &mut answer), StatusCode::ErrorBug);
+                            assert_eq!((cache.words, answer), ([0; 24], PairAnswer::default()));
+                            // SAFETY: never null, terminated, unchanged until this thread's next failure.
+                            let message = unsafe { CStr::from_ptr(swift_library_last_error_message()) };
+                            assert!(message.to_string_lossy().contains("bug in swiftprox"), "{message:?}");
+                        }
+                    }
+                });
+            }
+        });
+    }
+}

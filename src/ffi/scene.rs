@@ -788,6 +788,7 @@ unsafe fn ask(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::shape::ShapeOptions;
     use std::ffi::CStr;
     use std::ptr::{null, null_mut};
 
@@ -824,6 +825,36 @@ mod tests {
             assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
             assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
         }
+    }
+
+    #[test]
+    fn a_panic_in_a_query_poisons_its_scene_and_none_that_shares_its_shapes() {
+        let corners = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        let shape = Arc::new(Shape::from_points(&corners, &ShapeOptions::default()).unwrap());
+        let (broken, sound) = (new_scene(), new_scene());
+        let pieces = [Arc::as_ptr(&shape)];
+        let mut id = ObjectId::NULL;
+        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7 };
+        // SAFETY: living scenes, used by this thread only, a living shape, and room for every output.
+        unsafe {
+            for scene in [broken, broken, sound, sound] {
+                assert_eq!(swift_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
+            }
+            let run = |scene: &mut Scene, query: &SceneQuery| -> Result<SceneAnswer<'static>> {
+                // Half of it is done.
+                let _ = scene.query_contacts(query);
+                panic!("injected")
+            };
+            assert_eq!(ask(run, broken, null(), &mut answer), StatusCode::ErrorBug);
+            assert_eq!((answer.count, answer.intersecting), (0, 0));
+            assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!((answer.count, answer.intersecting), (1, 1));
+            assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
+            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
+        }
+        assert_eq!(Arc::strong_count(&shape), 1, "a poisoned scene gives its shares back, too");
     }
 
     #[test]

@@ -1,0 +1,165 @@
+/*
+ * What several threads may do at once by the header's rules: pair queries on shapes that all share, each with a cache of its own;
+ * shares taken and given back; const calls on one scene; scenes of their own over the same shapes; failures, whose messages are
+ * each thread's own. Run under helgrind it shows that nothing is shared behind the caller's back.
+ *
+ *     threads [rounds]
+ */
+#include <pthread.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "swiftprox.h"
+
+enum { THREADS = 4, SHAPES = 3, STEPS = 16 };
+
+static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+
+static swift_shape *shapes[SHAPES];
+static swift_scene *scene;
+static swift_object_id ids[SHAPES];
+static int rounds = 50;
+
+/* Of one thread; the first failed line, or 0. */
+typedef struct worker {
+    pthread_t thread;
+    int number;
+    int failed_line;
+    double distances[STEPS];
+} worker;
+
+#define REQUIRE(condition)                                \
+    do {                                                  \
+        if (!(condition) && worker->failed_line == 0)     \
+            worker->failed_line = __LINE__;               \
+    } while (0)
+
+static void set_pose_at(double pose[12], double x, double y)
+{
+    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    memcpy(pose, identity, sizeof identity);
+    pose[3] = x;
+    pose[7] = y;
+}
+
+/* Pair queries from touching to far apart and back; the last of them in `distances`. */
+static void query_pairs(worker *worker)
+{
+    swift_pair_cache cache = {{0}};
+    for (int i = 0; i < STEPS; ++i) {
+        swift_pair_answer answer;
+        double pose1[12], pose2[12];
+        const swift_shape *a = shapes[i % SHAPES], *b = shapes[(i + 1) % SHAPES];
+        set_pose_at(pose1, 0, 0);
+        set_pose_at(pose2, 0.375 * i, 0.25 * i);
+        if (i % 4 == 3)
+            memset(&cache, 0, sizeof cache);
+        REQUIRE(swift_shape_retain(a) == SWIFT_OK);
+        REQUIRE(swift_pair_contact(a, pose1, b, pose2, &cache, NULL, &answer) == SWIFT_OK);
+        REQUIRE(swift_pair_verify(a, pose1, b, pose2, &answer) == SWIFT_OK);
+        REQUIRE(swift_shape_release(a) == SWIFT_OK);
+        worker->distances[i] = answer.distance;
+    }
+}
+
+/* What the scene that all share can be asked for. */
+static void look_at_scene(worker *worker)
+{
+    swift_scene_statistics statistics;
+    REQUIRE(swift_scene_get_statistics(scene, &statistics) == SWIFT_OK && statistics.queries == 1);
+    for (int i = 0; i < SHAPES; ++i) {
+        swift_object_info info;
+        const swift_shape *piece;
+        int32_t active;
+        info.struct_size = sizeof info;
+        REQUIRE(swift_scene_get_object_info(scene, ids[i], &info) == SWIFT_OK && info.user_data == (uint64_t)i);
+        REQUIRE(swift_scene_get_piece(scene, ids[i], 0, &piece) == SWIFT_OK && piece == shapes[i]);
+        REQUIRE(swift_scene_is_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFT_OK && active == 1);
+    }
+}
+
+/* A scene of the thread's own, over shapes that all share. */
+static void use_own_scene(worker *worker)
+{
+    swift_scene *own;
+    swift_scene_answer answer;
+    swift_object_id id;
+    REQUIRE(swift_scene_create(NULL, &own) == SWIFT_OK);
+    for (int i = 0; i < SHAPES; ++i) {
+        swift_object_options options;
+        const swift_shape *piece = shapes[i];
+        REQUIRE(swift_object_options_init(&options) == SWIFT_OK);
+        set_pose_at(options.pose, 3.0 * i, worker->number);
+        REQUIRE(swift_scene_add_object(own, &piece, 1, &options, &id) == SWIFT_OK);
+    }
+    REQUIRE(swift_scene_query_exact_distance(own, NULL, &answer) == SWIFT_OK && answer.count == SHAPES);
+    REQUIRE(swift_scene_remove_object(own, id) == SWIFT_OK);
+    /* Each thread fails in its own way and reads its own message. */
+    REQUIRE(swift_scene_remove_object(own, id) == SWIFT_ERROR_HANDLE);
+    REQUIRE(strstr(swift_library_last_error_message(), "stale") != NULL);
+    REQUIRE(swift_library_check_version(100 + worker->number, 0, 0) == SWIFT_ERROR_VERSION);
+    REQUIRE(strstr(swift_library_last_error_message(), (const char *[]){"100.", "101.", "102.", "103."}[worker->number]) != NULL);
+    REQUIRE(swift_scene_destroy(own) == SWIFT_OK);
+}
+
+static void *work(void *argument)
+{
+    worker *const worker = argument;
+    for (int round = 0; round < rounds; ++round) {
+        query_pairs(worker);
+        look_at_scene(worker);
+        use_own_scene(worker);
+    }
+    return NULL;
+}
+
+int main(int argument_count, char **arguments)
+{
+    worker workers[THREADS] = {{0}};
+    swift_scene_answer answer;
+    int failures = 0;
+    if (argument_count > 1)
+        rounds = atoi(arguments[1]);
+    if (swift_scene_create(NULL, &scene) != SWIFT_OK)
+        return 1;
+    for (int i = 0; i < SHAPES; ++i) {
+        swift_object_options options;
+        double corners[24];
+        for (int k = 0; k < 24; ++k)
+            corners[k] = CORNERS[k] * (1 + i % (1 + k % 3));
+        const swift_shape *piece;
+        if (swift_shape_create_from_points(corners, 8, NULL, &shapes[i]) != SWIFT_OK)
+            return 1;
+        piece = shapes[i];
+        swift_object_options_init(&options);
+        options.user_data = (uint64_t)i;
+        set_pose_at(options.pose, 3.0 * i, 0);
+        if (swift_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFT_OK)
+            return 1;
+    }
+    if (swift_scene_query_exact_distance(scene, NULL, &answer) != SWIFT_OK)
+        return 1;
+    for (int i = 0; i < THREADS; ++i) {
+        workers[i].number = i;
+        if (pthread_create(&workers[i].thread, NULL, work, &workers[i]) != 0)
+            return 1;
+    }
+    for (int i = 0; i < THREADS; ++i)
+        pthread_join(workers[i].thread, NULL);
+    for (int i = 0; i < THREADS; ++i) {
+        if (workers[i].failed_line != 0) {
+            fprintf(stderr, "threads.c:%d: failed in thread %d\n", workers[i].failed_line, i);
+            ++failures;
+        }
+        if (memcmp(workers[i].distances, workers[0].distances, sizeof workers[0].distances) != 0) {
+            fprintf(stderr, "thread %d has other distances than thread 0\n", i);
+            ++failures;
+        }
+    }
+    for (int i = 0; i < SHAPES; ++i)
+        swift_shape_release(shapes[i]);
+    swift_scene_destroy(scene);
+    printf("threads: %d threads, %d rounds, %d failures\n", THREADS, rounds, failures);
+    return failures == 0 ? 0 : 1;
+}

@@ -1,0 +1,53 @@
+//! The C interface driven by arbitrary bytes as a careless C program would: any order of calls, ids that are stale, foreign or
+//! made up, null pointers, sizes and enumerators of no struct, poses of NaN, handles that are made and never used. Nothing may
+//! panic, be poisoned, leak, or read or write a byte that was not handed over (arrays and structs have exactly the room that they
+//! claim); what a scene answers is held against a plain model of its objects and pairs.
+#![no_main]
+
+use std::ffi::CStr;
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use libfuzzer_sys::fuzz_target;
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::library::*;
+use swiftprox::ffi::scene::*;
+use swiftprox_fuzz::c_program::{Program, last_message};
+
+const MOST_CALLS: usize = 64;
+
+fuzz_target!(init: show_panics(), |bytes: &[u8]| {
+    let mut program = Program::default();
+    let mut u = Unstructured::new(bytes);
+    for _ in 0..MOST_CALLS {
+        if u.is_empty() || step(&mut program, &mut u).is_err() {
+            break;
+        }
+    }
+    program.end();
+});
+
+/// The library keeps panics of threads without a Rust name, as this one is, off the standard error; here they are to be seen.
+fn show_panics() {
+    let mut scene = std::ptr::null_mut();
+    // SAFETY: room for the scene, which is destroyed at once.
+    unsafe {
+        assert_eq!(swift_scene_create(std::ptr::null(), &mut scene), StatusCode::Ok);
+        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+    }
+    let hook = std::panic::take_hook();
+    std::panic::set_hook(Box::new(move |info| {
+        eprintln!("{info}");
+        hook(info);
+    }));
+}
+
+fn step(program: &mut Program, u: &mut Unstructured) -> Result<()> {
+    let status = program.call(u)?;
+    // SAFETY: never null, terminated, valid for ever.
+    let words = unsafe { CStr::from_ptr(swift_library_status_string(status as i32)) };
+    assert_ne!(words.to_bytes(), b"not a status");
+    let bug = matches!(status, StatusCode::ErrorBug | StatusCode::ErrorPoisoned | StatusCode::ErrorVersion);
+    assert!(!bug, "{status:?}: {}", last_message());
+    assert!(status == StatusCode::Ok || !last_message().is_empty(), "{status:?} without a message");
+    Ok(())
+}

@@ -1,0 +1,161 @@
+//! Pair queries about any two bodies, with any levels of detail and look-up tables, along any sequence of poses, the cache carried on or corrupted: every answer is checked by
+//! `verify`, against all that answers promise, against the other queries and the swapped pair from caches of every origin, and
+//! for small bodies against exact rationals.
+#![no_main]
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use libfuzzer_sys::fuzz_target;
+use swiftprox::error::Error;
+use swiftprox::math::{ROTATION_LIMIT, Vector};
+use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, distance};
+use swiftprox::shape::Shape;
+use swiftprox::verify::verify;
+use swiftprox_fuzz::bodies::Body;
+use swiftprox_fuzz::cases::{Case, Random};
+use swiftprox_fuzz::geometry::{any_number, hull_options, points, poses};
+use swiftprox_fuzz::properties::{Placed, Session};
+
+/// The oracle takes time in the fourth power of this.
+const FEW_POINTS: usize = 6;
+const MOST_STEPS: usize = 6;
+
+fuzz_target!(|bytes: &[u8]| {
+    // Bytes that end early end the run.
+    let _: Result<()> = run(&mut Unstructured::new(bytes));
+});
+
+fn run(u: &mut Unstructured) -> Result<()> {
+    let most = if u.ratio(1, 4)? { 64 } else { FEW_POINTS };
+    let bodies = [body(u, most)?, body(u, most)?];
+    let mut session = Session::new(0);
+    for _ in 0..MOST_STEPS {
+        let poses = poses(u, [&bodies[0].points, &bodies[1].points])?;
+        let placed = Placed { bodies: [&bodies[0], &bodies[1]], poses };
+        session.random = Random(u.arbitrary::<u16>()?.into());
+        if u.ratio(1, 4)? {
+            session.own = any_cache(u)?;
+        }
+        check(u, &placed, &mut session)?;
+        if u.is_empty() {
+            break;
+        }
+    }
+    Ok(())
+}
+
+/// The hull of points; levels of detail and look-up tables must not change what it is.
+fn body(u: &mut Unstructured, most: usize) -> Result<Body> {
+    let options = hull_options(u)?;
+    let mut body = Body::from_points(points(u, most)?);
+    match Shape::from_points(&body.points, &options) {
+        Ok(shape) => body.shape = shape,
+        Err(error @ Error::Bug(_)) => panic!("{error}: {options:?} of {:?}", body.points),
+        // Not every body has levels.
+        Err(_) => {}
+    }
+    Ok(body)
+}
+
+fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result<()> {
+    let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
+    let mut answer = PairAnswer::default();
+    if placed.poses.iter().any(|pose| pose.check(ROTATION_LIMIT).is_err()) {
+        let (mut cache, config) = (session.own, PairConfig::default());
+        let refused = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
+        assert!(matches!(refused, Err(Error::Pose(_))), "{refused:?}");
+        assert!(cache == session.own && answer.outcome == Outcome::None);
+        return Ok(());
+    }
+    let cold = session.check(placed);
+    // Beyond the range of doubles only the oracle can tell, and what the tests measure in doubles has to leave room for squares.
+    session.violations.retain(|v| !v.detail.contains("too large or too far apart to be checked"));
+    if is_wild(placed) {
+        session.violations.retain(|v| !MEASURED.contains(&v.property));
+    }
+    for violation in &session.violations {
+        eprintln!("{}: {}\n", violation.property, violation.detail);
+    }
+    assert!(session.violations.is_empty(), "see above");
+    let Some(cold) = cold else { return Ok(()) };
+    check_tolerance(u, placed, session.own, &cold)?;
+    if placed.bodies.iter().all(|body| body.points.len() <= FEW_POINTS) {
+        check_truth(placed, &cold);
+    }
+    Ok(())
+}
+
+/// Properties that the tests measure in doubles.
+const MEASURED: [&str; 7] = [
+    "a tight interval",
+    "world = pose · local",
+    "one common point",
+    "normal along points",
+    "the vertex is the witness point",
+    "the edge holds the witness point",
+    "the face holds the witness point",
+];
+
+/// Whether a number other than 0 is larger than 10⁶⁰ or smaller than its reciprocal.
+fn is_wild(placed: &Placed) -> bool {
+    let coordinates = placed.bodies.into_iter().flat_map(|body| body.points.iter().flatten().copied());
+    let translations = placed.poses.iter().flat_map(|pose| pose.rows.map(|row| row[3]));
+    coordinates.chain(translations).any(|x| x != 0.0 && !(1e-60..1e60).contains(&x.abs()))
+}
+
+/// With a distance tolerance: beyond it exactly if the interval says so, and then only the lower end is said.
+fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, cold: &PairAnswer) -> Result<()> {
+    let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
+    let mut last = cold.distance;
+    let distance_tolerance = any_number(u, &mut last)?;
+    let bounds = if u.arbitrary()? { Bounds::Tight } else { Bounds::Verdict };
+    let config = PairConfig { distance_tolerance, bounds, ..PairConfig::default() };
+    let mut answer = PairAnswer::default();
+    let asked = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
+    if !(distance_tolerance >= 0.0) {
+        assert!(matches!(asked, Err(Error::Argument(_))), "{asked:?}");
+        return Ok(());
+    }
+    asked.expect("accepted poses and a tolerance");
+    let intersecting = answer.outcome == Outcome::Intersecting;
+    assert_eq!(intersecting, cold.outcome == Outcome::Intersecting, "{answer:?}\n{cold:?}");
+    assert!(intersecting || (answer.outcome == Outcome::Beyond) == (answer.lower > distance_tolerance), "{answer:?}");
+    assert!(answer.lower <= cold.upper && cold.lower <= answer.upper, "{answer:?}\n{cold:?}");
+    if answer.outcome == Outcome::Beyond {
+        let points = [answer.local1, answer.local2, answer.world1, answer.world2];
+        assert!(points.as_flattened().iter().all(|x| x.is_nan()), "{answer:?}");
+        assert!(answer.upper == f64::INFINITY && answer.distance == answer.lower, "{answer:?}");
+    }
+    match verify(&body1.shape, pose1, &body2.shape, pose2, &answer) {
+        Ok(()) | Err(Error::Argument(_)) => {}
+        Err(error) => panic!("{error}: {answer:?}"),
+    }
+    Ok(())
+}
+
+fn check_truth(placed: &Placed, answer: &PairAnswer) {
+    let [points_a, points_b] = placed.bodies.map(|body| body.points.clone());
+    let case = Case { points_a, pose_a: placed.poses[0], points_b, pose_b: placed.poses[1] };
+    let truth = case.truth();
+    let holds = truth.intersecting() == (answer.outcome == Outcome::Intersecting)
+        && truth.lies_between(answer.lower, answer.upper);
+    assert!(holds, "{answer:?}, the truth is {truth:?}\n{}", case.describe());
+    let said = |p: [f64; 3]| Vector::from(p).iter().all(|x| !x.is_nan());
+    if answer.outcome == Outcome::Separated {
+        let points = [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
+        assert!(points.into_iter().all(said), "{answer:?}\n{}", case.describe());
+    }
+}
+
+/// Any words, most of them small, as kinds and indices are.
+fn any_cache(u: &mut Unstructured) -> Result<PairCache> {
+    const WORDS: usize = size_of::<PairCache>() / 4;
+    let mut words = [0_u32; WORDS];
+    for word in &mut words {
+        *word = match u.arbitrary::<u8>()? {
+            255 => u.arbitrary()?,
+            small => small.into(),
+        };
+    }
+    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
+    Ok(unsafe { std::mem::transmute::<[u32; WORDS], PairCache>(words) })
+}

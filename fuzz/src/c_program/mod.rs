@@ -1,0 +1,107 @@
+//! A C program that arbitrary bytes write: what it holds, and one call after the other.
+
+mod arguments;
+mod model;
+mod scenes;
+mod shapes;
+
+use std::ffi::CStr;
+use std::ptr::{null, null_mut};
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::library::*;
+use swiftprox::ffi::pair::*;
+use swiftprox::ffi::scene::*;
+use swiftprox::ffi::shape::*;
+use swiftprox::object::ObjectId;
+use swiftprox::pair::PairAnswer;
+use swiftprox::shape::Shape;
+
+use model::Scene;
+
+/// The message of the last failure.
+pub fn last_message() -> String {
+    // SAFETY: never null, terminated, unchanged until the next failure of this thread.
+    unsafe { CStr::from_ptr(swift_library_last_error_message()) }.to_string_lossy().into_owned()
+}
+
+/// All that the program holds.
+#[derive(Default)]
+pub struct Program {
+    /// Shapes, one entry for each share.
+    shapes: Vec<*mut Shape>,
+    scenes: Vec<Scene>,
+    /// Ids that were good once, of any scene.
+    old_ids: Vec<ObjectId>,
+    caches: [CPairCache; 2],
+    /// The last answer of a pair query.
+    answer: Option<PairAnswer>,
+}
+
+const MOST_SHAPES: usize = 12;
+const MOST_SCENES: usize = 3;
+const MOST_OBJECTS: usize = 8;
+const MOST_POINTS: usize = 16;
+
+impl Program {
+    /// One call, or a few that belong together.
+    pub fn call(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        match u.int_in_range(0..=23)? {
+            0 | 1 => self.shape_from_points(u),
+            2 => self.shape_from_mesh(u),
+            3 => self.shape_from_file(u),
+            4 => self.share_shape(u),
+            5 => self.look_at_shape(u),
+            6..=8 => self.pair_query(u),
+            9 => self.verify(u),
+            10 => self.create_or_destroy_scene(u),
+            11..=13 => self.add_object(u),
+            14 => self.change_objects(u),
+            15 => self.look_at_object(u),
+            16 | 17 => self.move_objects(u),
+            18 => self.activate(u),
+            19..=21 => self.scene_query(u),
+            22 => self.statistics(u),
+            _ => library(u),
+        }
+    }
+
+    /// Gives everything back.
+    pub fn end(self) {
+        // SAFETY: all are alive, and none is used again.
+        unsafe {
+            for scene in &self.scenes {
+                assert_eq!(swift_scene_destroy(scene.handle), StatusCode::Ok);
+            }
+            for &shape in &self.shapes {
+                assert_eq!(swift_shape_release(shape), StatusCode::Ok);
+            }
+        }
+    }
+}
+
+/// Beyond the range of doubles `verify` cannot tell.
+fn check_verified(status: StatusCode) {
+    let beyond = status == StatusCode::ErrorInvalidArgument && last_message().contains("too large or too far apart");
+    assert!(status == StatusCode::Ok || beyond, "{}", last_message());
+}
+
+/// What has to do with no handle.
+fn library(u: &mut Unstructured) -> Result<StatusCode> {
+    // SAFETY: what is null may be, by the header.
+    Ok(unsafe {
+        match u.int_in_range(0..=5)? {
+            0 => swift_shape_options_init(null_mut()),
+            1 => swift_scene_options_init(null_mut()),
+            2 => swift_pair_config_init(null_mut()),
+            3 => swift_scene_destroy(null_mut()),
+            4 => swift_shape_release(null()),
+            _ => {
+                let _ = swift_library_version();
+                let _ = swift_library_status_string(u.arbitrary()?);
+                swift_object_options_init(null_mut())
+            }
+        }
+    })
+}

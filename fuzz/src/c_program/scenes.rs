@@ -1,0 +1,416 @@
+//! Calls about scenes.
+
+use std::ptr::{null, null_mut};
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::pair::swift_pair_verify;
+use swiftprox::ffi::scene::*;
+use swiftprox::ffi::shape::swift_shape_retain;
+use swiftprox::object::ObjectId;
+use swiftprox::pair::Outcome;
+use swiftprox::scene::{PairResult, SceneStatistics};
+use swiftprox::shape::Shape;
+
+use super::arguments::{Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, shape_options, start};
+use super::model::{Object, Scene};
+use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
+use crate::geometry::any_number;
+
+impl Program {
+    pub fn create_or_destroy_scene(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        if u.ratio(1, 3)? && !self.scenes.is_empty() {
+            let scene = self.scenes.remove(u.choose_index(self.scenes.len())?);
+            self.old_ids.extend(scene.objects.iter().map(|object| object.id));
+            // SAFETY: a living scene that is not used again.
+            return Ok(unsafe { swift_scene_destroy(scene.handle) });
+        }
+        let mut last = 1e-2;
+        let limit = any_number(u, &mut last)?.to_ne_bytes();
+        // SAFETY: zero is a value of every member; then written by the library.
+        let mut value = unsafe { std::mem::zeroed::<CSceneOptions>() };
+        let options = unsafe {
+            assert_eq!(swift_scene_options_init(&mut value), StatusCode::Ok);
+            let offset = std::mem::offset_of!(CSceneOptions, rotation_limit);
+            options(u, &value, &[(offset, &limit)])?
+        };
+        let mut handle = null_mut();
+        // SAFETY: as large as it says or null, and room for the scene.
+        let status = unsafe { swift_scene_create(start(&options), &mut handle) };
+        assert_eq!(status == StatusCode::Ok, !handle.is_null());
+        if !handle.is_null() {
+            if self.scenes.len() < MOST_SCENES {
+                self.scenes.push(Scene::new(handle));
+            } else {
+                // Made and never used.
+                // SAFETY: a living scene that is not used again.
+                assert_eq!(unsafe { swift_scene_destroy(handle) }, StatusCode::Ok);
+            }
+        }
+        Ok(status)
+    }
+
+    /// One of the scenes, made if there is none.
+    fn scene(&mut self, u: &mut Unstructured) -> Result<usize> {
+        if self.scenes.is_empty() {
+            let mut handle = null_mut();
+            // SAFETY: room for the scene.
+            assert_eq!(unsafe { swift_scene_create(null(), &mut handle) }, StatusCode::Ok);
+            self.scenes.push(Scene::new(handle));
+        }
+        u.choose_index(self.scenes.len())
+    }
+
+    /// An id that names an object of the scene, most of the time.
+    fn id(&self, u: &mut Unstructured, scene: usize) -> Result<ObjectId> {
+        let objects = &self.scenes[scene].objects;
+        Ok(match u.int_in_range(0..=15)? {
+            0 => ObjectId::NULL,
+            1 => ObjectId::from_bits(u.arbitrary()?),
+            2 if !self.old_ids.is_empty() => *u.choose(&self.old_ids)?,
+            3 => {
+                let other = u.choose(&self.scenes)?;
+                other.objects.last().map_or(ObjectId::NULL, |object| object.id)
+            }
+            _ if !objects.is_empty() => objects[u.choose_index(objects.len())?].id,
+            _ => ObjectId::NULL,
+        })
+    }
+
+    pub fn add_object(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let (handle, user_data) = (self.scenes[place].handle, u.arbitrary::<u64>()?);
+        let fixed = u.ratio(1, 4)?;
+        // SAFETY: zero is a value of every member; then written by the library.
+        let mut value = unsafe { std::mem::zeroed::<CObjectOptions>() };
+        // SAFETY: room for the options.
+        assert_eq!(unsafe { swift_object_options_init(&mut value) }, StatusCode::Ok);
+        (value.user_data, value.fixed) = (user_data, i32::from(fixed));
+        // SAFETY: twelve doubles.
+        value.pose = unsafe { any_pose(u)?.at::<[f64; 12]>().read() };
+        let given = options(u, &value, &[])?;
+        let mut id = ObjectId::from_bits(u64::MAX);
+        let mut pieces = Vec::new();
+        // SAFETY: living shapes, blocks as large as they say, or null.
+        let status = unsafe {
+            match u.int_in_range(0..=7)? {
+                0 => {
+                    let (shape_options, arrays) = (shape_options(u)?, mesh_arrays(u)?);
+                    pieces.push(null_mut());
+                    let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
+                    swift_scene_add_mesh(
+                        handle,
+                        arrays.vertices.at(),
+                        arrays.vertex_count,
+                        arrays.indices.at(),
+                        valences,
+                        arrays.face_count,
+                        start(&shape_options),
+                        start(&given),
+                        &mut id,
+                    )
+                }
+                1 => {
+                    let (shape_options, path) = (shape_options(u)?, mesh_file(u)?);
+                    pieces.push(null_mut());
+                    let path = path.as_ref().map_or(null(), |path| path.as_ptr());
+                    swift_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
+                }
+                _ => {
+                    for _ in 0..u.int_in_range(0..=3)? {
+                        pieces.push(self.shape(u)?);
+                    }
+                    let block = Block::of(&pieces);
+                    let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
+                    pieces.truncate(count);
+                    swift_scene_add_object(handle, array, count, start(&given), &mut id)
+                }
+            }
+        };
+        assert_eq!(status == StatusCode::Ok, id != ObjectId::NULL, "{}", last_message());
+        if status == StatusCode::Ok {
+            self.learn(place, id, pieces.len());
+            if self.scenes[place].objects.len() > MOST_OBJECTS {
+                let oldest = self.scenes[place].objects[0].id;
+                self.remove(place, oldest);
+            }
+        }
+        Ok(status)
+    }
+
+    /// Takes a new object into the model, as the scene describes it.
+    fn learn(&mut self, place: usize, id: ObjectId, pieces: usize) {
+        let scene = &mut self.scenes[place];
+        assert!(scene.find(id).is_none() && !self.old_ids.contains(&id), "an id twice");
+        // SAFETY: zero is a value of every member; a living scene and room for the info.
+        let info = unsafe {
+            let mut info = std::mem::zeroed::<ObjectInfo>();
+            info.struct_size = size_of::<ObjectInfo>();
+            assert_eq!(swift_scene_get_object_info(scene.handle, id, &mut info), StatusCode::Ok);
+            info
+        };
+        assert_eq!(info.piece_count, pieces);
+        let object = Object { id, pieces, fixed: info.fixed != 0, user_data: info.user_data };
+        scene.objects.push(object);
+    }
+
+    fn remove(&mut self, place: usize, id: ObjectId) -> StatusCode {
+        let scene = &mut self.scenes[place];
+        // SAFETY: a living scene.
+        let status = unsafe { swift_scene_remove_object(scene.handle, id) };
+        match scene.find(id) {
+            Some(found) => {
+                assert_eq!(status, StatusCode::Ok);
+                scene.objects.remove(found);
+                self.old_ids.push(id);
+            }
+            None => assert_eq!(status, StatusCode::ErrorHandle),
+        }
+        status
+    }
+
+    pub fn change_objects(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let id = self.id(u, place)?;
+        let found = self.scenes[place].find(id);
+        let handle = self.scenes[place].handle;
+        let status = match u.int_in_range(0..=2)? {
+            0 => return Ok(self.remove(place, id)),
+            1 => {
+                let mut copy = id;
+                // SAFETY: a living scene and room for the id.
+                let status = unsafe { swift_scene_copy_object(handle, id, &mut copy) };
+                if let Some(found) = found {
+                    assert_eq!(status, StatusCode::Ok);
+                    let original = self.scenes[place].objects[found].clone();
+                    self.learn(place, copy, original.pieces);
+                    if self.scenes[place].objects.len() > MOST_OBJECTS {
+                        self.remove(place, copy);
+                    }
+                }
+                status
+            }
+            _ => {
+                let user_data = u.arbitrary()?;
+                if let Some(found) = found {
+                    self.scenes[place].objects[found].user_data = user_data;
+                }
+                // SAFETY: a living scene.
+                unsafe { swift_scene_set_user_data(handle, id, user_data) }
+            }
+        };
+        assert_eq!(status, if found.is_some() { StatusCode::Ok } else { StatusCode::ErrorHandle });
+        Ok(status)
+    }
+
+    pub fn look_at_object(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let id = self.id(u, place)?;
+        let scene = &self.scenes[place];
+        let found = scene.find(id).map(|found| &scene.objects[found]);
+        // SAFETY: a living scene, a block as large as it says or null, room for the shape.
+        unsafe {
+            if u.arbitrary()? {
+                let mut value = std::mem::zeroed::<ObjectInfo>();
+                value.struct_size = size_of::<ObjectInfo>();
+                let info = options(u, &value, &[])?;
+                return Ok(swift_scene_get_object_info(scene.handle, id, start(&info)));
+            }
+            let piece = u.int_in_range(0..=3)?;
+            let mut shape = null();
+            let status = swift_scene_get_piece(scene.handle, id, piece, &mut shape);
+            let expected = found.is_some_and(|object| piece < object.pieces);
+            assert_eq!((status == StatusCode::Ok, !shape.is_null()), (expected, expected), "{}", last_message());
+            if !shape.is_null() && self.shapes.len() < MOST_SHAPES {
+                assert_eq!(swift_shape_retain(shape), StatusCode::Ok);
+                self.shapes.push(shape.cast_mut());
+            }
+            Ok(status)
+        }
+    }
+
+    pub fn move_objects(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let id = self.id(u, place)?;
+        let scene = &self.scenes[place];
+        let moving = scene.objects.iter().filter(|object| !object.fixed).count();
+        let mut count = moving;
+        if u.ratio(1, 8)? {
+            count = u.int_in_range(0..=MOST_OBJECTS)?;
+        }
+        // SAFETY: blocks of the sizes that the header names, or null, and a living scene.
+        unsafe {
+            let mut all: Vec<[f64; 12]> = Vec::new();
+            for _ in 0..count.max(1) {
+                all.push(any_pose(u)?.at::<[f64; 12]>().read());
+            }
+            let rotations: Vec<[f64; 9]> =
+                all.iter().map(|p| std::array::from_fn(|k| p[4 * (k / 3) + k % 3])).collect();
+            let translations: Vec<[f64; 3]> = all.iter().map(|p| std::array::from_fn(|k| p[4 * k + 3])).collect();
+            Ok(match u.int_in_range(0..=3)? {
+                0 => {
+                    let pose = Block::of(&all[..1]);
+                    swift_scene_set_pose(scene.handle, id, or_null(u, pose.at())?)
+                }
+                1 => {
+                    let (rotation, translation) = (Block::of(&rotations[..1]), Block::of(&translations[..1]));
+                    swift_scene_set_transform(scene.handle, id, or_null(u, rotation.at())?, translation.at())
+                }
+                2 => {
+                    let poses = Block::of(&all[..count]);
+                    swift_scene_set_all_poses(scene.handle, poses.at(), count)
+                }
+                _ => {
+                    let (rotations, translations) = (Block::of(&rotations[..count]), Block::of(&translations[..count]));
+                    swift_scene_set_all_transforms(scene.handle, rotations.at(), or_null(u, translations.at())?, count)
+                }
+            })
+        }
+    }
+
+    pub fn activate(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let (id1, id2, active) = (self.id(u, place)?, self.id(u, place)?, u.arbitrary::<bool>()?);
+        let scene = &mut self.scenes[place];
+        let (first, second) = (scene.find(id1), scene.find(id2));
+        let both = [id1, id2];
+        // SAFETY: a living scene and room for the answer.
+        unsafe {
+            Ok(match u.int_in_range(0..=3)? {
+                0 => {
+                    let call = if active { swift_scene_activate_pair } else { swift_scene_deactivate_pair };
+                    let status = call(scene.handle, id1, id2);
+                    assert_eq!(status == StatusCode::Ok, first.is_some() && second.is_some() && id1 != id2);
+                    if status == StatusCode::Ok {
+                        scene.activate(active, |a, b| both.contains(&a.id) && both.contains(&b.id));
+                    }
+                    status
+                }
+                1 => {
+                    let call = if active { swift_scene_activate_object } else { swift_scene_deactivate_object };
+                    let status = call(scene.handle, id1);
+                    assert_eq!(status == StatusCode::Ok, first.is_some());
+                    scene.activate(active, |a, b| a.id == id1 || b.id == id1);
+                    status
+                }
+                2 => {
+                    scene.activate(active, |_, _| true);
+                    if active {
+                        swift_scene_activate_all(scene.handle)
+                    } else {
+                        swift_scene_deactivate_all(scene.handle)
+                    }
+                }
+                _ => {
+                    let mut answer = 7;
+                    let status = swift_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
+                    let expected = match (first, second) {
+                        (Some(i), Some(j)) if i != j => {
+                            scene.is_tested(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
+                        }
+                        _ => false,
+                    };
+                    assert_eq!(answer, i32::from(expected), "{status:?}");
+                    status
+                }
+            })
+        }
+    }
+
+    pub fn scene_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let scene = &self.scenes[place];
+        // SAFETY: zero is a value of every member; then written by the library.
+        let mut value = unsafe { std::mem::zeroed::<CSceneQuery>() };
+        // SAFETY: room for the query.
+        assert_eq!(unsafe { swift_scene_query_init(&mut value) }, StatusCode::Ok);
+        let mut last = 1.0;
+        let tolerance = any_number(u, &mut last)?.to_ne_bytes();
+        let bounds = u.int_in_range(-1..=2_i32)?.to_ne_bytes();
+        let changes = [
+            (std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..]),
+            (std::mem::offset_of!(CSceneQuery, bounds), &bounds[..]),
+        ];
+        let is_plain: bool = u.arbitrary()?;
+        let given = if is_plain { None } else { options(u, &value, &changes)? };
+        let query = u.int_in_range(0..=3)?;
+        let run = [
+            swift_scene_query_intersection,
+            swift_scene_query_tolerance,
+            swift_scene_query_exact_distance,
+            swift_scene_query_contacts,
+        ][query];
+        let block = Block::new(size_of::<CSceneAnswer>());
+        let target = or_null(u, block.at::<CSceneAnswer>())?;
+        let handle = or_null(u, scene.handle)?;
+        // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next change.
+        unsafe {
+            let status = run(handle, start(&given), target);
+            if target.is_null() {
+                return Ok(status);
+            }
+            let answer = target.read();
+            assert_eq!(answer.pairs.is_null(), answer.count == 0);
+            let listed: &[PairResult] =
+                if answer.count == 0 { &[] } else { std::slice::from_raw_parts(answer.pairs, answer.count) };
+            if handle.is_null() {
+                assert_eq!((status, answer.count, answer.intersecting), (StatusCode::ErrorNullPointer, 0, 0));
+                return Ok(status);
+            }
+            let key = |r: &PairResult| ([r.object1, r.object2], [r.piece1, r.piece2], [r.user_data1, r.user_data2]);
+            let tested = scene.tested();
+            if is_plain && query > 0 {
+                assert!(
+                    listed.iter().map(key).eq(tested.iter().copied()),
+                    "{} pairs of {}",
+                    listed.len(),
+                    tested.len()
+                );
+            } else {
+                let mut rest = tested.iter();
+                assert!(listed.iter().all(|result| rest.any(|pair| *pair == key(result))), "not as tested");
+            }
+            for result in listed.iter().filter(|result| result.answer.outcome != Outcome::None) {
+                check_result(scene.handle, result);
+            }
+            Ok(status)
+        }
+    }
+
+    pub fn statistics(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let handle = or_null(u, self.scenes[place].handle)?;
+        let block = Block::new(size_of::<SceneStatistics>());
+        let target = or_null(u, block.at())?;
+        // SAFETY: a living scene or null, a block of the size of the statistics or null.
+        Ok(unsafe {
+            if u.arbitrary()? {
+                swift_scene_get_statistics(handle, target)
+            } else {
+                swift_scene_reset_statistics(handle)
+            }
+        })
+    }
+}
+
+/// A listed answer holds for the pieces and poses that the scene has.
+///
+/// # Safety
+/// The scene lives and the result is its.
+unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
+    let placed = |id, piece: u32| {
+        // SAFETY: zero is a value of every member; a living scene and room for info and shape.
+        unsafe {
+            let mut info = std::mem::zeroed::<ObjectInfo>();
+            info.struct_size = size_of::<ObjectInfo>();
+            assert_eq!(swift_scene_get_object_info(scene, id, &mut info), StatusCode::Ok);
+            let mut shape = null();
+            assert_eq!(swift_scene_get_piece(scene, id, piece as usize, &mut shape), StatusCode::Ok);
+            (shape, info.pose)
+        }
+    };
+    let ((shape1, pose1), (shape2, pose2)) =
+        (placed(result.object1, result.piece1), placed(result.object2, result.piece2));
+    // SAFETY: living shapes and twelve doubles each.
+    check_verified(unsafe { swift_pair_verify(shape1, pose1.as_ptr(), shape2, pose2.as_ptr(), &result.answer) });
+}

@@ -1,0 +1,217 @@
+//! Calls about shapes and pairs of them.
+
+use std::ptr::{null, null_mut};
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::pair::*;
+use swiftprox::ffi::shape::*;
+use swiftprox::pair::{Outcome, PairAnswer};
+use swiftprox::shape::Shape;
+
+use super::arguments::{
+    Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, pair_config, shape_options, start, temporary_file,
+};
+use super::{MOST_POINTS, MOST_SHAPES, Program, check_verified, last_message};
+use crate::geometry::any_points;
+
+impl Program {
+    /// Any shape of the program's, or null.
+    pub fn shape(&self, u: &mut Unstructured) -> Result<*mut Shape> {
+        if self.shapes.is_empty() || u.ratio(1, 32)? {
+            return Ok(null_mut());
+        }
+        Ok(*u.choose(&self.shapes)?)
+    }
+
+    /// Keeps a shape that was made; on failure there is none.
+    fn keep(&mut self, status: StatusCode, shape: *mut Shape) -> StatusCode {
+        assert_eq!(status == StatusCode::Ok, !shape.is_null(), "{}", last_message());
+        if !shape.is_null() {
+            self.shapes.push(shape);
+            if self.shapes.len() > MOST_SHAPES {
+                let oldest = self.shapes.remove(0);
+                // SAFETY: a living shape whose share is given up.
+                assert_eq!(unsafe { swift_shape_release(oldest) }, StatusCode::Ok);
+            }
+        }
+        status
+    }
+
+    pub fn shape_from_points(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let options = shape_options(u)?;
+        let coordinates: Vec<[f64; 3]> = any_points(u, MOST_POINTS)?.iter().map(|&p| p.into()).collect();
+        let block = Block::of(&coordinates);
+        let mut shape = null_mut();
+        let (array, count) = array(u, block.at(), coordinates.len())?;
+        // SAFETY: what is not null has the room that it claims.
+        let status = unsafe { swift_shape_create_from_points(array, count, start(&options), &mut shape) };
+        Ok(self.keep(status, shape))
+    }
+
+    pub fn shape_from_mesh(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let options = shape_options(u)?;
+        let arrays = mesh_arrays(u)?;
+        let mut shape = null_mut();
+        // SAFETY: what is not null has the room that it claims.
+        let status = unsafe {
+            let [vertices, indices, valences] = [&arrays.vertices, &arrays.indices, &arrays.valences];
+            let (vertices, vertex_count) = array(u, vertices.at(), arrays.vertex_count)?;
+            let indices = or_null(u, indices.at())?;
+            let valences = if arrays.triangles { null_mut() } else { valences.at() };
+            let face_count = arrays.face_count;
+            let out = if u.ratio(1, 32)? { null_mut() } else { &raw mut shape };
+            swift_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, start(&options), out)
+        };
+        Ok(self.keep(status, shape))
+    }
+
+    pub fn shape_from_file(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let options = shape_options(u)?;
+        let path = mesh_file(u)?;
+        let mut shape = null_mut();
+        let path = path.as_ref().map_or(null(), |path| path.as_ptr());
+        // SAFETY: a string or null, and room for the shape.
+        let status = unsafe { swift_shape_create_from_file(path, start(&options), &mut shape) };
+        Ok(self.keep(status, shape))
+    }
+
+    pub fn share_shape(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let shape = self.shape(u)?;
+        // SAFETY: living shapes; the program has as many entries as shares.
+        Ok(unsafe {
+            if u.arbitrary()? && self.shapes.len() < MOST_SHAPES {
+                if !shape.is_null() {
+                    self.shapes.push(shape);
+                }
+                swift_shape_retain(shape)
+            } else {
+                if let Some(place) = self.shapes.iter().position(|&s| s == shape) {
+                    self.shapes.remove(place);
+                }
+                swift_shape_release(shape)
+            }
+        })
+    }
+
+    pub fn look_at_shape(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let shape = self.shape(u)?;
+        // SAFETY: zero is a value of every member.
+        let mut info = unsafe { std::mem::zeroed::<ShapeInfo>() };
+        info.struct_size = size_of::<ShapeInfo>();
+        // SAFETY: a living shape or null, room for the info.
+        let status = unsafe { swift_shape_get_info(shape, &mut info) };
+        if status != StatusCode::Ok {
+            return Ok(status);
+        }
+        let given = options(u, &info, &[])?;
+        // SAFETY: as large as it says, or null.
+        let _ = unsafe { swift_shape_get_info(shape, start(&given)) };
+        if u.ratio(1, 4)? {
+            return self.look_at_level(u, shape, info.level_count);
+        }
+        if u.ratio(1, 8)? {
+            return self.save_and_load(shape);
+        }
+        let spare = u.int_in_range(0..=3)?;
+        // SAFETY: the room that is claimed; labels may be null.
+        Ok(unsafe {
+            if u.arbitrary()? {
+                let capacity = (info.vertex_count + spare).saturating_sub(1);
+                let (vertices, labels) = (Block::new(24 * capacity), Block::new(4 * capacity));
+                let labels = or_null(u, labels.at())?;
+                let status = swift_shape_copy_vertices(shape, vertices.at(), labels, capacity);
+                assert_eq!(status == StatusCode::Ok, capacity >= info.vertex_count);
+                status
+            } else {
+                let capacity = (info.triangle_count + spare).saturating_sub(1);
+                let corners = Block::new(12 * capacity);
+                let status = swift_shape_copy_triangles(shape, corners.at(), capacity);
+                assert_eq!(status == StatusCode::Ok, capacity >= info.triangle_count);
+                status
+            }
+        })
+    }
+
+    fn look_at_level(&self, u: &mut Unstructured, shape: *const Shape, levels: usize) -> Result<StatusCode> {
+        let level = u.int_in_range(0..=levels + 1)?;
+        // SAFETY: zero is a value of every member.
+        let mut info = unsafe { std::mem::zeroed::<LevelInfo>() };
+        info.struct_size = size_of::<LevelInfo>();
+        // SAFETY: a living shape, and the room that is claimed.
+        Ok(unsafe {
+            let status = swift_shape_get_level_info(shape, level, &mut info);
+            assert_eq!(status == StatusCode::Ok, level <= levels, "{}", last_message());
+            if status != StatusCode::Ok {
+                return Ok(status);
+            }
+            let (vertices, corners) = (Block::new(24 * info.vertex_count), Block::new(12 * info.triangle_count));
+            let status = swift_shape_copy_level_vertices(shape, level, vertices.at(), info.vertex_count);
+            assert_eq!(status, StatusCode::Ok, "{}", last_message());
+            swift_shape_copy_level_triangles(shape, level, corners.at(), info.triangle_count)
+        })
+    }
+
+    /// What was saved loads as the same.
+    fn save_and_load(&mut self, shape: *const Shape) -> Result<StatusCode> {
+        let path = temporary_file("shape");
+        let mut loaded = null_mut();
+        // SAFETY: a living shape, a path, and room for the shape; both shapes live while they are compared.
+        let status = unsafe {
+            assert_eq!(swift_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+            let status = swift_shape_load(path.as_ptr(), &mut loaded);
+            assert_eq!(status, StatusCode::Ok, "{}", last_message());
+            assert!(*shape == *loaded, "loaded is not what was saved");
+            status
+        };
+        Ok(self.keep(status, loaded))
+    }
+
+    pub fn pair_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let (shape1, shape2) = (self.shape(u)?, self.shape(u)?);
+        let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
+        let (pointer1, pointer2) = (or_null(u, pose1.at::<f64>())?, or_null(u, pose2.at::<f64>())?);
+        let config = pair_config(u)?;
+        let query = *u.choose(&[swift_pair_distance, swift_pair_intersection, swift_pair_contact])?;
+        let slot = u.choose_index(self.caches.len())?;
+        if u.ratio(1, 8)? {
+            self.caches[slot].words = u.arbitrary()?;
+        }
+        let cache = or_null(u, &raw mut self.caches[slot])?;
+        let answer = Block::new(size_of::<PairAnswer>());
+        let target = or_null(u, answer.at::<PairAnswer>())?;
+        // SAFETY: living shapes, blocks of the sizes that the header names, or null.
+        unsafe {
+            let status = query(shape1, pointer1, shape2, pointer2, cache, start(&config), target);
+            if target.is_null() {
+                assert_eq!(status, StatusCode::ErrorNullPointer);
+                return Ok(status);
+            }
+            // Also after a failure the answer is one.
+            let said = target.read();
+            assert_eq!(status == StatusCode::Ok, said.outcome != Outcome::None, "{}", last_message());
+            if status == StatusCode::Ok {
+                check_verified(swift_pair_verify(shape1, pointer1, shape2, pointer2, target));
+            }
+            self.answer = Some(said);
+            Ok(status)
+        }
+    }
+
+    /// An answer about other shapes and poses than the program now gives, perhaps changed.
+    pub fn verify(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let (shape1, shape2) = (self.shape(u)?, self.shape(u)?);
+        let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
+        let answer = match &self.answer {
+            Some(answer) => Block::of(std::slice::from_ref(answer)),
+            None => Block::new(size_of::<PairAnswer>()),
+        };
+        for _ in 0..u.int_in_range(0..=3)? {
+            // SAFETY: inside the block.
+            unsafe { answer.start.add(u.choose_index(size_of::<PairAnswer>())?).write(u.arbitrary()?) };
+        }
+        let answer = or_null(u, answer.at::<PairAnswer>())?;
+        // SAFETY: living shapes, blocks of the sizes that the header names, or null.
+        Ok(unsafe { swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer) })
+    }
+}

@@ -1,0 +1,18 @@
+#!/bin/sh
+# Runs nightly Cargo; where that or a component of it is missing says so and does nothing, successfully: not every machine has what
+# the sanitizers and Miri need.
+#
+#   nightly.sh "COMPONENT ..." CARGO-ARGUMENTS
+components=$1
+shift
+if ! cargo +nightly --version >/dev/null 2>&1; then
+    echo "skipped: no nightly Rust; rustup toolchain install nightly${components:+ --component $components}"
+    exit 0
+fi
+for component in $components; do
+    if ! rustup component list --toolchain nightly --installed 2>/dev/null | grep -q "^$component"; then
+        echo "skipped: nightly Rust has no $component; rustup component add --toolchain nightly $component"
+        exit 0
+    fi
+done
+exec cargo +nightly "$@"
