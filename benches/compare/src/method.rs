@@ -37,6 +37,13 @@ pub trait Method {
     /// The last answer.
     fn reply(&self) -> Reply;
 
+    /// All queries from the last to the first.
+    fn run_backwards(&mut self, count: usize) {
+        for i in (0..count).rev() {
+            self.ask(i);
+        }
+    }
+
     /// What is timed: one virtual call for many queries, each query inlined into the loop.
     fn run(&mut self, queries: Range<usize>) {
         for i in queries {

@@ -1,8 +1,10 @@
 //! Times on a machine that others use, too.
 //!
 //! The clock is the thread's CPU time, so that being preempted does not count. Methods take turns pass by pass, so that a
-//! slow spell of the machine hits all of them; a pass is cut into chunks, and each chunk's best over the passes is summed:
-//! what a whole undisturbed pass would take. Coherence flows through a pass and is dropped between passes.
+//! slow spell of the machine hits all of them. Each turn begins untimed with the same poses backwards: the method then finds its
+//! data in the machine's caches as it leaves them itself, not as the others do, but has not taught the branch predictors what comes.
+//! A pass is cut into chunks, and each chunk's best over the passes is summed: what a whole undisturbed pass would take. Coherence
+//! flows through a pass and is dropped between passes.
 
 use std::ops::Range;
 
@@ -25,6 +27,7 @@ pub fn time_methods(methods: &mut [Box<dyn Method + '_>], count: usize, passes: 
     let mut totals = vec![Vec::with_capacity(passes); methods.len()];
     for _ in 0..passes {
         for (m, method) in methods.iter_mut().enumerate() {
+            method.run_backwards(count);
             method.forget();
             let mut total = 0.0;
             for (chunk, best) in best[m].iter_mut().enumerate() {
