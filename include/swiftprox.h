@@ -114,7 +114,10 @@ typedef int32_t swift_start;
 
 /** Which levels of detail a query goes through, of those that the shapes have. */
 enum {
-  /** Those that save time: none, but for an approximate query that a coarse level can answer. */
+  /**
+   * Those that save time whatever the motion: none so far. From the look-up tables the bodies themselves answer as quickly,
+   * but for coarse questions about large thin bodies.
+   */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */
   SWIFT_LEVELS_NONE = 1,

@@ -85,11 +85,6 @@ impl PairCache {
         self.pairs[1] = [0; 2];
     }
 
-    /// How many answers of one step each this place has given, one after the other; garbage is as good.
-    fn coherent_before(&self) -> u32 {
-        if self.kind > LEVELS { self.pairs[1][1].min(u32::MAX - 1) } else { 0 }
-    }
-
     /// Steps that queries whose budget ran out have made on the way to this place.
     fn spent_before(&self) -> u32 {
         if self.kind > LEVELS { self.pairs[1][0] } else { 0 }
@@ -133,7 +128,8 @@ impl Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum Levels {
-    /// Those that save time: none, but for an approximate query that a coarse level can answer.
+    /// Those that save time whatever the motion: none so far. From the look-up tables the bodies themselves answer as quickly,
+    /// but for coarse questions about large thin bodies.
     #[default]
     Automatic = 0,
     /// None.

@@ -46,7 +46,7 @@ fn shapes() -> Vec<Shape> {
             shapes.push(Shape::from_mesh(mesh, &options).unwrap());
         }
     }
-    // Large enough for levels to be chosen automatically.
+    // Large ones.
     for (half_axes, kind) in [([1.0, 0.3, 0.1], HierarchyKind::Quadric), ([1.0, 1.0, 0.1], HierarchyKind::OuterCuts)] {
         let hierarchy = HierarchyOptions { kind, ..HierarchyOptions::default() };
         let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };

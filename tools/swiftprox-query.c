@@ -37,8 +37,8 @@ static const char HELP[] =
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
     "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
-    "  --levels none         build no levels of detail (the default)\n"
-    "  --levels auto         build levels cut from outside, and use them where that saves time\n"
+    "  --levels auto         levels of detail where they save time whatever the motion: none so far (the default)\n"
+    "  --levels none         no levels of detail\n"
     "  --levels quadric      build levels by quadric error simplification, and send all queries through them\n"
     "  --levels dk           the same with levels after Dobkin and Kirkpatrick\n"
     "  --levels outer        the same with levels cut from outside\n"
@@ -147,8 +147,8 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
     static const swift_start START_VALUES[] = {SWIFT_START_AUTOMATIC, SWIFT_START_CACHE, SWIFT_START_TABLE,
                                                SWIFT_START_COLD};
-    static const char *const LEVELS[] = {"none", "auto", "quadric", "dk", "outer"};
-    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_OUTER_CUTS,
+    static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer"};
+    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_NONE,
                                                   SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                   SWIFT_HIERARCHY_OUTER_CUTS};
 

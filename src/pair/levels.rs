@@ -35,40 +35,15 @@ pub(super) fn approximate(
     if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
         return Err(bad_accuracy(config));
     }
-    let uses_levels = uses_levels(shapes, config);
-    let is_plain = config.step_budget == u32::MAX;
-    if is_plain && !uses_levels {
+    if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
     }
     if !(config.distance_tolerance >= 0.0 && config.rotation_limit >= 0.0) {
         return Err(bad_config(config));
     }
-    // A pair that moves little is answered exactly as quickly, until it moves more.
-    if is_plain && config.levels == Levels::Automatic && (1..=6).contains(&cache.kind) {
-        super::query(Query::Approximate, shapes, poses, cache, config, answer)?;
-        let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-        if answer.statistics.marching_steps > FEW_STEPS
-            && let Some(state) = State::checked(cache.kind, cache.indices, polyhedra)
-        {
-            let bodies = Leveled { shapes, poses };
-            let place = Place { levels: [0, 0], state };
-            cache.remember_place(bodies.climbed(place, answer.lower, config.absolute_error));
-        }
-        return Ok(());
-    }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     PairQuery { query: Query::Approximate, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
-
-/// Exact answers in at most so many steps are as quick as those of levels.
-const FEW_STEPS: u32 = 2;
-
-/// So many answers of one step each from levels, one after the other, and the automatic choice tries the bodies themselves.
-const COHERENT: u32 = 16;
-
-/// Bodies of fewer vertices, both together, are not worth levels: from their tables the exact answer is quicker. Measured at 2,004 (slower
-/// in all but the 10° motions) and at 20,004 vertices.
-const MANY_VERTICES: usize = 8_000;
 
 #[cold]
 fn bad_accuracy(config: &PairConfig) -> Error {
@@ -76,19 +51,6 @@ fn bad_accuracy(config: &PairConfig) -> Error {
         "absolute_error ({}) and relative_error ({}) are to be non-negative numbers, step_budget ({}) at least 1",
         config.absolute_error, config.relative_error, config.step_budget
     ))
-}
-
-/// Whether an approximate query goes through levels. By default if the bodies are large and their finest levels, which are the tightest,
-/// within the absolute error.
-#[inline(always)]
-fn uses_levels([shape1, shape2]: [&Shape; 2], config: &PairConfig) -> bool {
-    if config.levels == Levels::None || (shape1.hierarchy().levels.is_empty() && shape2.hierarchy().levels.is_empty()) {
-        return false;
-    }
-    let finest = |shape: &Shape| shape.hierarchy().levels.first().map_or(0.0, |level| level.deviation);
-    config.levels == Levels::All
-        || (shape1.polyhedron().vertices.len() + shape2.polyhedron().vertices.len() >= MANY_VERTICES
-            && finest(shape1) + finest(shape2) < config.absolute_error)
 }
 
 impl PairQuery<'_> {
@@ -146,13 +108,7 @@ impl PairQuery<'_> {
         match (descended, found) {
             (Descended::Enough, Some(found)) => {
                 self.fill_found(&found, Status::WithinTolerance, steps);
-                let in_a_row = if steps == 1 { self.cache.coherent_before() + 1 } else { 0 };
-                if in_a_row >= COHERENT && query == Query::Approximate && config.levels == Levels::Automatic {
-                    self.cache.remember_state(bodies.descended(place, [0, 0]).state);
-                    return Ok(());
-                }
                 self.remember(&bodies, place, found.lower);
-                self.cache.pairs[1][1] = in_a_row;
                 if steps > 1 {
                     self.remember_marker();
                 }
@@ -168,7 +124,7 @@ impl PairQuery<'_> {
 
     /// Where the search starts: where the last one ended, else at the coarsest levels. Whether it is the former, too.
     fn start(&self, bodies: &Leveled) -> (Place, bool) {
-        let has_levels = self.config.levels != Levels::None;
+        let has_levels = self.config.levels == Levels::All;
         let recalled = if self.config.start.asks_cache() { self.cache.recall_place(bodies) } else { None };
         match recalled {
             // An exact query left it.
@@ -188,7 +144,7 @@ impl PairQuery<'_> {
     /// Where to start if not where the last search ended: at the levels that may be near enough above the vertices that the tables of
     /// the bodies say, without tables at the coarsest levels.
     fn place_anew(&self, bodies: &Leveled) -> Place {
-        let no_levels = self.config.levels == Levels::None;
+        let no_levels = self.config.levels != Levels::All;
         let has_tables = self.polyhedra.iter().all(|polyhedron| !matches!(polyhedron.lookup.table, Table::None));
         if no_levels || (has_tables && self.config.start != Start::Cold) {
             let place =
@@ -245,7 +201,7 @@ impl PairQuery<'_> {
 
     /// The cache for the next query: as high up as its levels would be disjoint and, where that is all that counts, near enough.
     fn remember(&mut self, bodies: &Leveled, place: Place, gap: f64) {
-        if self.config.levels == Levels::None {
+        if self.config.levels != Levels::All {
             self.cache.remember_state(place.state);
             return;
         }

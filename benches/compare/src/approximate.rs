@@ -91,13 +91,7 @@ impl Method for Setting<'_> {
 fn settings<'a>(shapes: &'a [Shape]) -> Vec<Setting<'a>> {
     let mut settings = Vec::new();
     for ((hierarchy, kind, ..), shape) in HIERARCHIES.into_iter().zip(shapes) {
-        // The automatic choice on the levels that it is made for.
-        let mut uses = vec![("all", Levels::All)];
-        if kind == HierarchyKind::None {
-            uses = vec![("none", Levels::None)];
-        } else if kind != HierarchyKind::DobkinKirkpatrick {
-            uses.push(("automatic", Levels::Automatic));
-        }
+        let uses = if kind == HierarchyKind::None { [("none", Levels::None)] } else { [("all", Levels::All)] };
         for (levels_name, levels) in uses {
             let refinements = if levels == Levels::All { &REFINEMENTS[..] } else { &REFINEMENTS[..1] };
             for &(refinement_name, refinement) in refinements {
