@@ -16,7 +16,7 @@ use crate::math::{UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::polyhedron::{Bevel, Edge, Face, NONE, Polyhedron};
 use crate::simd::{Lanes, Portable};
 use crate::state::{FeatureId, State};
-use crate::voronoi::{STRICT, edge_direction, plane_values};
+use crate::voronoi::{Rule, STRICT, edge_direction, plane_values};
 
 /// A rigorous interval of the distance. `lower` may be negative or NaN: then nothing is proved.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -126,6 +126,9 @@ impl<L: Lanes> Minimum<L> {
 
 /// What becomes of a minimum that marching finds. It is called where the kinds of the features are known to the compiler.
 pub trait Certify<L: Lanes> {
+    /// Across which plane marching goes on where several are violated.
+    const RULE: Rule = Rule::Most;
+
     /// Looks whether a minimum is good enough, and puts it where it belongs.
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>);
 }

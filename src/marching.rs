@@ -17,8 +17,7 @@ use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
 use crate::state::{Kind, State};
 use crate::voronoi::{
-    STRICT, VertexTest, edge_direction, end_of, exit_of_prism, most_violated_side, plane_slopes, plane_values,
-    test_vertex,
+    STRICT, VertexTest, edge_direction, end_of, exit_of_prism, plane_slopes, plane_values, test_vertex, violated_side,
 };
 
 /// What marching came to.
@@ -107,8 +106,8 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
     let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
     let square = direction.dot(direction);
     let length = square.sqrt();
-    let test1 = test_vertex(body1.polyhedron, indices[0], towards[0], length, frame.tolerance);
-    let test2 = test_vertex(body2.polyhedron, indices[1], towards[1], length, frame.tolerance);
+    let test1 = test_vertex(J::RULE, body1.polyhedron, indices[0], towards[0], length, frame.tolerance);
+    let test2 = test_vertex(J::RULE, body2.polyhedron, indices[1], towards[1], length, frame.tolerance);
     Step::Move(match (test1, test2) {
         (VertexTest::Leaves { edge, head }, VertexTest::Leaves { edge: edge2, head: head2 }) => {
             // Both features change in one step (Ehmann & Lin 2000, §5.1).
@@ -157,8 +156,9 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let record = &far.polyhedron.edges[edge as usize];
     let values = plane_values(&record.planes, point);
     let inside = values.greater(L::splat(MARGIN * frame.tolerance));
-    if inside != 0b1111 && L::splat(-frame.tolerance).greater(values) != 0 {
-        let (_, lane) = values.least();
+    let least = L::splat(-frame.tolerance);
+    if inside != 0b1111 && least.greater(values) != 0 {
+        let lane = J::RULE.violated(values, least);
         let across = [record.tail, record.head, record.left, record.right][lane & 3];
         let indices = ordered::<NEAR>(vertex, across);
         return Step::Move(if lane < 2 {
@@ -189,7 +189,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
         square = direction.dot(direction);
     }
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(body.polyhedron, vertex, towards_far, distance, frame.tolerance);
+    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, distance, frame.tolerance);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return Step::Move(if leaving == NONE {
             State::vertex_edge(NEAR, head, edge)
@@ -243,7 +243,7 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
     let inside = values.greater(L::splat(MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
     if (record.side_count > 3) | !inside
-        && let Some(side) = most_violated_side(far.polyhedron, record, values, point, frame.tolerance)
+        && let Some(side) = violated_side(J::RULE, far.polyhedron, record, values, point, frame.tolerance)
     {
         let edge = far.polyhedron.sides[(record.first_side + side) as usize];
         return Step::Move(State::vertex_edge(NEAR, vertex, edge));
@@ -255,7 +255,7 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let normal = L::from_vector(&record.normal);
     let direction = far.lift(normal);
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(body.polyhedron, vertex, towards_far, NEARLY_UNIT, STRICT);
+    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, NEARLY_UNIT, STRICT);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], leaving, head);
     }
@@ -384,7 +384,7 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     let values2 = plane_slopes(&record2.planes, towards[1]);
     let across = L::upper_halves(values1, values2);
     if slack.greater(across) != 0 {
-        let (_, lane) = across.least();
+        let lane = J::RULE.violated(across, slack);
         return if lane < 2 {
             let face = if lane == 0 { record1.left } else { record1.right };
             walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)

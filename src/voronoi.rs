@@ -4,6 +4,26 @@ use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
 
+/// Across which plane to go on where several are violated.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Rule {
+    /// The most violated one (Ehmann & Lin 2000, §5.1).
+    Most,
+    /// The first that is found violated, as in V-Clip (Mirtich 1998): what the other rule is measured against (`benches/compare`).
+    First,
+}
+
+impl Rule {
+    /// The lane to go on across, of values of which one at least is less than `least`.
+    #[inline(always)]
+    pub fn violated<L: Lanes>(self, values: L, least: L) -> usize {
+        match self {
+            Rule::Most => values.least().1,
+            Rule::First => least.greater(values).trailing_zeros() as usize,
+        }
+    }
+}
+
 /// How far a vertex's neighbours lie in a direction.
 #[derive(Clone, Copy)]
 pub enum VertexTest {
@@ -26,7 +46,14 @@ pub const STRICT: f64 = 16.0 * UNIT_ROUNDOFF;
 
 /// Tests all neighbours of a vertex in direction g (towards the other body), whose length is at most `length`.
 #[inline(always)]
-pub fn test_vertex<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, g: L, length: f64, tolerance: f64) -> VertexTest {
+pub fn test_vertex<L: Lanes>(
+    rule: Rule,
+    polyhedron: &Polyhedron,
+    vertex: u32,
+    g: L,
+    length: f64,
+    tolerance: f64,
+) -> VertexTest {
     let block = &polyhedron.neighbours[vertex as usize];
     let [low, high] = slopes(block, g);
     let strict = L::splat(-STRICT * length);
@@ -34,12 +61,13 @@ pub fn test_vertex<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, g: L, length:
     if low.greater(strict) | high.greater(strict) | more == 0 {
         return VertexTest::Strict;
     }
-    test_vertex_further(polyhedron, vertex, g, length, tolerance)
+    test_vertex_further(rule, polyhedron, vertex, g, length, tolerance)
 }
 
 /// The rest of [`test_vertex`]: some neighbour is not strictly behind, or there are more than eight.
 #[inline(always)]
 fn test_vertex_further<L: Lanes>(
+    rule: Rule,
     polyhedron: &Polyhedron,
     vertex: u32,
     g: L,
@@ -51,6 +79,9 @@ fn test_vertex_further<L: Lanes>(
         VertexTest::Strict
     } else if slope <= tolerance {
         VertexTest::Tied
+    } else if rule == Rule::First {
+        let [x, y, z, _] = g.to_array();
+        leave_by_first(polyhedron, vertex, Vector::new(x, y, z), tolerance, head)
     } else if edge != NONE {
         VertexTest::Leaves { edge, head }
     } else {
@@ -110,6 +141,19 @@ fn leave_by_edge(polyhedron: &Polyhedron, vertex: u32, g: Vector, tolerance: f64
     best.1
 }
 
+/// The first real edge that rises, or where none does the neighbour across a merged face.
+fn leave_by_first(polyhedron: &Polyhedron, vertex: u32, g: Vector, tolerance: f64, head: u32) -> VertexTest {
+    for block in polyhedron.neighbour_blocks(vertex) {
+        for lane in 0..8 {
+            let slope = block.x[lane] * g.x + block.y[lane] * g.y + block.z[lane] * g.z;
+            if slope > tolerance && block.edge[lane] != NONE {
+                return VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane] };
+            }
+        }
+    }
+    VertexTest::Leaves { edge: NONE, head }
+}
+
 /// g·ê for the eight lanes of a block.
 #[inline(always)]
 fn slopes<L: Lanes>(block: &NeighbourBlock, g: L) -> [L; 2] {
@@ -151,10 +195,11 @@ pub fn edge_direction(planes: &PlaneBlock) -> Vector {
     Vector::new(planes.x[0], planes.y[0], planes.z[0])
 }
 
-/// The side of a face whose plane is violated most, if any is by more than the tolerance. `first` are the values of the face's
-/// first block.
+/// The side of a face whose plane is violated by more than the tolerance, by the rule, if there is any. `first` are the values of the
+/// face's first block.
 #[inline(always)]
-pub fn most_violated_side<L: Lanes>(
+pub fn violated_side<L: Lanes>(
+    rule: Rule,
     polyhedron: &Polyhedron,
     face: &Face,
     first: L,
@@ -162,7 +207,12 @@ pub fn most_violated_side<L: Lanes>(
     tolerance: f64,
 ) -> Option<u32> {
     // Lane 0 is not a side.
-    let (mut worst, lane) = first.with_first(L::splat(f64::INFINITY)).least();
+    let first = first.with_first(L::splat(f64::INFINITY));
+    let least = L::splat(-tolerance);
+    if rule == Rule::First && least.greater(first) != 0 {
+        return Some(rule.violated(first, least) as u32 - 1);
+    }
+    let (mut worst, lane) = first.least();
     let mut side = (lane as u32).saturating_sub(1);
     for (index, block) in polyhedron.further_sides(face).iter().enumerate() {
         let (value, lane) = plane_values(block, point).least();

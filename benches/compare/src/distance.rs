@@ -3,13 +3,14 @@
 use std::rc::Rc;
 
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::Bounds;
+use swiftprox::pair::{Bounds, PairConfig};
+use swiftprox::shape::{Shape, ShapeOptions};
 
-use crate::method::{Method, Reply};
+use crate::method::{Method, Reply, replies};
 use crate::options::Options;
-use crate::ours::Ours;
 use crate::parry::{Parry, Rings, Turning};
 use crate::report::{self, Row};
+use crate::setting::{Query, setting};
 use crate::timing::{median, time_methods};
 use crate::{model, motion};
 
@@ -53,8 +54,10 @@ pub fn run(options: &Options) -> Result<(), String> {
 /// The methods asked for that are there, in the order of `--help`.
 fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>, String> {
     let mut all: Vec<Box<dyn Method>> = Vec::new();
-    for bounds in [Bounds::Tight, Bounds::Verdict] {
-        all.push(Box::new(Ours::new(mesh, bounds).map_err(|e| e.to_string())?));
+    let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
+    for (name, bounds) in [("swiftprox", Bounds::Tight), ("swiftprox-verdict", Bounds::Verdict)] {
+        let config = PairConfig { bounds, ..PairConfig::default() };
+        all.push(setting(name, Query::Distance, &shape, config));
     }
     let rings = Rc::new(Rings::new(mesh));
     for turning in [Turning::Quaternion, Turning::Matrix] {
@@ -69,16 +72,6 @@ fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>
     }
     all.retain(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name()));
     if all.is_empty() { Err("--methods: none of these is there".into()) } else { Ok(all) }
-}
-
-/// One pass, coherence flowing.
-fn replies(method: &mut dyn Method, count: usize) -> Vec<Reply> {
-    method.forget();
-    let mut reply = |i| {
-        method.ask(i);
-        method.reply()
-    };
-    (0..count).map(&mut reply).collect()
 }
 
 /// How a method's answers differ from the reference's.

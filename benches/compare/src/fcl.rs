@@ -77,6 +77,13 @@ impl Method for Fcl {
     }
 
     fn reply(&self) -> Reply {
-        Reply { distance: self.distance, width: f64::NAN, steps: f64::NAN, fallback: false, exact: false }
+        Reply {
+            distance: self.distance,
+            width: f64::NAN,
+            steps: f64::NAN,
+            fallback: false,
+            exact: false,
+            by_levels: false,
+        }
     }
 }

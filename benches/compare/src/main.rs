@@ -1,18 +1,19 @@
 //! `compare --help`.
 
 mod answers;
-mod approximate;
 mod build_time;
 mod distance;
 #[cfg(fcl)]
 mod fcl;
+mod figures;
+mod marches;
 mod method;
 mod options;
-mod ours;
 mod parry;
 mod report;
 #[path = "../../common/mod.rs"]
 mod scenes;
+mod setting;
 mod timing;
 
 use std::process::ExitCode;
@@ -34,8 +35,8 @@ fn main() -> ExitCode {
         if let Some(arguments) = &options.answers {
             return answers::run(arguments);
         }
-        if options.approximate {
-            approximate::run(&options)
+        if let Some(wanted) = &options.figures {
+            figures::run(&options, wanted)
         } else if options.build {
             build_time::run(&options)
         } else {

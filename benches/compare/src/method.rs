@@ -18,6 +18,8 @@ pub struct Reply {
     pub fallback: bool,
     /// Integer arithmetic had to decide.
     pub exact: bool,
+    /// Levels of detail answered.
+    pub by_levels: bool,
 }
 
 /// A distance query with witness points, its coherence and its last answer.
@@ -51,4 +53,14 @@ pub trait Method {
             black_box(&mut *self);
         }
     }
+}
+
+/// One pass, coherence flowing.
+pub fn replies(method: &mut dyn Method, count: usize) -> Vec<Reply> {
+    method.forget();
+    let mut reply = |i| {
+        method.ask(i);
+        method.reply()
+    };
+    (0..count).map(&mut reply).collect()
 }

@@ -18,7 +18,9 @@ usage: compare [options]
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
-  --approximate     time approximate distances over the error asked for instead, with every kind of levels of detail
+  --figures LIST    time the figures of Ehmann & Lin (2000) instead: of 5 to 12, choice (the automatic choice against the
+                    fixed ones), error (approximate distances), size (models of up to 200,000 triangles), or all; a
+                    figure has its own sizes, orbits and steps
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -39,7 +41,8 @@ pub struct Options {
     pub workload: Option<PathBuf>,
     pub build: bool,
     pub answers: Option<[String; 4]>,
-    pub approximate: bool,
+    /// Which figures; empty: all.
+    pub figures: Option<Vec<String>>,
     pub csv: Option<PathBuf>,
     pub help: bool,
 }
@@ -58,7 +61,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         workload: None,
         build: false,
         answers: None,
-        approximate: false,
+        figures: None,
         csv: None,
         help: false,
     };
@@ -77,7 +80,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--workload" => options.workload = Some(value()?.into()),
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
-            "--approximate" => options.approximate = true,
+            "--figures" => {
+                options.figures = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
+            }
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,
             _ => return Err(format!("{name}: no such option (see --help)")),

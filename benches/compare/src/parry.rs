@@ -184,6 +184,6 @@ impl Method for Parry {
             GJKResult::Intersection => 0.0,
             GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => f64::NAN,
         };
-        Reply { distance, width: f64::NAN, steps: f64::NAN, fallback: false, exact: false }
+        Reply { distance, width: f64::NAN, steps: f64::NAN, fallback: false, exact: false, by_levels: false }
     }
 }

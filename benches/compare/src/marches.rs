@@ -1,0 +1,110 @@
+//! Marching over one pair of bodies from the last features to the next, and nothing around it: no table, no levels, no second tier, no
+//! answer to fill. So the rule alone differs by which marching goes on where several planes are violated.
+
+use std::rc::Rc;
+
+use swiftprox::certificate::{Certify, Gap, Minimum};
+use swiftprox::frame::Frame;
+use swiftprox::marching::{self, March};
+use swiftprox::math::{Pose, ROTATION_LIMIT};
+use swiftprox::shape::Shape;
+use swiftprox::simd::{self, Kernel, Lanes};
+use swiftprox::start;
+use swiftprox::state::State;
+use swiftprox::voronoi::Rule;
+
+use crate::method::{Method, Reply};
+use crate::scenes::PosePair;
+use crate::setting::poses_of;
+
+pub struct Marching<const FIRST: bool> {
+    name: &'static str,
+    shape: Rc<Shape>,
+    poses: Vec<[Pose; 2]>,
+    state: Option<State>,
+    gap: Option<Gap>,
+    steps: u32,
+}
+
+impl<const FIRST: bool> Marching<FIRST> {
+    pub fn new(name: &'static str, shape: Rc<Shape>) -> Marching<FIRST> {
+        Marching { name, shape, poses: Vec::new(), state: None, gap: None, steps: 0 }
+    }
+}
+
+impl<const FIRST: bool> Method for Marching<FIRST> {
+    fn name(&self) -> &str {
+        self.name
+    }
+
+    fn load(&mut self, poses: &[PosePair]) {
+        self.poses = poses_of(poses);
+    }
+
+    fn forget(&mut self) {
+        self.state = None;
+    }
+
+    #[inline]
+    fn ask(&mut self, i: usize) {
+        let polyhedron = self.shape.polyhedron();
+        let [pose1, pose2] = &self.poses[i];
+        let poses = [pose1, pose2];
+        let start =
+            self.state.unwrap_or_else(|| State::vertex_vertex(start::anew([polyhedron; 2], poses, false).vertices));
+        let mut run = Run::<FIRST> { shape: &self.shape, poses, state: start, steps: 0, keep: Keep { gap: None } };
+        simd::dispatch(&mut run);
+        self.state = Some(run.state);
+        self.steps = run.steps;
+        self.gap = run.keep.gap;
+    }
+
+    fn reply(&self) -> Reply {
+        let nothing =
+            Reply { distance: f64::NAN, width: f64::NAN, steps: 0.0, fallback: true, exact: false, by_levels: false };
+        let reply = self.gap.map_or(nothing, |gap| Reply {
+            distance: gap.distance,
+            width: gap.interval.upper - gap.interval.lower,
+            fallback: false,
+            ..nothing
+        });
+        Reply { steps: f64::from(self.steps), ..reply }
+    }
+}
+
+struct Run<'a, const FIRST: bool> {
+    shape: &'a Shape,
+    poses: [&'a Pose; 2],
+    state: State,
+    steps: u32,
+    keep: Keep<FIRST>,
+}
+
+impl<const FIRST: bool> Kernel for Run<'_, FIRST> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        let polyhedron = self.shape.polyhedron();
+        let frame = Frame::<L>::new([polyhedron; 2], self.poses, ROTATION_LIMIT);
+        assert!(frame.usual, "the poses are sound");
+        let limit = 64 + polyhedron.vertices.len() as u32;
+        let (march, steps) = marching::march(&frame, self.state, limit, &mut self.keep);
+        let (March::Minimum(at) | March::Limit(at) | March::Open(at)) = march;
+        (self.state, self.steps) = (at, steps);
+    }
+}
+
+/// Keeps what follows from the minimum.
+struct Keep<const FIRST: bool> {
+    gap: Option<Gap>,
+}
+
+impl<L: Lanes, const FIRST: bool> Certify<L> for Keep<FIRST> {
+    const RULE: Rule = if FIRST { Rule::First } else { Rule::Most };
+
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, _: State, minimum: &Minimum<L>) {
+        self.gap = Some(minimum.gap(frame));
+    }
+}

@@ -1,0 +1,111 @@
+//! A query of this library under one setting, from the 24 numbers of the poses to the whole answer: what is asked, of which shape, by
+//! which configuration.
+
+use std::rc::Rc;
+
+use swiftprox::error::Result;
+use swiftprox::math::Pose;
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::shape::Shape;
+
+use crate::method::{Method, Reply};
+use crate::scenes::PosePair;
+
+/// What is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Query {
+    Intersection,
+    Approximate,
+    Distance,
+    Contact,
+}
+
+impl Query {
+    pub fn name(self) -> &'static str {
+        match self {
+            Query::Intersection => "intersection",
+            Query::Approximate => "approximate",
+            Query::Distance => "distance",
+            Query::Contact => "contact",
+        }
+    }
+}
+
+/// The query under a setting, as a method to be timed.
+pub fn setting(name: impl Into<String>, query: Query, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
+    let (name, shape) = (name.into(), shape.clone());
+    match query {
+        Query::Intersection => Box::new(Setting::new(name, pair::intersection, shape, config)),
+        Query::Approximate => Box::new(Setting::new(name, pair::approximate, shape, config)),
+        Query::Distance => Box::new(Setting::new(name, pair::distance, shape, config)),
+        Query::Contact => Box::new(Setting::new(name, pair::contact, shape, config)),
+    }
+}
+
+/// A type for each function of the library, so that the compiler sees which is called.
+struct Setting<Ask> {
+    name: String,
+    ask: Ask,
+    shape: Rc<Shape>,
+    config: PairConfig,
+    poses: Vec<[Pose; 2]>,
+    cache: PairCache,
+    answer: PairAnswer,
+    failed: bool,
+}
+
+impl<Ask> Setting<Ask> {
+    fn new(name: String, ask: Ask, shape: Rc<Shape>, config: PairConfig) -> Setting<Ask> {
+        let (cache, answer) = (PairCache::default(), PairAnswer::default());
+        Setting { name, ask, shape, config, poses: Vec::new(), cache, answer, failed: false }
+    }
+}
+
+impl<Ask> Method for Setting<Ask>
+where
+    Ask: Fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
+{
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn load(&mut self, poses: &[PosePair]) {
+        self.poses = poses_of(poses);
+    }
+
+    fn forget(&mut self) {
+        self.cache = PairCache::default();
+    }
+
+    #[inline]
+    fn ask(&mut self, i: usize) {
+        let [pose1, pose2] = &self.poses[i];
+        let (shape, cache, config, answer) = (&*self.shape, &mut self.cache, &self.config, &mut self.answer);
+        self.failed = (self.ask)(shape, pose1, shape, pose2, cache, config, answer).is_err();
+    }
+
+    fn reply(&self) -> Reply {
+        let answer = &self.answer;
+        let distance = match answer.outcome {
+            _ if self.failed => f64::NAN,
+            Outcome::Separated => answer.distance,
+            Outcome::Intersecting => 0.0,
+            Outcome::None | Outcome::Beyond | Outcome::Undecided => f64::NAN,
+        };
+        let statistics = &answer.statistics;
+        Reply {
+            distance,
+            width: answer.upper - answer.lower,
+            steps: f64::from(statistics.marching_steps),
+            fallback: statistics.fallback_iterations > 0,
+            exact: statistics.exact_iterations > 0,
+            by_levels: statistics.levels != [0, 0],
+        }
+    }
+}
+
+/// A pose is its twelve numbers: nothing is computed here.
+pub fn poses_of(poses: &[PosePair]) -> Vec<[Pose; 2]> {
+    let pose = |m: &[f64]| Pose::from_row_major(m.try_into().expect("twelve of 24"));
+    poses.iter().map(|p| [pose(&p[..12]), pose(&p[12..])]).collect()
+}
