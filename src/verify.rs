@@ -1,19 +1,23 @@
 //! The independent check of an answer, in O(n), trusting nothing of the solver: supports by brute force over all vertices, the
 //! witness points against all faces, an intersection's proof in integers.
 
-use crate::answer::{Outcome, PairAnswer};
+mod witness;
+
+use crate::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::error::{Error, Result};
 use crate::exact;
 use crate::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
+use witness::Witness;
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
 ///
-/// Separated: along the normal the bodies are at least `lower` apart, by supports over all vertices; where witness points are
-/// said they lie in both bodies and their distance in [`lower`, `upper`]. Intersecting: the proof's vertex differences hold the
-/// origin in their hull, exactly. The check of a separated answer is done in double precision and can see a miss of more than
-/// about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins.
+/// Separated: along the normal the bodies are at least `lower` apart, by supports over all vertices. Intersecting: the proof's
+/// vertex differences hold the origin in their hull, exactly. Where witness points are said they lie in both bodies, world and
+/// local ones are the same, and their features are those of the bodies. Those of a separated answer lie on their features, at a
+/// distance in [`lower`, `upper`]; those of a contact are one point. All but the proof is checked in double precision, which can
+/// see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins.
 ///
 /// # Errors
 /// [`Error::Bug`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an answer
@@ -39,16 +43,9 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
         return Err(bug(format!("not 0 ≤ lower ≤ distance ≤ upper, 0 < upper: {lower:e}, {distance:e}, {upper:e}")));
     }
     let normal = Vector::from(answer.normal);
-    if !((normal.norm_squared() - 1.0).abs() <= 16.0 * U) {
-        return Err(bug(format!("the normal is not a unit vector: {normal:?}")));
-    }
-    // Translations first, so that bodies far out lose no digits.
-    let between = (poses[0].translation() - poses[1].translation())
-        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre));
-    let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
-    // Some hundred operations, each with at most half the least double where its result is subnormal.
-    let underflow = 128.0 * f64::from_bits(1);
-    let allowed = 64.0 * U * (polyhedra[0].radius + polyhedra[1].radius + length(&between) + centres) + underflow;
+    check_unit(&normal)?;
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between);
     if !allowed.is_finite() {
         return Err(Error::Argument("the objects are too large or too far apart to be checked in doubles".into()));
     }
@@ -64,47 +61,63 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     if !(gap <= upper + allowed) {
         return Err(bug(format!("along the normal the bodies are {gap:e} apart, more than {upper:e}")));
     }
-    let points = [Vector::from(answer.local1), Vector::from(answer.local2)];
-    if points.iter().flatten().all(|x| x.is_nan()) {
+    if answer.proof_count != 0 {
+        return Err(bug("a proof of intersection of objects that are separated".into()));
+    }
+    let witnesses = witnesses(polyhedra, poses, answer);
+    if !are_said(&witnesses) {
         return Ok(());
     }
-    let centred: [Vector; 2] = std::array::from_fn(|i| points[i] - polyhedra[i].centre);
-    for i in 0..2 {
-        let outside = distance_outside(polyhedra[i], &centred[i]);
-        if !(outside <= allowed) {
-            return Err(bug(format!("witness point {} lies {outside:e} out of its object", i + 1)));
-        }
+    for witness in &witnesses {
+        witness.check_point(allowed)?;
+        // A point is on the surface as far as the interval tells that it is nearest.
+        witness.check_on_feature(allowed + (upper - lower))?;
     }
-    let apart = length(&(between + poses[0].rotate(&centred[0]) - poses[1].rotate(&centred[1])));
+    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
+    let apart = length(&(between + first - second));
     if !(apart >= lower - allowed && apart <= upper + allowed) {
         return Err(bug(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}]")));
     }
     Ok(())
 }
 
-/// How far a point in centred coordinates lies out of a polyhedron, at least: the largest violation of a plane, less what the
-/// plane misses the hull by, which is far more than rounding where a face is a sliver.
-fn distance_outside(polyhedron: &Polyhedron, point: &Vector) -> f64 {
-    let vertex = |i: usize| polyhedron.vertices[i].position;
-    match polyhedron.dimension {
-        0 => length(&(point - vertex(0))),
-        1 => {
-            let along = vertex(1) - vertex(0);
-            let direction = along / length(&along);
-            let t = ((point - vertex(0)).dot(&direction) / length(&along)).clamp(0.0, 1.0);
-            length(&(point - vertex(0) - along * t))
-        }
-        _ => {
-            let over_faces = polyhedron.faces.iter().map(|face| face.planes.value(0, point) - face.slack);
-            // A flat body is bounded by its bevels, which lie in its plane.
-            let over_bevels = polyhedron
-                .edges
-                .iter()
-                .filter_map(|edge| polyhedron.bevels.get(edge.bevel as usize).map(|bevel| (edge, bevel)))
-                .map(|(edge, bevel)| bevel.normal.dot(&(point - vertex(edge.tail as usize))) - bevel.slack);
-            over_faces.chain(over_bevels).fold(0.0, f64::max)
-        }
+/// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
+fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
+    (poses[0].translation() - poses[1].translation())
+        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
+}
+
+/// What rounding may make of a length as it is checked here.
+fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> f64 {
+    let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
+    // Some hundred operations, each with at most half the least double where its result is subnormal.
+    let underflow = 128.0 * f64::from_bits(1);
+    64.0 * U * (polyhedra[0].radius + polyhedra[1].radius + length(between) + centres) + underflow
+}
+
+fn check_unit(normal: &Vector) -> Result<()> {
+    if (normal.norm_squared() - 1.0).abs() <= 16.0 * U {
+        return Ok(());
     }
+    Err(bug(format!("the normal is not a unit vector: {normal:?}")))
+}
+
+/// What the answer says of each object.
+fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &PairAnswer) -> [Witness<'a>; 2] {
+    let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
+    std::array::from_fn(|i| {
+        let (local, world, feature) = said[i];
+        let (polyhedron, pose) = (polyhedra[i], poses[i]);
+        Witness { object: i + 1, polyhedron, pose, local: local.into(), world: world.into(), feature }
+    })
+}
+
+/// Whether any witness point or feature is said.
+fn are_said(witnesses: &[Witness; 2]) -> bool {
+    witnesses.iter().any(|witness| {
+        let mut coordinates = witness.local.iter().chain(&witness.world);
+        coordinates.any(|x| !x.is_nan()) || witness.feature.kind != FeatureKind::None
+    })
 }
 
 fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
@@ -125,11 +138,26 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
             pair[i] = index as u32;
         }
     }
-    if exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
-        Ok(())
-    } else {
-        Err(bug("the proof's vertex differences do not hold the origin in their hull".into()))
+    if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
+        return Err(bug("the proof's vertex differences do not hold the origin in their hull".into()));
     }
+    let witnesses = witnesses(polyhedra, poses, answer);
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between);
+    if !are_said(&witnesses) || !allowed.is_finite() {
+        return Ok(());
+    }
+    check_unit(&Vector::from(answer.normal))?;
+    for witness in &witnesses {
+        witness.check_point(allowed)?;
+        witness.check_feature()?;
+    }
+    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
+    let apart = length(&(between + first - second));
+    if !(apart <= allowed) {
+        return Err(bug(format!("the witness points of a contact are {apart:e} apart")));
+    }
+    Ok(())
 }
 
 /// The length of a vector whose squares may leave the range of doubles.

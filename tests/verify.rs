@@ -1,6 +1,6 @@
 //! The check of answers: right ones pass however odd the bodies, wrong ones do not.
 
-use swiftprox::answer::Outcome;
+use swiftprox::answer::{Feature, FeatureKind, Outcome};
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig};
@@ -102,4 +102,120 @@ fn an_upper_end_below_the_gap_is_refuted() {
     (answer.lower, answer.distance, answer.upper) = (0.5, 1.0, 1.5);
     let refused = verify(&tetrahedron, &here, &tetrahedron, &there, &answer);
     assert!(matches!(&refused, Err(Error::Bug(message)) if message.contains("1.5e0")), "{refused:?}");
+}
+
+/// An answer with one thing in it changed.
+struct Forgery {
+    what: &'static str,
+    /// A part of the message that refuses it.
+    refused: &'static str,
+    change: fn(&mut PairAnswer),
+}
+
+const fn forgery(what: &'static str, refused: &'static str, change: fn(&mut PairAnswer)) -> Forgery {
+    Forgery { what, refused, change }
+}
+
+/// Two cubes of side 2, the second of them 1 off in x; the nearest features are faces.
+fn cubes() -> ([Shape; 2], [Pose; 2]) {
+    let corners: Vec<Vector> = (0..8)
+        .map(|i| Vector::new(f64::from(i & 1), f64::from(i >> 1 & 1), f64::from(i >> 2)).map(|x| 2.0 * x - 1.0))
+        .collect();
+    ([hull(&corners), hull(&corners)], [at(0.0, 0.0, 0.0), at(3.0, 0.5, 0.25)])
+}
+
+#[track_caller]
+fn each_is_refused(forgeries: &[Forgery], shapes: &[Shape; 2], poses: &[Pose; 2], answer: &PairAnswer) {
+    let check = |answer: &PairAnswer| verify(&shapes[0], &poses[0], &shapes[1], &poses[1], answer);
+    check(answer).unwrap();
+    for Forgery { what, refused, change } in forgeries {
+        let mut forged = *answer;
+        change(&mut forged);
+        let checked = check(&forged);
+        assert!(matches!(&checked, Err(Error::Bug(m)) if m.contains(refused)), "{what}: {checked:?}");
+    }
+}
+
+const NOWHERE: [f64; 3] = [f64::NAN; 3];
+
+#[test]
+fn whatever_a_separated_answer_says_is_checked() {
+    let (shapes, poses) = cubes();
+    let answer = distance(&shapes[0], &poses[0], &shapes[1], &poses[1]);
+    assert_eq!((answer.outcome, answer.distance), (Outcome::Separated, 1.0));
+    let forgeries = [
+        forgery("a lower end above the distance", "lower", |a| a.lower = 1.5),
+        forgery("an interval below the distance", "more than", |a| (a.lower, a.distance, a.upper) = (0.5, 0.5, 0.5)),
+        forgery("an interval above it", "apart, not", |a| (a.lower, a.distance, a.upper) = (1.5, 1.5, 1.5)),
+        forgery("a NaN", "lower", |a| a.upper = f64::NAN),
+        forgery("a long normal", "unit", |a| a.normal[0] *= 1.0 + 1e-14),
+        forgery("a normal of NaN", "unit", |a| a.normal = NOWHERE),
+        forgery("a normal the wrong way", "apart, not", |a| a.normal[0] *= -1.0),
+        forgery("a witness point out of its body", "out of its object", |a| (a.local1[0], a.world1[0]) = (1.1, 1.1)),
+        forgery("one within it", "off Feature", |a| (a.local1[0], a.world1[0]) = (0.9, 0.9)),
+        forgery("one elsewhere on the face", "the witness points are", |a| {
+            (a.local1[1], a.world1[1]) = (-1.0, -1.0);
+        }),
+        forgery("a world point off its local one", "in the world", |a| a.world2[2] += 1e-13),
+        forgery("no world point", "in the world", |a| a.world1 = NOWHERE),
+        forgery("no local point", "witness point", |a| a.local2 = NOWHERE),
+        forgery("no points, but features", "witness point", |a| {
+            (a.local1, a.local2, a.world1, a.world2) = (NOWHERE, NOWHERE, NOWHERE, NOWHERE);
+        }),
+        forgery("no feature", "has no", |a| a.feature1 = Feature::default()),
+        forgery("another face", "off Feature", |a| a.feature1.ids[0] = (a.feature1.ids[0] + 1) % 6),
+        forgery("a face that is none", "has no", |a| a.feature2 = Feature { kind: FeatureKind::Face, ids: [6, 0] }),
+        forgery("a vertex", "off Feature", |a| a.feature1 = Feature { kind: FeatureKind::Vertex, ids: [7, 0] }),
+        forgery("a vertex that is none", "has no", |a| {
+            a.feature1 = Feature { kind: FeatureKind::Vertex, ids: [8, 0] };
+        }),
+        forgery("an edge", "off Feature", |a| a.feature2 = Feature { kind: FeatureKind::Edge, ids: [1, 3] }),
+        forgery("a diagonal", "has no", |a| a.feature2 = Feature { kind: FeatureKind::Edge, ids: [0, 3] }),
+        forgery("a proof", "proof", |a| a.proof_count = 1),
+    ];
+    each_is_refused(&forgeries, &shapes, &poses, &answer);
+}
+
+#[test]
+fn whatever_a_contact_says_is_checked() {
+    let (shapes, poses) = cubes();
+    let touching = [poses[0], at(2.0, 0.5, 0.25)];
+    let mut answer = PairAnswer::default();
+    let (mut cache, config) = (PairCache::default(), PairConfig::default());
+    pair::contact(&shapes[0], &touching[0], &shapes[1], &touching[1], &mut cache, &config, &mut answer).unwrap();
+    assert_eq!((answer.outcome, answer.feature1.kind), (Outcome::Intersecting, FeatureKind::Face));
+    let forgeries = [
+        forgery("a distance", "not 0", |a| a.upper = 1e-300),
+        forgery("no proof", "proof", |a| a.proof_count = 0),
+        forgery("half a proof", "hull", |a| a.proof = [a.proof[0]; 4]),
+        forgery("a long normal", "unit", |a| a.normal[0] *= 1.0 + 1e-14),
+        forgery("no normal", "unit", |a| a.normal = NOWHERE),
+        forgery("a point out of its body", "out of its object", |a| (a.local1[0], a.world1[0]) = (1.1, 1.1)),
+        forgery("another point than the other's", "apart", |a| (a.local1[0], a.world1[0]) = (0.9, 0.9)),
+        forgery("a world point off its local one", "in the world", |a| a.world1[0] += 1e-13),
+        forgery("no local point", "witness point", |a| a.local1 = NOWHERE),
+        forgery("no feature", "has no", |a| a.feature2 = Feature::default()),
+        forgery("a face that is none", "has no", |a| a.feature1.ids[0] = 6),
+        forgery("an edge that is none", "has no", |a| {
+            a.feature1 = Feature { kind: FeatureKind::Edge, ids: [0, 7] };
+        }),
+    ];
+    each_is_refused(&forgeries, &shapes, &touching, &answer);
+}
+
+/// Bodies without interior have features of their own: a segment's only edge, the vertex of a point.
+#[test]
+fn features_of_points_and_segments_are_checked() {
+    let shapes = [hull(&[Vector::zeros()]), hull(&[Vector::new(1.0, -1.0, 0.0), Vector::new(1.0, 1.0, 0.0)])];
+    let poses = [at(0.0, 0.0, 0.0), at(0.0, 0.25, 0.0)];
+    let answer = distance(&shapes[0], &poses[0], &shapes[1], &poses[1]);
+    assert_eq!([answer.feature1.kind, answer.feature2.kind], [FeatureKind::Vertex, FeatureKind::Edge]);
+    let forgeries = [
+        forgery("another vertex", "has no", |a| a.feature1.ids[0] = 1),
+        forgery("an edge from nowhere", "has no", |a| a.feature2.ids[0] = 2),
+        forgery("an end", "off Feature", |a| a.feature2 = Feature { kind: FeatureKind::Vertex, ids: [1, 0] }),
+        forgery("a face", "has no", |a| a.feature2.kind = FeatureKind::Face),
+        forgery("a point beyond the end", "out of its object", |a| (a.local2[1], a.world2[1]) = (1.5, 1.75)),
+    ];
+    each_is_refused(&forgeries, &shapes, &poses, &answer);
 }
