@@ -25,6 +25,7 @@ pub mod progress;
 pub mod quadric;
 pub mod dobkin_kirkpatrick;
 pub mod state;
+pub mod side_search;
 pub mod voronoi;
 pub mod start;
 pub mod frame;

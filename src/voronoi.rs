@@ -2,6 +2,7 @@
 
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron};
+use crate::side_search::{self, MANY_SIDES};
 use crate::simd::Lanes;
 
 /// Across which plane to go on where several are violated.
@@ -206,6 +207,9 @@ pub fn violated_side<L: Lanes>(
     point: L,
     tolerance: f64,
 ) -> Option<u32> {
+    if face.side_count >= MANY_SIDES {
+        return side_search::most_violated_side(polyhedron, face, &point.to_vector(), tolerance);
+    }
     // Lane 0 is not a side.
     let first = first.with_first(L::splat(f64::INFINITY));
     let least = L::splat(-tolerance);
@@ -233,6 +237,9 @@ pub fn exit_of_prism<L: Lanes>(
     [from_first, to_first]: [L; 2],
     skip: u32,
 ) -> (f64, Option<u32>) {
+    if face.side_count >= MANY_SIDES {
+        return side_search::exit_of_prism(polyhedron, face, [&from.to_vector(), &to.to_vector()], skip);
+    }
     let sides = &polyhedron.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
     let skipped = |side: usize| sides.get(side) == Some(&skip);
     // Lane 0 is not a side.
