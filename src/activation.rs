@@ -8,13 +8,19 @@ use std::collections::HashMap;
 
 use crate::object::{Object, ObjectId, Stamp};
 
+/// So many words on pairs are kept without a look at whether their objects are still there.
+const LEAST_CROWD: usize = 64;
+
 /// What was said of all pairs and of single ones; what was said of an object is in the object.
 #[derive(Debug, Default)]
 pub(crate) struct Activation {
     latest: Stamp,
     all: Stamp,
-    /// Since the last word on all; the earlier created object first.
+    /// Since the last word on all; the earlier created object first. Words on objects removed since do no harm, as no id comes
+    /// again.
     pairs: HashMap<[ObjectId; 2], Stamp>,
+    /// The number of `pairs` at which those of removed objects are forgotten.
+    crowded: usize,
 }
 
 impl Activation {
@@ -35,15 +41,15 @@ impl Activation {
         object.activation = self.say(active);
     }
 
-    /// Of one pair, the earlier created object first.
-    pub(crate) fn set_pair(&mut self, pair: [ObjectId; 2], active: bool) {
+    /// Of one pair, the earlier created object first. `is_there` tells the objects that have not been removed.
+    pub(crate) fn set_pair(&mut self, pair: [ObjectId; 2], active: bool, is_there: impl Fn(ObjectId) -> bool) {
+        // Looking through all words each time there may be twice as many as were kept costs no more than saying them did.
+        if self.pairs.len() >= self.crowded {
+            self.pairs.retain(|pair, _| pair.iter().all(|id| is_there(*id)));
+            self.crowded = 2 * self.pairs.len() + LEAST_CROWD;
+        }
         let stamp = self.say(active);
         self.pairs.insert(pair, stamp);
-    }
-
-    /// Forgets the pairs of a removed object.
-    pub(crate) fn remove_object(&mut self, id: ObjectId) {
-        self.pairs.retain(|pair, _| !pair.contains(&id));
     }
 
     /// Whether a pair is active, the earlier created object first.
@@ -91,7 +97,6 @@ mod tests {
                 3 if ids.len() > 2 => {
                     let id = ids.remove(random(&mut state, ids.len()));
                     table.remove(id).unwrap();
-                    activation.remove_object(id);
                     model.retain(|pair, _| !pair.contains(&id));
                 }
                 4..8 if !ids.is_empty() => {
@@ -102,7 +107,7 @@ mod tests {
                 8.. if ids.len() > 1 => {
                     let second = 1 + random(&mut state, ids.len() - 1);
                     let pair = [ids[random(&mut state, second)], ids[second]];
-                    activation.set_pair(pair, active);
+                    activation.set_pair(pair, active, |id| table.get(id).is_ok());
                     model.insert(pair, active);
                 }
                 _ => {}
@@ -113,5 +118,7 @@ mod tests {
             }
         }
         assert!(ids.len() > 2);
+        // 66 pairs of twelve objects, twice, and what is kept without a look.
+        assert!(activation.pairs.len() <= 2 * 66 + LEAST_CROWD, "words on removed objects are forgotten");
     }
 }

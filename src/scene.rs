@@ -41,8 +41,8 @@ pub struct SceneQuery {
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// [`Scene::query_approximate_distance`]: finite, it is what `upper − lower` of all tested pairs together may come to, in equal
-    /// shares, whatever the two errors say. Default: +∞.
+    /// [`Scene::query_approximate_distance`]: finite, it is what `upper − lower` of all tested pairs together may come to, in
+    /// equal shares, whatever the two errors say. Default: +∞.
     pub error_budget: f64,
     /// [`Scene::query_approximate_distance`]: as [`PairConfig::step_budget`], of each pair.
     pub step_budget: u32,
@@ -128,8 +128,8 @@ pub struct SceneStatistics {
     pub within_tolerance: u64,
     /// … of which the step budget ran out.
     pub budget_spent: u64,
-    /// Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects themselves; the
-    /// last entry is for all levels beyond, too.
+    /// Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
+    /// themselves; the last entry is for all levels beyond, too.
     pub by_level: [u64; 8],
     /// Sum of `upper − lower` over the pairs answered as [`Outcome::Separated`].
     pub error_spent: f64,
@@ -249,7 +249,6 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn remove_object(&mut self, id: ObjectId) -> Result<()> {
         self.objects.remove(id)?;
-        self.activation.remove_object(id);
         self.pairs_changed = true;
         Ok(())
     }
@@ -329,7 +328,8 @@ impl Scene {
     pub fn set_pair_active(&mut self, id1: ObjectId, id2: ObjectId, active: bool) -> Result<()> {
         let (object1, object2) = self.ordered_pair(id1, id2)?;
         let pair = [object1.id(), object2.id()];
-        self.activation.set_pair(pair, active);
+        let objects = &self.objects;
+        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok());
         self.pairs_changed = true;
         Ok(())
     }
@@ -465,11 +465,13 @@ impl Scene {
         self.run(query, tolerance, pair::contact, |answer| within(answer, tolerance))
     }
 
-    /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower ([`pair::approximate`]). A pair whose
-    /// step budget ran out before the verdict ([`Outcome::Undecided`]) is listed and does not count as intersecting.
+    /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower
+    /// ([`pair::approximate`]). A pair whose step budget ran out before the verdict ([`Outcome::Undecided`]) is listed and does
+    /// not count as intersecting.
     ///
     /// # Errors
-    /// As [`Scene::query_intersection`]; [`Error::Argument`] for an error or a budget that is negative or NaN and a step budget of 0.
+    /// As [`Scene::query_intersection`]; [`Error::Argument`] for an error or a budget that is negative or NaN and a step budget
+    /// of 0.
     pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
         if !(absolute_error >= 0.0 && relative_error >= 0.0 && error_budget >= 0.0 && step_budget > 0) {
