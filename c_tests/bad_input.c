@@ -65,9 +65,9 @@ static void meshes(void)
     CHECK_FAILS(SWIFT_ERROR_MESH, "face 0", mesh(CORNERS, 4, repeated, NULL, 4, NULL));
     CHECK_FAILS(SWIFT_ERROR_MESH, "edge", mesh(CORNERS, 4, turned_over, NULL, 4, NULL));
     CHECK_FAILS(SWIFT_ERROR_MESH, "edge", mesh(CORNERS, 4, FACES, NULL, 3, NULL));
-    CHECK(mesh(CORNERS, 4, FACES, NULL, 0, NULL) != SWIFT_OK);
-    CHECK(mesh(CORNERS, 0, FACES, NULL, 4, NULL) != SWIFT_OK);
-    CHECK(mesh(CORNERS, 0, FACES, NULL, 0, NULL) != SWIFT_OK);
+    CHECK_FAILS(SWIFT_ERROR_MESH, "no faces", mesh(CORNERS, 4, FACES, NULL, 0, NULL));
+    CHECK_FAILS(SWIFT_ERROR_MESH, "0 vertices", mesh(CORNERS, 0, FACES, NULL, 4, NULL));
+    CHECK_FAILS(SWIFT_ERROR_MESH, "no vertices", mesh(CORNERS, 0, FACES, NULL, 0, NULL));
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         double corners[12];
         memcpy(corners, CORNERS, sizeof corners);
@@ -80,6 +80,8 @@ static void meshes(void)
     CHECK_FAILS(SWIFT_ERROR_LIMIT, "points", swift_shape_create_from_points(CORNERS, SIZE_MAX / 8, NULL, &shape));
     CHECK(swift_shape_create_from_points(CORNERS, 0, NULL, &shape) != SWIFT_OK && shape == NULL);
     CHECK_FAILS(SWIFT_ERROR_MESH, "interior", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
+    CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_FLAT", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
+    CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_HULL", swift_shape_create_from_points(CORNERS, 2, NULL, &shape));
     CHECK_OK(swift_shape_release(NULL));
     CHECK_OK(swift_shape_retain(NULL));
 }
@@ -112,8 +114,8 @@ static void shape_options(void)
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
 
-/* A file with the given content is refused, and the message names it. */
-static void refused_file(const char *folder, const char *name, const char *content, size_t size)
+/* A file with the given content is refused with a status, and the message names it. */
+static void refused_file(const char *folder, const char *name, const char *content, size_t size, swift_status expected)
 {
     char path[1024];
     swift_shape *shape = NULL;
@@ -125,7 +127,7 @@ static void refused_file(const char *folder, const char *name, const char *conte
     }
     CHECK(fwrite(content, 1, size, file) == size);
     fclose(file);
-    CHECK_FAILS(SWIFT_ERROR_FILE, name, swift_shape_create_from_file(path, NULL, &shape));
+    CHECK_FAILS(expected, name, swift_shape_create_from_file(path, NULL, &shape));
     CHECK(shape == NULL);
     remove(path);
 }
@@ -134,6 +136,7 @@ static void files(const char *folder)
 {
     static const char off[] = "OFF\n4 4 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     static const char *const names[] = {"garbage.tri", "garbage.poly", "garbage.off", "garbage.obj", "garbage.stl", "garbage"};
+    static const char open_off[] = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n";
     static const char nan_off[] = "OFF\n4 4 6\n0 0 nan\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     char garbage[4096], stl[134];
     swift_shape *shape = NULL;
@@ -148,19 +151,20 @@ static void files(const char *folder)
         garbage[i] = (char)(state >> 24);
     }
     for (i = 0; i < sizeof names / sizeof names[0]; ++i) {
-        refused_file(folder, names[i], "", 0);
-        refused_file(folder, names[i], garbage, sizeof garbage);
-        refused_file(folder, names[i], "999999999999999999999 4 6\n", 26);
+        refused_file(folder, names[i], "", 0, SWIFT_ERROR_FILE);
+        refused_file(folder, names[i], garbage, sizeof garbage, SWIFT_ERROR_FILE);
+        refused_file(folder, names[i], "999999999999999999999 4 6\n", 26, SWIFT_ERROR_FILE);
     }
-    refused_file(folder, "nan.off", nan_off, sizeof nan_off - 1);
+    refused_file(folder, "open.off", open_off, sizeof open_off - 1, SWIFT_ERROR_MESH);
+    refused_file(folder, "nan.off", nan_off, sizeof nan_off - 1, SWIFT_ERROR_FILE);
     /* Cut behind every byte of it but those of the last line, whose face could be a shorter number. */
     for (length = 0; length < sizeof off - 8; ++length) {
-        refused_file(folder, "cut.off", off, length);
+        refused_file(folder, "cut.off", off, length, SWIFT_ERROR_FILE);
     }
     /* A binary STL that promises 2^32 - 1 triangles and has one. */
     memset(stl, 0, sizeof stl);
     memcpy(stl + 80, &count, 4);
-    refused_file(folder, "promise.stl", stl, sizeof stl);
+    refused_file(folder, "promise.stl", stl, sizeof stl, SWIFT_ERROR_FILE);
 }
 
 /* HERE with one entry replaced. */

@@ -257,11 +257,11 @@ static bool load_shape(const char *path, swift_shape **shape)
 {
     const swift_status status = swift_shape_create_from_file(path, NULL, shape);
     if (status == SWIFT_ERROR_MESH) {
-        fprintf(stderr, "demo: %s: %s; its convex hull flies instead\n", path, swift_library_last_error_message());
+        fprintf(stderr, "demo: %s; its convex hull flies instead\n", swift_library_last_error_message());
         swift_shape_options options;
         swift_shape_options_init(&options);
         options.input = SWIFT_INPUT_HULL;
-        return swift_shape_create_from_file(path, &options, shape) == SWIFT_OK || failed(path);
+        return swift_shape_create_from_file(path, &options, shape) == SWIFT_OK || failed("cannot load");
     }
     return status == SWIFT_OK || failed("cannot load");
 }

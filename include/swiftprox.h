@@ -42,9 +42,6 @@
 extern "C" {
 #endif
 
-/** Fewest vertices of a body that is given a table on its own account. */
-#define LEAST_VERTICES 32
-
 /** Major version of this header: programs compiled with another one do not go with this library. */
 #define SWIFT_VERSION_MAJOR 0
 
@@ -168,7 +165,10 @@ enum {
   SWIFT_PAIR_STATUS_EXACT = 4,
   /** An approximate query stopped because its interval was narrow enough. */
   SWIFT_PAIR_STATUS_WITHIN_TOLERANCE = 5,
-  /** The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from there. */
+  /**
+   * The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from
+   * there.
+   */
   SWIFT_PAIR_STATUS_BUDGET_SPENT = 6
 };
 typedef int32_t swift_pair_status;
@@ -206,8 +206,8 @@ enum {
   /** Admit bodies without interior (a two-sided polygon); otherwise as strict. */
   SWIFT_INPUT_FLAT = 1,
   /**
-   * Take the convex hull of the vertices, of any dimension. Faces label the hull if the mesh would pass as `Flat`; otherwise
-   * they are ignored, and a face's label is its own index.
+   * Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
+   * mesh; otherwise they are ignored, and a face's label is its own index.
    */
   SWIFT_INPUT_HULL = 2
 };
@@ -228,13 +228,10 @@ enum {
 };
 typedef int32_t swift_hierarchy;
 
-/** How a body's look-up table is made. */
-typedef struct LookupOptions LookupOptions;
-
 /** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
 typedef struct swift_scene swift_scene;
 
-/** Geometry for queries: immutable, shared by count (in Rust with `Arc`). */
+/** Geometry for queries: immutable, shared by any number of owners. */
 typedef struct swift_shape swift_shape;
 
 /**
@@ -266,8 +263,8 @@ typedef struct swift_shape_options {
   /** See rotation; positive. Default: 1. */
   double scale;
   /**
-   * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative, which
-   * means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+   * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
+   * which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
    */
   double convexity_tolerance;
   /** A swift_hierarchy: how levels of detail are made. Default: there are none. */
@@ -285,9 +282,9 @@ typedef struct swift_shape_options {
   /** A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. Default: automatic. */
   int32_t lookup;
   /**
-   * Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two from
-   * 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees). Default: 0,
-   * which means what the number of vertices asks for, or 32.
+   * Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
+   * from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
+   * Default: 0, which means what the number of vertices asks for, or 32.
    */
   uint32_t lookup_resolution;
   /** Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2. */
@@ -336,7 +333,10 @@ typedef struct swift_shape_info {
   size_t bytes;
   /** A swift_hierarchy: how the levels of detail were made. */
   int32_t hierarchy;
-  /** The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is level 0. */
+  /**
+   * The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
+   * level 0.
+   */
   size_t level_count;
   /** Of bytes, what the levels take. */
   size_t level_bytes;
@@ -360,7 +360,10 @@ typedef struct swift_level_info {
   size_t face_count;
   /** Triangles of the level's hull. */
   size_t triangle_count;
-  /** An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the body. */
+  /**
+   * An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
+   * body.
+   */
   double deviation;
   /** Memory that the level holds, in bytes. */
   size_t bytes;
@@ -368,7 +371,7 @@ typedef struct swift_level_info {
 
 /** What a pair query is asked for. */
 typedef struct swift_pair_config {
-  /** The size of this struct, so that it can grow at the C interface; Rust has no use for it. */
+  /** The size of this struct, so that it can grow; set by swift_pair_config_init. */
   size_t struct_size;
   /** Pairs farther apart than this are answered with SWIFT_OUTCOME_BEYOND; +infinity (the default): none. */
   double distance_tolerance;
@@ -383,8 +386,8 @@ typedef struct swift_pair_config {
   /** ... or as this times `lower`. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default): no limit.
-   * What marching leaves open is decided all the same, however long it takes.
+   * Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
+   * no limit. What marching leaves open is decided all the same, however long it takes.
    */
   uint32_t step_budget;
   /** Which levels of detail a query goes through. */
@@ -394,8 +397,8 @@ typedef struct swift_pair_config {
 } swift_pair_config;
 
 /**
- * What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an
- * answer comes, never the verdict. What the words mean is the library's own.
+ * What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
+ * an answer comes, never the verdict. What the words mean is the library's own.
  */
 typedef struct swift_pair_cache {
   /** Not to be looked at. */
@@ -422,7 +425,10 @@ typedef struct swift_statistics {
   uint16_t levels[2];
 } swift_statistics;
 
-/** The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal. */
+/**
+ * The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a
+ * normal.
+ */
 typedef struct swift_pair_answer {
   /** Disjoint, beyond the tolerance, or intersecting. */
   swift_outcome outcome;
@@ -519,13 +525,13 @@ typedef struct swift_scene_query {
   /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in equal
-   * shares, whatever the two errors say. Default: infinity.
+   * swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+   * equal shares, whatever the two errors say. Default: infinity.
    */
   double error_budget;
   /**
-   * swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default: UINT32_MAX,
-   * no limit.
+   * swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+   * UINT32_MAX, no limit.
    */
   uint32_t step_budget;
   /** A swift_levels: which levels of detail queries go through. Default: the automatic choice. */
@@ -592,8 +598,8 @@ typedef struct swift_scene_statistics {
   /** ... of which the step budget ran out. */
   uint64_t budget_spent;
   /**
-   * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects themselves; the
-   * last entry is for all levels beyond, too.
+   * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
+   * themselves; the last entry is for all levels beyond, too.
    */
   uint64_t by_level[8];
   /** Sum of `upper - lower` over the pairs answered as SWIFT_OUTCOME_SEPARATED. */
@@ -686,8 +692,8 @@ swift_status swift_shape_create_from_points(const double *points,
  * `options` may be null for the defaults.
  *
  * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
- * the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_CANCELLED: options->progress said so.
- * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * the contract (see swift_shape_create_from_mesh). Both messages name the file. SWIFT_ERROR_CANCELLED: options->progress said
+ * so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_file(const char *path,
                                           const struct swift_shape_options *options,
@@ -713,8 +719,9 @@ swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
                                             struct swift_shape **shape);
 
 /**
- * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's encoding
- * (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file refuses it.
+ * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
+ * encoding (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file
+ * refuses it.
  *
  * SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
  * argument.
@@ -723,8 +730,9 @@ swift_status swift_shape_save(const struct swift_shape *shape,
                               const char *path);
 
 /**
- * Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers rely on is
- * not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged file is refused.
+ * Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
+ * rely on is not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged
+ * file is refused.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  *
@@ -826,8 +834,8 @@ swift_status swift_shape_copy_level_triangles(const struct swift_shape *shape,
 swift_status swift_pair_config_init(struct swift_pair_config *config);
 
 /**
- * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the distance
- * is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
+ * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
+ * distance is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
  * config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFT_FEATURE_KIND_NONE.
  *
  * A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
@@ -846,8 +854,8 @@ swift_status swift_pair_distance(const struct swift_shape *shape1,
                                  struct swift_pair_answer *answer);
 
 /**
- * The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need not be
- * tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+ * The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need
+ * not be tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
  */
 swift_status swift_pair_intersection(const struct swift_shape *shape1,
                                      const double *pose1,
@@ -858,9 +866,9 @@ swift_status swift_pair_intersection(const struct swift_shape *shape1,
                                      struct swift_pair_answer *answer);
 
 /**
- * As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along which
- * the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments and
- * errors as of swift_pair_distance.
+ * As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
+ * which the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments
+ * and errors as of swift_pair_distance.
  */
 swift_status swift_pair_contact(const struct swift_shape *shape1,
                                 const double *pose1,
@@ -871,11 +879,12 @@ swift_status swift_pair_contact(const struct swift_shape *shape1,
                                 struct swift_pair_answer *answer);
 
 /**
- * The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most config->absolute_error or
- * config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the distance, `distance` is the lower end unless
- * the answer is exact. The verdict is as certain as that of swift_pair_distance, unless config->step_budget ran out: then
- * the status is SWIFT_BUDGET_SPENT, and the next call with the same cache goes on from there. Points and features are
- * not said of an answer that comes from levels of detail. Arguments and errors as of swift_pair_distance.
+ * The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most
+ * config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
+ * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swift_pair_distance,
+ * unless config->step_budget ran out: then the status is SWIFT_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
+ * goes on from there. Points and features are not said of an answer that comes from levels of detail. Arguments and errors as
+ * of swift_pair_distance.
  */
 swift_status swift_pair_approximate(const struct swift_shape *shape1,
                                     const double *pose1,
@@ -887,8 +896,8 @@ swift_status swift_pair_approximate(const struct swift_shape *shape1,
 
 /**
  * Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
- * and its witness points, an intersecting one by the exact position of the origin in its vertex pairs. SWIFT_OK: it holds for
- * these shapes and poses.
+ * and its witness points, an intersecting one by the exact position of the origin in its vertex pairs, and of both all points
+ * and features that are said. SWIFT_OK: it holds for these shapes and poses.
  *
  * SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
  * unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
@@ -935,8 +944,8 @@ swift_status swift_object_options_init(struct swift_object_options *options);
  * shape: the caller's own may be released at once. On failure nothing is added and `*id` is 0, which names no object.
  * `options` may be null for the defaults.
  *
- * SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces than a
- * scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+ * SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
+ * than a scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_add_object(struct swift_scene *scene,
                                     const struct swift_shape *const *pieces,
@@ -1007,8 +1016,8 @@ swift_status swift_scene_get_object_info(const struct swift_scene *scene,
                                          struct swift_object_info *info);
 
 /**
- * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep the
- * shape longer than the object. On failure `*shape` is null.
+ * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep
+ * the shape longer than the object. On failure `*shape` is null.
  *
  * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: the object has no such piece.
  * SWIFT_ERROR_NULL_POINTER: scene or shape is null. SWIFT_ERROR_POISONED.
@@ -1021,8 +1030,8 @@ swift_status swift_scene_get_piece(const struct swift_scene *scene,
 /**
  * Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
  *
- * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene or
- * pose is null. SWIFT_ERROR_POISONED.
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene
+ * or pose is null. SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_set_pose(struct swift_scene *scene,
                                   swift_object_id id,
@@ -1038,8 +1047,8 @@ swift_status swift_scene_set_transform(struct swift_scene *scene,
  * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
  * stay where they are.
  *
- * SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused; the
- * message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
+ * SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused;
+ * the message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_set_all_poses(struct swift_scene *scene,
                                        const double *poses,
@@ -1134,8 +1143,8 @@ swift_status swift_scene_query_exact_distance(struct swift_scene *scene,
                                               struct swift_scene_answer *answer);
 
 /**
- * As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask for
- * and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+ * As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+ * for and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
  * (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
  */
 swift_status swift_scene_query_approximate_distance(struct swift_scene *scene,

@@ -34,7 +34,8 @@ pub enum Status {
     Exact = 4,
     /// An approximate query stopped because its interval was narrow enough.
     WithinTolerance = 5,
-    /// The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from there.
+    /// The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from
+    /// there.
     BudgetSpent = 6,
 }
 
@@ -77,7 +78,8 @@ pub struct Statistics {
     pub levels: [u16; 2],
 }
 
-/// The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a normal.
+/// The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a
+/// normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct PairAnswer {

@@ -45,6 +45,12 @@ pub fn check_surface(mesh: &PolygonMesh) -> Result<()> {
     corners.check_genus(&twins)
 }
 
+/// Which option admits a body that lies in a plane.
+pub const FLAT_HINT: &str = "the input policy Flat (SWIFT_INPUT_FLAT) admits bodies without interior";
+
+/// Which option admits a body that is a segment or a point.
+pub const HULL_HINT: &str = "the input policy Hull (SWIFT_INPUT_HULL) admits segments and points";
+
 fn violation<T>(message: String) -> Result<T> {
     Err(Error::Mesh(message))
 }
@@ -60,7 +66,7 @@ fn first_of_equal(points: &[Vector]) -> Vec<u32> {
 fn check_indices(mesh: &PolygonMesh) -> Result<()> {
     let count = mesh.vertices.len();
     if count == 0 || mesh.face_count() == 0 {
-        return violation(format!("a mesh of {count} vertices and {} faces", mesh.face_count()));
+        return violation(format!("the mesh has no {}", if count == 0 { "vertices" } else { "faces" }));
     }
     let whole = mesh.starts[0] == 0 && mesh.starts[mesh.starts.len() - 1] as usize == mesh.indices.len();
     if !whole || !mesh.starts.is_sorted() {

@@ -142,7 +142,7 @@ pub enum Levels {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PairConfig {
-    /// The size of this struct, so that it can grow at the C interface; Rust has no use for it.
+    /// The size of this struct, so that it can grow; set by swift_pair_config_init.
     pub struct_size: usize,
     /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
     pub distance_tolerance: f64,
@@ -156,8 +156,8 @@ pub struct PairConfig {
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default): no limit.
-    /// What marching leaves open is decided all the same, however long it takes.
+    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
+    /// no limit. What marching leaves open is decided all the same, however long it takes.
     pub step_budget: u32,
     /// Which levels of detail a query goes through.
     pub levels: Levels,
@@ -206,8 +206,8 @@ enum Query {
 ///
 /// # Errors
 /// [`Error::Pose`] for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I above
-/// `config.rotation_limit`), [`Error::Argument`] for a tolerance or limit that is NaN or negative. Then `answer` and `cache` are
-/// as they were.
+/// `config.rotation_limit`), [`Error::Argument`] for a tolerance or limit that is NaN or negative. Then `answer` and `cache`
+/// are as they were.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,
@@ -256,8 +256,9 @@ pub fn contact(
 /// The distance as narrow as asked for and no narrower: the interval holds the true distance, and the query stops as soon as
 /// `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact distance.
 ///
-/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and features are not
-/// said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only `lower` is said.
+/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and
+/// features are not said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only
+/// `lower` is said.
 ///
 /// # Errors
 /// As [`distance`]; [`Error::Argument`] for an error tolerance that is NaN or negative and a step budget of 0.
@@ -623,8 +624,8 @@ impl PairQuery<'_> {
         }
     }
 
-    /// Decides what marching left open; `hint` are vertex pairs to begin with, those of an intersection from the cache or one that
-    /// marching came to, `steps` those made so far.
+    /// Decides what marching left open; `hint` are vertex pairs to begin with, those of an intersection from the cache or one
+    /// that marching came to, `steps` those made so far.
     #[inline(never)]
     fn decide(&mut self, mut hint: Pairs, steps: u32) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, config, .. } = self;

@@ -6,7 +6,7 @@ use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::hull_build::convex_hull;
-use crate::hull_check::{check_convexity, check_surface};
+use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
 use crate::lookup_build::{LookupOptions, build_lookup};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::mesh::PolygonMesh;
@@ -30,8 +30,8 @@ pub enum InputPolicy {
     Strict = 0,
     /// Admit bodies without interior (a two-sided polygon); otherwise as strict.
     Flat = 1,
-    /// Take the convex hull of the vertices, of any dimension. Faces label the hull if the mesh would pass as `Flat`; otherwise
-    /// they are ignored, and a face's label is its own index.
+    /// Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
+    /// mesh; otherwise they are ignored, and a face's label is its own index.
     Hull = 2,
 }
 
@@ -70,7 +70,7 @@ impl Default for ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by count (in Rust with `Arc`).
+/// Geometry for queries: immutable, shared by any number of owners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -84,6 +84,9 @@ impl Shape {
     /// [`Error::Argument`] for options out of range, [`Error::Mesh`] for a mesh that the policy does not admit, with the face,
     /// edge or vertex where.
     pub fn from_mesh(mesh: &PolygonMesh, options: &ShapeOptions) -> Result<Shape> {
+        if mesh.vertices.is_empty() {
+            return Err(Error::Mesh("the mesh has no vertices".into()));
+        }
         let mesh = PolygonMesh { vertices: transformed(&mesh.vertices, options)?, ..mesh.clone() };
         let tolerance = match options.convexity_tolerance {
             Some(tolerance) if tolerance >= 0.0 && tolerance.is_finite() => tolerance,
@@ -116,18 +119,21 @@ impl Shape {
     /// From a mesh file ([`read_mesh`]).
     ///
     /// # Errors
-    /// As [`read_mesh`] and [`Shape::from_mesh`].
+    /// As [`read_mesh`] and [`Shape::from_mesh`]; the message names the file.
     pub fn from_file(path: &Path, options: &ShapeOptions) -> Result<Shape> {
-        Shape::from_mesh(&read_mesh(path)?, options)
+        Shape::from_mesh(&read_mesh(path)?, options).map_err(|error| match error {
+            Error::Mesh(message) => Error::Mesh(format!("{}: {message}", path.display())),
+            other => other,
+        })
     }
 
-    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in [`Shape::from_mesh`]; of each
-    /// further one the convex hull of its vertices counts, moved and scaled until it bounds the body
-    /// ([`Hierarchy::from_levels`]). All go through the same input transform.
+    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in
+    /// [`Shape::from_mesh`]; of each further one the convex hull of its vertices counts, moved and scaled until it bounds the
+    /// body ([`Hierarchy::from_levels`]). All go through the same input transform.
     ///
     /// # Errors
-    /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks for levels to be
-    /// built.
+    /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks
+    /// for levels to be built.
     pub fn from_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let Some((mesh, levels)) = meshes.split_first() else {
             return Err(Error::Argument("no level is given, not even the body itself".into()));
@@ -186,7 +192,9 @@ impl Shape {
         };
         if polyhedron.dimension < least {
             let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];
-            return Err(Error::Mesh(format!("the body has no interior: {}", what[usize::from(polyhedron.dimension)])));
+            let dimension = usize::from(polyhedron.dimension);
+            let hint = [HULL_HINT, HULL_HINT, FLAT_HINT][dimension];
+            return Err(Error::Mesh(format!("the body has no interior: {}; {hint}", what[dimension])));
         }
         polyhedron.lookup = build_lookup(&polyhedron, &options.lookup)?;
         let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };

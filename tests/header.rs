@@ -170,6 +170,30 @@ fn version_macros_are_those_of_the_crate() {
     }
 }
 
+/// All libraries share the names of C.
+#[test]
+fn every_name_begins_with_swift() {
+    let header = generate();
+    let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
+    let mut count = 0;
+    for line in header.lines() {
+        let declared = match line.split_whitespace().collect::<Vec<_>>()[..] {
+            ["#define" | "struct" | "enum", name, ..] => Some(name),
+            ["typedef", .., name] | ["}", name] => Some(name),
+            // Enumerators stand at two blanks with a value.
+            [name, "=", ..] if line.starts_with("  ") => Some(name),
+            _ => None,
+        };
+        let Some(name) = declared.map(|name| name.trim_end_matches(|c| !is_name(c))) else { continue };
+        // The last word of a function type is an argument, that of an opening brace nothing.
+        if !name.is_empty() && !line.contains('(') {
+            assert!(name.to_lowercase().starts_with("swift"), "{line}");
+            count += 1;
+        }
+    }
+    assert!(count > 100, "{count} names");
+}
+
 /// Included twice, so that its guard is seen to work.
 #[test]
 fn header_compiles_in_every_standard() {

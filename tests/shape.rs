@@ -136,6 +136,58 @@ fn options_out_of_range_are_refused() {
     assert!(message(ShapeOptions { scale: 1e308, ..Default::default() }).contains("vertex 0"));
 }
 
+/// The message of a refusal for what the mesh is.
+#[track_caller]
+fn mesh_message(refused: Result<Shape, Error>) -> String {
+    match refused {
+        Err(Error::Mesh(message)) => message,
+        other => panic!("{other:?}"),
+    }
+}
+
+#[test]
+fn refusals_of_bodies_without_interior_say_which_policy_admits_them() {
+    let corners = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(Vector::from);
+    let line = PolygonMesh::new([0.0, 1.0, 2.0].map(|x| Vector::new(x, x, 0.0)).to_vec(), vec![0, 1, 2, 2, 1, 0], None);
+    let line = line.unwrap();
+    let (strict, flat, hull) = (with(InputPolicy::Strict), with(InputPolicy::Flat), with(InputPolicy::Hull));
+    for (refused, named) in [
+        (Shape::from_mesh(&square(), &strict), "SWIFT_INPUT_FLAT"),
+        (Shape::from_mesh(&line, &strict), "SWIFT_INPUT_HULL"),
+        (Shape::from_mesh(&line, &flat), "SWIFT_INPUT_HULL"),
+        (Shape::from_points(&corners, &strict), "SWIFT_INPUT_FLAT"),
+        (Shape::from_points(&corners[..2], &strict), "SWIFT_INPUT_HULL"),
+        (Shape::from_points(&corners[..2], &flat), "SWIFT_INPUT_HULL"),
+        (Shape::from_points(&corners[..1], &flat), "SWIFT_INPUT_HULL"),
+    ] {
+        let message = mesh_message(refused);
+        assert_eq!(message.matches("SWIFT_INPUT_").count(), 1, "{message}");
+        assert!(message.contains(named), "{message}");
+    }
+    // And they do.
+    assert!(Shape::from_mesh(&square(), &flat).is_ok() && Shape::from_points(&corners, &flat).is_ok());
+    assert!(Shape::from_mesh(&line, &hull).is_ok() && Shape::from_points(&corners[..1], &hull).is_ok());
+}
+
+#[test]
+fn meshes_of_nothing_are_told() {
+    let no_vertices = PolygonMesh::new(Vec::new(), Vec::new(), None).unwrap();
+    let no_faces = PolygonMesh { indices: Vec::new(), starts: vec![0], ..cube() };
+    for policy in [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull] {
+        assert_eq!(mesh_message(Shape::from_mesh(&no_vertices, &with(policy))), "the mesh has no vertices");
+    }
+    assert_eq!(mesh_message(Shape::from_mesh(&no_faces, &with(InputPolicy::Flat))), "the mesh has no faces");
+    assert!(Shape::from_mesh(&no_faces, &with(InputPolicy::Hull)).is_ok());
+}
+
+#[test]
+fn files_whose_mesh_is_refused_are_named() {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("open.off");
+    std::fs::write(&path, "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n").unwrap();
+    let message = mesh_message(Shape::from_file(&path, &ShapeOptions::default()));
+    assert!(message.contains("open.off: ") && message.contains("edge"), "{message}");
+}
+
 #[test]
 fn files_that_are_not_there_are_named() {
     let error = Shape::from_file(Path::new("no/such/file.off"), &ShapeOptions::default()).unwrap_err();

@@ -440,8 +440,8 @@ static bool load_shape(const char *path, const swift_shape_options *options, swi
     if (status == SWIFT_OK) {
         return true;
     }
-    /* Only the message about the file as a file names it. */
-    const bool named = status == SWIFT_ERROR_FILE;
+    /* The messages about the file as a file and about the mesh in it name it. */
+    const bool named = status == SWIFT_ERROR_FILE || status == SWIFT_ERROR_MESH;
     fprintf(stderr, "%s%s%s\n", named ? "" : path, named ? "" : ": ", swift_library_last_error_message());
     return false;
 }

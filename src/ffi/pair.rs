@@ -17,8 +17,8 @@ unsafe impl Versioned for PairConfig {
     const FIRST_SIZE: usize = size_of::<PairConfig>();
 }
 
-/// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an
-/// answer comes, never the verdict. What the words mean is the library's own.
+/// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
+/// an answer comes, never the verdict. What the words mean is the library's own.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct CPairCache {
@@ -41,8 +41,8 @@ pub unsafe extern "C" fn swift_pair_config_init(config: *mut PairConfig) -> Stat
     guard(|| unsafe { output(config, "config", PairConfig::default()) })
 }
 
-/// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the distance
-/// is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
+/// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
+/// distance is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
 /// config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFT_FEATURE_KIND_NONE.
 ///
 /// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
@@ -65,8 +65,8 @@ pub unsafe extern "C" fn swift_pair_distance(
     unsafe { query(pair::distance, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need not be
-/// tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+/// The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need
+/// not be tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_intersection(
     shape1: *const Shape,
@@ -81,9 +81,9 @@ pub unsafe extern "C" fn swift_pair_intersection(
     unsafe { query(pair::intersection, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along which
-/// the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments and
-/// errors as of swift_pair_distance.
+/// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
+/// which the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments
+/// and errors as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_contact(
     shape1: *const Shape,
@@ -98,11 +98,12 @@ pub unsafe extern "C" fn swift_pair_contact(
     unsafe { query(pair::contact, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most config->absolute_error or
-/// config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the distance, `distance` is the lower end unless
-/// the answer is exact. The verdict is as certain as that of swift_pair_distance, unless config->step_budget ran out: then
-/// the status is SWIFT_STATUS_BUDGET_SPENT, and the next call with the same cache goes on from there. Points and features are
-/// not said of an answer that comes from levels of detail. Arguments and errors as of swift_pair_distance.
+/// The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most
+/// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
+/// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swift_pair_distance,
+/// unless config->step_budget ran out: then the status is SWIFT_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
+/// goes on from there. Points and features are not said of an answer that comes from levels of detail. Arguments and errors as
+/// of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_approximate(
     shape1: *const Shape,
@@ -118,8 +119,8 @@ pub unsafe extern "C" fn swift_pair_approximate(
 }
 
 /// Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
-/// and its witness points, an intersecting one by the exact position of the origin in its vertex pairs. SWIFT_OK: it holds for
-/// these shapes and poses.
+/// and its witness points, an intersecting one by the exact position of the origin in its vertex pairs, and of both all points
+/// and features that are said. SWIFT_OK: it holds for these shapes and poses.
 ///
 /// SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
 /// unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.

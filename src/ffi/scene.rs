@@ -120,11 +120,11 @@ pub struct CSceneQuery {
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in equal
-    /// shares, whatever the two errors say. Default: infinity.
+    /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+    /// equal shares, whatever the two errors say. Default: infinity.
     pub error_budget: f64,
-    /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default: UINT32_MAX,
-    /// no limit.
+    /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+    /// UINT32_MAX, no limit.
     pub step_budget: u32,
     /// A swift_levels: which levels of detail queries go through. Default: the automatic choice.
     pub levels: i32,
@@ -229,8 +229,8 @@ pub unsafe extern "C" fn swift_object_options_init(options: *mut CObjectOptions)
 /// shape: the caller's own may be released at once. On failure nothing is added and `*id` is 0, which names no object.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces than a
-/// scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+/// SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
+/// than a scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_add_object(
     scene: *mut SceneHandle,
@@ -366,8 +366,8 @@ pub unsafe extern "C" fn swift_scene_get_object_info(
     })
 }
 
-/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep the
-/// shape longer than the object. On failure `*shape` is null.
+/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep
+/// the shape longer than the object. On failure `*shape` is null.
 ///
 /// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: the object has no such piece.
 /// SWIFT_ERROR_NULL_POINTER: scene or shape is null. SWIFT_ERROR_POISONED.
@@ -395,8 +395,8 @@ pub unsafe extern "C" fn swift_scene_get_piece(
 
 /// Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene or
-/// pose is null. SWIFT_ERROR_POISONED.
+/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene
+/// or pose is null. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_set_pose(scene: *mut SceneHandle, id: ObjectId, pose: *const f64) -> StatusCode {
     // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
@@ -424,8 +424,8 @@ pub unsafe extern "C" fn swift_scene_set_transform(
 /// Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
 /// stay where they are.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused; the
-/// message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
+/// SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused;
+/// the message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_set_all_poses(
     scene: *mut SceneHandle,
@@ -603,8 +603,8 @@ pub unsafe extern "C" fn swift_scene_query_exact_distance(
     unsafe { ask(Scene::query_exact_distance, scene, query, answer) }
 }
 
-/// As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask for
-/// and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+/// As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+/// for and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
 /// (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_query_approximate_distance(

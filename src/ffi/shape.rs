@@ -40,8 +40,8 @@ pub struct CShapeOptions {
     pub translation: [f64; 3],
     /// See rotation; positive. Default: 1.
     pub scale: f64,
-    /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative, which
-    /// means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+    /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
+    /// which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
     pub convexity_tolerance: f64,
     /// A swift_hierarchy: how levels of detail are made. Default: there are none.
     pub hierarchy: i32,
@@ -57,9 +57,9 @@ pub struct CShapeOptions {
     pub progress_user: *mut c_void,
     /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. Default: automatic.
     pub lookup: i32,
-    /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two from
-    /// 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees). Default: 0,
-    /// which means what the number of vertices asks for, or 32.
+    /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
+    /// from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
+    /// Default: 0, which means what the number of vertices asks for, or 32.
     pub lookup_resolution: u32,
     /// Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2.
     pub lookup_radius_factor: f64,
@@ -188,7 +188,8 @@ pub struct ShapeInfo {
     pub bytes: usize,
     /// A swift_hierarchy: how the levels of detail were made.
     pub hierarchy: i32,
-    /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is level 0.
+    /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
+    /// level 0.
     pub level_count: usize,
     /// Of bytes, what the levels take.
     pub level_bytes: usize,
@@ -220,7 +221,8 @@ pub struct LevelInfo {
     pub face_count: usize,
     /// Triangles of the level's hull.
     pub triangle_count: usize,
-    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the body.
+    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
+    /// body.
     pub deviation: f64,
     /// Memory that the level holds, in bytes.
     pub bytes: usize,
@@ -319,8 +321,8 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
-/// the contract (see swift_shape_create_from_mesh). SWIFT_ERROR_CANCELLED: options->progress said so.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// the contract (see swift_shape_create_from_mesh). Both messages name the file. SWIFT_ERROR_CANCELLED: options->progress said
+/// so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_file(
     path: *const c_char,
@@ -372,8 +374,9 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
     })
 }
 
-/// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's encoding
-/// (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file refuses it.
+/// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
+/// encoding (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file
+/// refuses it.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
 /// argument.
@@ -386,8 +389,9 @@ pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_ch
     })
 }
 
-/// Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers rely on is
-/// not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged file is refused.
+/// Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
+/// rely on is not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged
+/// file is refused.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 ///

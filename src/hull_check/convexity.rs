@@ -3,7 +3,7 @@
 use std::collections::HashSet;
 
 use super::edges::match_edges;
-use super::violation;
+use super::{FLAT_HINT, HULL_HINT, violation};
 use crate::error::{Error, Result};
 use crate::hull_build::Hull;
 use crate::math::{UNIT_ROUNDOFF, Vector};
@@ -49,8 +49,9 @@ pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_fl
         return Err(Error::Argument(format!("the convexity tolerance is {tolerance}")));
     }
     if hull.dimension < 3 && !allow_flat {
+        let hint = if hull.dimension == 2 { FLAT_HINT } else { HULL_HINT };
         return violation(format!(
-            "the mesh is flat: all vertices lie {}",
+            "the mesh is flat: all vertices lie {}; {hint}",
             match hull.dimension {
                 2 => format!(
                     "in the plane of vertices {}, {} and {}",
