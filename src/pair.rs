@@ -582,6 +582,10 @@ impl PairQuery<'_> {
             return Err(bad_config(self.config));
         }
         if !self.config.start.asks_cache() {
+            // Those of a query that is refused would find their cache forgotten.
+            for pose in self.poses {
+                pose.check(self.config.rotation_limit.min(ROTATION_LIMIT))?;
+            }
             *self.cache = PairCache::default();
         }
         self.go_on(Attempt::Unusual, shapes)

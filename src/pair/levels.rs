@@ -59,7 +59,7 @@ impl PairQuery<'_> {
     pub(super) fn descend(&mut self, shapes: [&Shape; 2]) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
         if let Some(pairs) = cache.recall_pairs(polyhedra) {
-            let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
+            let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
             if frame.usual
                 && let Some(weights) = encloses_origin(&frame, pairs.as_slice())
             {

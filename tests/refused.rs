@@ -1,0 +1,97 @@
+//! A pair query that is refused changes nothing: answer and cache are as they were, wherever marching was to start, whatever the
+//! cache remembered.
+
+#[path = "../benches/common/mod.rs"]
+mod common;
+
+use common::models::ellipsoid;
+use swiftprox::error::{Error, Result};
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig, Start, Status};
+use swiftprox::shape::{Shape, ShapeOptions};
+
+type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+
+const QUERIES: [Query; 4] = [pair::distance, pair::intersection, pair::contact, pair::approximate];
+const STARTS: [Start; 4] = [Start::Automatic, Start::Cache, Start::Table, Start::Cold];
+
+fn at(x: f64) -> Pose {
+    Pose::new(&Matrix::identity(), &Vector::new(x, 0.0, 0.0))
+}
+
+/// A body with levels, on which the caches of all queries are of the kinds that there are.
+fn body() -> Shape {
+    let hierarchy = HierarchyOptions { kind: HierarchyKind::Quadric, ..HierarchyOptions::default() };
+    let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+    Shape::from_mesh(&ellipsoid([1.0, 0.7, 0.4], 400).unwrap(), &options).unwrap()
+}
+
+/// Every query with every start, through levels or not, with and without a budget of steps.
+fn configurations() -> Vec<(Query, PairConfig)> {
+    let mut all = Vec::new();
+    for query in QUERIES {
+        for start in STARTS {
+            for levels in [Levels::None, Levels::All] {
+                for step_budget in [u32::MAX, 3] {
+                    all.push((query, PairConfig { start, levels, step_budget, ..PairConfig::default() }));
+                }
+            }
+        }
+    }
+    all
+}
+
+#[test]
+fn a_pose_beyond_the_callers_own_limit_is_refused_whatever_the_cache_says() {
+    let body = body();
+    // Stretched by 1e-3: |RᵀR − I| is 2e-3, which the library would accept and this caller does not.
+    let stretched = |x: f64| Pose::new(&(Matrix::identity() * 1.001), &Vector::new(x, 0.0, 0.0));
+    for (query, config) in configurations() {
+        for x in [0.1, 5.0] {
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            query(&body, &at(0.0), &body, &at(x), &mut cache, &config, &mut answer).unwrap();
+            query(&body, &at(0.0), &body, &stretched(x), &mut cache, &config, &mut answer).unwrap();
+            let (cache_before, answer_before) = (cache, answer);
+            let strict = PairConfig { rotation_limit: 1e-3, ..config };
+            for poses in [[at(0.0), stretched(x)], [stretched(x), at(0.0)]] {
+                let result = query(&body, &poses[0], &body, &poses[1], &mut cache, &strict, &mut answer);
+                assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {strict:?} at {x}");
+                assert_eq!(cache, cache_before, "{strict:?} at {x}");
+                assert_eq!(format!("{answer:?}"), format!("{answer_before:?}"), "{strict:?} at {x}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_refused_query_leaves_cache_and_answer_alone() {
+    let body = body();
+    let mut coherent = 0;
+    for (query, config) in configurations() {
+        for x in [0.1, 5.0] {
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            for _ in 0..2 {
+                query(&body, &at(0.0), &body, &at(x), &mut cache, &config, &mut answer).unwrap();
+            }
+            coherent += usize::from(answer.status == Status::Coherent);
+            let (cache_before, answer_before) = (cache, answer);
+            let mirrored = Pose::new(&Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)), &Vector::zeros());
+            for pose in [at(f64::NAN), at(f64::INFINITY), mirrored] {
+                let result = query(&body, &pose, &body, &at(x), &mut cache, &config, &mut answer);
+                assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {config:?} at {pose:?}");
+            }
+            for refused in [
+                PairConfig { distance_tolerance: f64::NAN, ..config },
+                PairConfig { distance_tolerance: -1.0, ..config },
+                PairConfig { rotation_limit: f64::NAN, ..config },
+            ] {
+                let result = query(&body, &at(0.0), &body, &at(x), &mut cache, &refused, &mut answer);
+                assert!(matches!(result, Err(Error::Argument(_))), "{result:?} of {refused:?}");
+            }
+            assert_eq!(cache, cache_before, "{config:?} at {x}");
+            assert_eq!(format!("{answer:?}"), format!("{answer_before:?}"), "{config:?} at {x}");
+        }
+    }
+    assert!(coherent > 0, "no cache held a proof of intersection");
+}
