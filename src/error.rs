@@ -20,6 +20,8 @@ pub enum Error {
     Limit(String),
     /// The caller's callback asked to stop.
     Cancelled(String),
+    /// An answer that was to be verified does not hold; the message says what does not.
+    Unverified(String),
     /// A bug of ours, caught.
     Bug(String),
 }
@@ -38,6 +40,7 @@ impl Error {
             | Error::Handle(m)
             | Error::Limit(m)
             | Error::Cancelled(m)
+            | Error::Unverified(m)
             | Error::Bug(m) => m,
         }
     }

@@ -20,8 +20,8 @@ use witness::Witness;
 /// see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins.
 ///
 /// # Errors
-/// [`Error::Bug`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an answer
-/// that holds no outcome or vertex indices that the shapes do not have.
+/// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an
+/// answer that holds no outcome or vertex indices that the shapes do not have.
 pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
     let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
     let poses = [pose1, pose2];
@@ -167,5 +167,5 @@ fn length(v: &Vector) -> f64 {
 }
 
 fn bug(what: String) -> Error {
-    Error::Bug(format!("the answer does not hold: {what}"))
+    Error::Unverified(format!("the answer does not hold: {what}"))
 }

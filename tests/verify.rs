@@ -101,7 +101,7 @@ fn an_upper_end_below_the_gap_is_refuted() {
     verify(&tetrahedron, &here, &tetrahedron, &there, &answer).unwrap();
     (answer.lower, answer.distance, answer.upper) = (0.5, 1.0, 1.5);
     let refused = verify(&tetrahedron, &here, &tetrahedron, &there, &answer);
-    assert!(matches!(&refused, Err(Error::Bug(message)) if message.contains("1.5e0")), "{refused:?}");
+    assert!(matches!(&refused, Err(Error::Unverified(message)) if message.contains("1.5e0")), "{refused:?}");
 }
 
 /// An answer with one thing in it changed.
@@ -132,7 +132,7 @@ fn each_is_refused(forgeries: &[Forgery], shapes: &[Shape; 2], poses: &[Pose; 2]
         let mut forged = *answer;
         change(&mut forged);
         let checked = check(&forged);
-        assert!(matches!(&checked, Err(Error::Bug(m)) if m.contains(refused)), "{what}: {checked:?}");
+        assert!(matches!(&checked, Err(Error::Unverified(m)) if m.contains(refused)), "{what}: {checked:?}");
     }
 }
 

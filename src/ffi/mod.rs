@@ -91,6 +91,7 @@ impl From<Error> for Failure {
             Error::Handle(_) => StatusCode::ErrorHandle,
             Error::Limit(_) => StatusCode::ErrorLimit,
             Error::Cancelled(_) => StatusCode::ErrorCancelled,
+            Error::Unverified(_) => StatusCode::ErrorUnverified,
             Error::Bug(_) => StatusCode::ErrorBug,
         };
         Failure::new(status, error.message())

@@ -5,7 +5,7 @@ use super::{
     Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_levels,
     read_refinement, read_start, read_struct, struct_size,
 };
-use crate::error::{Error, Result};
+use crate::error::Result;
 use crate::math::Pose;
 use crate::pair::{self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status};
 use crate::shape::Shape;
@@ -143,11 +143,7 @@ pub unsafe extern "C" fn swift_pair_verify(
                 read_answer(answer)?,
             )
         };
-        verify(shape1, pose1, shape2, pose2, answer).map_err(|error| match error {
-            // In this call it is the answer that is wrong, and it may have come from anywhere.
-            Error::Bug(message) => Failure::new(StatusCode::ErrorUnverified, message),
-            other => other.into(),
-        })
+        Ok(verify(shape1, pose1, shape2, pose2, answer)?)
     })
 }
 
