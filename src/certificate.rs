@@ -248,11 +248,11 @@ const DIRECTION_ERROR: f64 = 6.2 * U;
 
 /// δ of any vertex of a body in direction g (local).
 pub fn of_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
-    let strict = -STRICT * norm1_of(g);
-    let is_strict = polyhedron
-        .neighbour_blocks(vertex)
-        .all(|block| (0..8).all(|lane| block.x[lane] * g.x + block.y[lane] * g.y + block.z[lane] * g.z < strict));
-    if is_strict { 0.0 } else { of_tied_vertex(polyhedron, vertex, g) }
+    let length = norm1_of(g);
+    match polyhedron.steepest_closely(vertex, g, length) {
+        Some(steepest) if steepest.slope >= -STRICT * length => of_tied_vertex(polyhedron, vertex, g),
+        _ => 0.0,
+    }
 }
 
 /// δ of a vertex that has neighbours not strictly behind it: from the edges at it, whichever proves most; where it has none
@@ -283,9 +283,10 @@ fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
         let planes = &edge.planes;
         let outward = L::from_vector(&Vector::new(planes.x[3], planes.y[3], planes.z[3]));
         let [left, right] = [L::from_vector(&edge.normals[0]), L::from_vector(&edge.normals[1])];
-        (left, right, edge.slacks[0], edge.slacks[1], g.dot(outward) * edge.reciprocal_sine)
+        let [left_slack, right_slack] = [edge.left, edge.right].map(|face| polyhedron.faces[face as usize].slack);
+        (left, right, left_slack, right_slack, g.dot(outward) * edge.reciprocal_sine)
     } else {
-        let half = sharp_edge(edge, &polyhedron.bevels[edge.bevel as usize], &g.to_vector());
+        let half = sharp_edge(polyhedron, edge, &polyhedron.bevels[edge.bevel as usize], &g.to_vector());
         let [first, second] = [L::from_vector(&half.normal), L::from_vector(&half.bevel)];
         (first, second, half.slacks[0], half.slacks[1], half.coefficient)
     };
@@ -306,7 +307,7 @@ fn axis_of_cone(polyhedron: &Polyhedron, edge: &Edge, g: &Vector) -> Option<Vect
     let [first, second] = match polyhedron.bevels.get(edge.bevel as usize) {
         None => edge.normals,
         Some(bevel) => {
-            let half = sharp_edge(edge, bevel, g);
+            let half = sharp_edge(polyhedron, edge, bevel, g);
             [half.normal, half.bevel]
         }
     };
@@ -315,7 +316,7 @@ fn axis_of_cone(polyhedron: &Polyhedron, edge: &Edge, g: &Vector) -> Option<Vect
 
 /// The half of a sharp edge's normal cone that holds g: the coefficients of two nearly opposite normals would grow like
 /// 1/sine, so the cone is split at the bevel plane, and each half is at most a right angle.
-fn sharp_edge(edge: &Edge, bevel: &Bevel, g: &Vector) -> HalfCone {
+fn sharp_edge(polyhedron: &Polyhedron, edge: &Edge, bevel: &Bevel, g: &Vector) -> HalfCone {
     let along = edge_direction(&edge.planes);
     // In the plane across the edge, perpendicular to the bevel normal, towards the left face's normal.
     let mut towards_left = along.cross(&bevel.normal);
@@ -328,7 +329,7 @@ fn sharp_edge(edge: &Edge, bevel: &Bevel, g: &Vector) -> HalfCone {
     HalfCone {
         normal,
         bevel: bevel.normal,
-        slacks: [edge.slacks[side], bevel.slack],
+        slacks: [polyhedron.faces[[edge.left, edge.right][side] as usize].slack, bevel.slack],
         coefficient: part / normal.dot(&towards_left),
     }
 }

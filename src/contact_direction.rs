@@ -186,12 +186,12 @@ impl Search<'_> {
         for direction in [direction, -direction] {
             let is_in_cone = |i: usize| {
                 let towards = self.towards(i, &direction);
-                let limit = CONE_TOLERANCE * towards.norm();
-                let is_behind = |edge: &Vector| edge.dot(&towards) <= limit;
-                neighbours[i].as_slice().iter().all(|neighbour| is_behind(&neighbour.direction))
+                let length = towards.norm();
+                let is_behind = |slope: f64| slope <= CONE_TOLERANCE * length;
+                neighbours[i].as_slice().iter().all(|neighbour| is_behind(neighbour.direction.dot(&towards)))
                     && self.polyhedra[i]
-                        .neighbour_blocks(pair[i])
-                        .all(|block| (0..8).all(|lane| is_behind(&block.direction(lane))))
+                        .steepest_closely(pair[i], &towards, length)
+                        .is_none_or(|steepest| is_behind(steepest.slope))
             };
             if is_in_cone(0) && is_in_cone(1) {
                 self.consider(&direction);
@@ -225,14 +225,15 @@ impl Neighbours {
         let has_many = has_many_neighbours(polyhedron, vertex);
         let mut least = f64::NEG_INFINITY;
         for block in polyhedron.neighbour_blocks(vertex) {
-            let slopes: [f64; 8] = std::array::from_fn(|lane| block.direction(lane).dot(towards));
+            let directions = block.head.map(|head| polyhedron.direction_to(vertex, head));
+            let slopes = directions.map(|direction| direction.dot(towards));
             if has_many && slopes.iter().all(|slope| *slope <= least) {
                 continue;
             }
             // Unused lanes repeat lane 0.
             for lane in (0..8).filter(|&lane| lane == 0 || block.head[lane] != block.head[0]) {
                 let (head, edge) = (block.head[lane], block.edge[lane]);
-                let neighbour = Neighbour { head, edge, direction: block.direction(lane), slope: slopes[lane] };
+                let neighbour = Neighbour { head, edge, direction: directions[lane], slope: slopes[lane] };
                 if has_many {
                     least = chosen.insert(neighbour, STEEPEST_NEIGHBOURS);
                 } else {

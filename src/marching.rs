@@ -169,7 +169,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     }
     // All in world axes: no transpose stands for an inverse. The difference of the nearest points, perpendicular to the edge.
     let along = edge_direction(&record.planes);
-    let tail = &far.polyhedron.vertices[record.tail as usize].position;
+    let tail = &record.tail_position;
     let (along_world, tail_world) = (far.rotate(&along), far.rotate(tail));
     let from_far = rotated.add(body.offset);
     let from_tail = from_far.sub(tail_world);
@@ -341,8 +341,7 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     let record2 = &body2.polyhedron.edges[indices[1] as usize];
     let (along1, along2) = (edge_direction(&record1.planes), edge_direction(&record2.planes));
     let (world1, world2) = (body1.rotate(&along1), body2.rotate(&along2));
-    let tail1 = &body1.polyhedron.vertices[record1.tail as usize].position;
-    let tail2 = &body2.polyhedron.vertices[record2.tail as usize].position;
+    let (tail1, tail2) = (&record1.tail_position, &record2.tail_position);
     let (rotated1, rotated2) = (body1.rotate(tail1), body2.rotate(tail2));
     let between = rotated1.add(body1.offset).sub(rotated2);
     let mut normal = world1.cross(world2);
@@ -449,8 +448,7 @@ fn walk_along_edge<L: Lanes, const NEAR: usize>(
     let (edge, far_edge) = (indices[NEAR], indices[1 - NEAR]);
     let record = &body.polyhedron.edges[edge as usize];
     let along = edge_direction(&record.planes);
-    let tail = &body.polyhedron.vertices[record.tail as usize].position;
-    let point = far.rotate_back(body.rotate(&(tail + along * t)).add(body.offset));
+    let point = far.rotate_back(body.rotate(&(record.tail_position + along * t)).add(body.offset));
     let direction = far.rotate_back(body.rotate(&along));
     // Into the face is away from the far edge.
     let forward = plane_slopes(far_planes, direction).to_array()[lane] <= 0.0;

@@ -122,7 +122,7 @@ impl Search<'_> {
             let says_nothing = |edge: &Vector| along.cross(edge).norm() < PARALLEL && along != Vector::zeros();
             for (b, block) in self.polyhedra[i].neighbour_blocks(self.pair[i]).enumerate() {
                 for lane in 0..8 {
-                    let edge = block.direction(lane);
+                    let edge = self.polyhedra[i].direction_to(self.pair[i], block.head[lane]);
                     let slope = edge.dot(&towards);
                     if slope > largest && !says_nothing(&edge) {
                         largest = slope;

@@ -10,6 +10,7 @@
 
 use crate::lookup::Lookup;
 use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
+use crate::normal::unit;
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
 pub const NONE: u32 = u32::MAX;
@@ -33,17 +34,21 @@ pub struct PlaneBlock {
     pub offset: [f64; 4],
 }
 
-/// Up to eight neighbours of a vertex in the triangulated exact hull, diagonals of merged faces included; those along edges come
-/// first. Unused lanes repeat lane 0, so that a test over all lanes needs no mask. A point body is its own neighbour, in direction 0.
+/// Up to eight neighbours of a vertex in the triangulated exact hull, diagonals of merged faces included; those along edges
+/// come first. Unused lanes repeat lane 0, so that a test over all lanes needs no mask. A point body is its own neighbour, in
+/// direction 0.
+///
+/// Single precision tells a neighbour that is clearly ahead or behind, in half the memory; where it does not,
+/// [`Polyhedron::direction_to`] has all digits.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C, align(64))]
+#[repr(C, align(32))]
 pub struct NeighbourBlock {
     /// First components of the unit vectors from the vertex to its neighbours.
-    pub x: [f64; 8],
+    pub x: [f32; 8],
     /// Second components.
-    pub y: [f64; 8],
+    pub y: [f32; 8],
     /// Third components.
-    pub z: [f64; 8],
+    pub z: [f32; 8],
     /// The neighbours.
     pub head: [u32; 8],
     /// The edges along which they lie, or [`NONE`] inside a merged face. The neighbour is the edge's other end, or a flat vertex
@@ -51,19 +56,22 @@ pub struct NeighbourBlock {
     pub edge: [u32; 8],
 }
 
-/// A vertex of the hull.
+/// A vertex of the hull. Two cache lines serve where no neighbour is farther; the third says where to go.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
+#[repr(C, align(64))]
 pub struct Vertex {
     /// Exact centred coordinates.
     pub position: Vector,
-    /// Where its neighbour blocks beyond the first begin in `more_neighbours`; the first is `neighbours[own index]`.
+    /// Where its neighbour blocks beyond the first begin in `more_neighbours`.
     pub first_more: u32,
     /// How many blocks beyond the first.
     pub more: u32,
+    /// The first.
+    pub neighbours: NeighbourBlock,
 }
 
-/// An edge between two merged faces, from `tail` to `head`, the face `left` of it seen from outside. Once per edge.
+/// An edge between two merged faces, from `tail` to `head`, the face `left` of it seen from outside. Once per edge. What every
+/// query looks at is in the first three cache lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
 pub struct Edge {
@@ -72,16 +80,13 @@ pub struct Edge {
     /// that of the right face. Lane 0's normal is the unit direction of the edge; minus lane 2's and 3's normals are the
     /// unit inward side directions `n_left × direction` and `direction × n_right`.
     pub planes: PlaneBlock,
-    /// Unit outward normals of the left and the right face.
-    pub normals: [Vector; 2],
-    /// Slacks of the two faces' planes.
-    pub slacks: [f64; 2],
+    /// Where the tail is.
+    pub tail_position: Vector,
     /// Length of the edge.
     pub length: f64,
-    /// The largest of `slacks` and that of the bevel; +∞, which asks for a closer look, where rounding hides the dihedral angle.
+    /// The largest of the slacks of both faces and of the bevel; +∞, which asks for a closer look, where rounding hides the
+    /// dihedral angle.
     pub slack: f64,
-    /// 1 / (−n_left·side_right), the reciprocal sine of the exterior dihedral angle; +∞ where that is not positive.
-    pub reciprocal_sine: f64,
     /// First vertex.
     pub tail: u32,
     /// Second vertex.
@@ -90,10 +95,14 @@ pub struct Edge {
     pub left: u32,
     /// Right face.
     pub right: u32,
-    /// Index in `bevels` of the plane that halves a sharp edge (n_left·n_right < 0), or [`NONE`].
-    pub bevel: u32,
     /// The caller's indices of the two vertices.
     pub labels: [u32; 2],
+    /// Unit outward normals of the left and the right face.
+    pub normals: [Vector; 2],
+    /// 1 / (−n_left·side_right), the reciprocal sine of the exterior dihedral angle; +∞ where that is not positive.
+    pub reciprocal_sine: f64,
+    /// Index in `bevels` of the plane that halves a sharp edge (n_left·n_right < 0), or [`NONE`].
+    pub bevel: u32,
 }
 
 /// A supporting plane through a sharp edge, its normal between those of the two faces.
@@ -157,8 +166,6 @@ pub struct Polyhedron {
     pub ordinary: bool,
     /// Hull vertices. Those that only lie inside a merged face or edge (flat vertices) are kept for the support climb.
     pub vertices: Vec<Vertex>,
-    /// One block per vertex.
-    pub neighbours: Vec<NeighbourBlock>,
     /// Blocks of vertices with more than eight neighbours.
     pub more_neighbours: Vec<NeighbourBlock>,
     /// The exact hull, triangulated, over `vertices`; counter-clockwise from outside.
@@ -241,9 +248,15 @@ impl Polyhedron {
     /// The neighbour blocks of a vertex: the first, then those with neighbours beyond eight.
     #[inline]
     pub fn neighbour_blocks(&self, vertex: u32) -> impl Iterator<Item = &NeighbourBlock> {
-        let Vertex { first_more, more, .. } = self.vertices[vertex as usize];
+        let &Vertex { first_more, more, .. } = &self.vertices[vertex as usize];
         let further = &self.more_neighbours[first_more as usize..(first_more + more) as usize];
-        std::iter::once(&self.neighbours[vertex as usize]).chain(further)
+        std::iter::once(&self.vertices[vertex as usize].neighbours).chain(further)
+    }
+
+    /// The unit vector from a vertex to another, each component right to 4u of the vector.
+    #[inline]
+    pub fn direction_to(&self, vertex: u32, head: u32) -> Vector {
+        unit(&(self.vertices[head as usize].position - self.vertices[vertex as usize].position))
     }
 
     /// Lanes in the neighbour blocks of a vertex: an upper bound of the number of its neighbours, by less than eight.
@@ -255,24 +268,21 @@ impl Polyhedron {
     /// A vertex that is farthest along `direction` as far as plain doubles tell, and the number of steps from `start`: hill
     /// climbing along the steepest edge of the triangulated hull until none leads up.
     pub fn support(&self, direction: &Vector, start: u32) -> (u32, u32) {
-        // A computed slope, of a unit vector right to 4u per component, is off by less than 8u·|direction|₁. A step is taken
-        // only if it certainly leads up, so no vertex comes twice. The smallest normal number is for products that underflow: without
-        // it a direction of subnormal numbers could lead round in a circle.
+        // A step is taken only if it certainly leads up, so no vertex comes twice.
+        let largest = direction.amax();
+        let direction = if largest > 0.0 { direction / largest } else { *direction };
+        let rough = direction.map(|d| d as f32).into();
         let length = direction.x.abs() + direction.y.abs() + direction.z.abs();
-        let level = 8.0 * UNIT_ROUNDOFF * length + f64::MIN_POSITIVE;
+        let clear = clear_slope(length);
         let (mut vertex, mut steps) = (start, 0);
         loop {
-            let mut steepest = level;
+            let mut steepest = clear;
             let mut next = vertex;
+            let mut is_any_open = false;
             for block in self.neighbour_blocks(vertex) {
-                // In two loops, the first of which compiles to vector instructions.
-                let mut slopes = [0.0; 8];
-                let mut is_any_steeper = false;
-                for (lane, slope) in slopes.iter_mut().enumerate() {
-                    *slope = block.x[lane] * direction.x + block.y[lane] * direction.y + block.z[lane] * direction.z;
-                    is_any_steeper |= *slope > steepest;
-                }
-                if is_any_steeper {
+                let slopes = block.slopes(rough);
+                is_any_open |= !slopes.iter().all(|slope| *slope < -clear);
+                if slopes.iter().any(|slope| *slope > steepest) {
                     for (slope, head) in slopes.into_iter().zip(block.head) {
                         if slope > steepest {
                             (steepest, next) = (slope, head);
@@ -280,12 +290,42 @@ impl Polyhedron {
                     }
                 }
             }
+            // A computed slope, of a unit vector right to 4u per component, is off by less than 8u·|direction|₁.
+            if next == vertex
+                && is_any_open
+                && let Some(closely) = self.steepest_closely(vertex, &direction, length)
+                && closely.slope > 8.0 * UNIT_ROUNDOFF * length
+            {
+                next = closely.head;
+            }
             if next == vertex {
                 return (vertex, steps);
             }
             vertex = next;
             steps += 1;
         }
+    }
+
+    /// The steepest, in double precision, of a vertex's neighbours that are not [clearly](clear_slope) behind in a direction g
+    /// of at most this length.
+    #[cold]
+    pub fn steepest_closely(&self, vertex: u32, g: &Vector, length: f64) -> Option<Steepest> {
+        let (rough, clear) = (g.map(|d| d as f32).into(), clear_slope(length));
+        let mut best: Option<Steepest> = None;
+        for block in self.neighbour_blocks(vertex) {
+            for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
+                if slope < -clear {
+                    continue;
+                }
+                let (head, edge) = (block.head[lane], block.edge[lane]);
+                let slope = self.direction_to(vertex, head).dot(g);
+                // The first of equals, and any if one is a NaN.
+                if best.is_none_or(|best| slope > best.slope) {
+                    best = Some(Steepest { slope, edge, head });
+                }
+            }
+        }
+        best
     }
 
     /// The plane blocks of a face's sides beyond the third.
@@ -303,7 +343,6 @@ impl Polyhedron {
             centre: _,
             radius: _,
             vertices,
-            neighbours,
             more_neighbours,
             triangles,
             edges,
@@ -321,7 +360,6 @@ impl Polyhedron {
             lookup,
         } = self;
         size_of_val(&vertices[..])
-            + size_of_val(&neighbours[..])
             + size_of_val(&more_neighbours[..])
             + size_of_val(&triangles[..])
             + size_of_val(&edges[..])
@@ -339,11 +377,36 @@ impl Polyhedron {
     }
 }
 
+/// A neighbour of a vertex and how far it lies in a direction.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Steepest {
+    /// The product of the unit vector to it with the direction.
+    pub slope: f64,
+    /// The edge to it, or [`NONE`].
+    pub edge: u32,
+    /// The neighbour.
+    pub head: u32,
+}
+
+/// A slope g·ê of a neighbour, computed in single precision, has the right sign if it is greater in magnitude than this;
+/// `length` is at least |g|.
+///
+/// With u₁ = 2⁻²⁴ the components of ê and of g err by u₁ relatively, each, the product and its sums by at most 5u₁·|g||ê|:
+/// 7u₁|g| in all, of 16u₁ that are allowed. What leaves the range of single precision is never clear: where g may, this is
+/// infinite, and far above all that underflows.
+#[inline(always)]
+pub fn clear_slope(length: f64) -> f32 {
+    // 2⁻²⁰ = 16u₁.
+    const HALF_OF_ALLOWED: f32 = 1.0 / (1 << 21) as f32;
+    const FAR_ABOVE_UNDERFLOW: f32 = f32::from_bits((127 - 100) << 23);
+    (2.0 * length) as f32 * HALF_OF_ALLOWED + FAR_ABOVE_UNDERFLOW
+}
+
 impl NeighbourBlock {
-    /// The unit vector to one neighbour.
+    /// The products of the eight directions with another.
     #[inline]
-    pub fn direction(&self, lane: usize) -> Vector {
-        Vector::new(self.x[lane], self.y[lane], self.z[lane])
+    pub fn slopes(&self, [x, y, z]: [f32; 3]) -> [f32; 8] {
+        std::array::from_fn(|lane| self.x[lane] * x + self.y[lane] * y + self.z[lane] * z)
     }
 }
 
@@ -354,8 +417,8 @@ impl PlaneBlock {
     }
 }
 
-/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the sharp
-/// corner of a sliver a point may violate the sides by next to nothing and still be far away.
+/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the
+/// sharp corner of a sliver a point may violate the sides by next to nothing and still be far away.
 fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
     let (mut is_inside, mut nearest) = (true, f64::INFINITY);
     for (i, a) in corners.iter().enumerate() {

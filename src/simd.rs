@@ -61,8 +61,11 @@ pub trait Lanes: Copy {
     fn with_first(self, other: Self) -> Self;
     /// Lanes 2 and 3 of one and of the other.
     fn upper_halves(first: Self, second: Self) -> Self;
-    /// The greatest of the lanes of two, and which it is, counted through; the first of equals. Any lane if one is a NaN.
-    fn greatest_of(low: Self, high: Self) -> (f64, usize);
+    /// Whether the products of eight vectors (their x, y and z) with this one, all in single precision, are less than a limit;
+    /// a NaN is not.
+    fn products_are_below(self, vectors: [&[f32; 8]; 3], limit: f32) -> bool;
+    /// The greatest of such products and which it is; the first of equals. Any if one is a NaN.
+    fn greatest_product(self, vectors: [&[f32; 8]; 3]) -> (f32, usize);
     /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
     fn least(self) -> (f64, usize);
     /// Does the work out of line, compiled for these lanes.
@@ -184,11 +187,16 @@ impl Lanes for Portable {
         Portable([first.0[2], first.0[3], second.0[2], second.0[3]])
     }
     #[inline(always)]
-    fn greatest_of(low: Self, high: Self) -> (f64, usize) {
-        let mut best = (low.0[0], 0);
-        for (lane, value) in low.0.into_iter().chain(high.0).enumerate() {
-            if value > best.0 {
-                best = (value, lane);
+    fn products_are_below(self, vectors: [&[f32; 8]; 3], limit: f32) -> bool {
+        self.products(vectors).iter().all(|product| *product < limit)
+    }
+    #[inline(always)]
+    fn greatest_product(self, vectors: [&[f32; 8]; 3]) -> (f32, usize) {
+        let products = self.products(vectors);
+        let mut best = (products[0], 0);
+        for (lane, product) in products.into_iter().enumerate() {
+            if product > best.0 {
+                best = (product, lane);
             }
         }
         best
@@ -206,6 +214,14 @@ impl Lanes for Portable {
     #[inline(never)]
     fn out_of_line<W: Work>(work: &mut W) -> W::Output {
         work.run()
+    }
+}
+
+impl Portable {
+    #[inline(always)]
+    fn products(self, [x, y, z]: [&[f32; 8]; 3]) -> [f32; 8] {
+        let [a, b, c, _] = self.0.map(|lane| lane as f32);
+        std::array::from_fn(|i| x[i] * a + y[i] * b + z[i] * c)
     }
 }
 
@@ -285,6 +301,22 @@ mod wide {
     /// An AVX register. Only `run` makes the type reachable, so its methods only run where the features are there.
     #[derive(Clone, Copy)]
     pub(super) struct Wide(__m256d);
+
+    impl Wide {
+        /// Products of eight vectors with this one.
+        #[inline(always)]
+        fn products(self, [x, y, z]: [&[f32; 8]; 3]) -> __m256 {
+            // SAFETY: `Wide` exists only where AVX2 and FMA have been found; the pointers are to eight readable numbers.
+            unsafe {
+                let half = _mm256_cvtpd_ps(self.0);
+                let both = _mm256_set_m128(half, half);
+                let product = _mm256_mul_ps(_mm256_loadu_ps(x.as_ptr()), _mm256_permute_ps::<0b00_00_00_00>(both));
+                let product =
+                    _mm256_fmadd_ps(_mm256_loadu_ps(y.as_ptr()), _mm256_permute_ps::<0b01_01_01_01>(both), product);
+                _mm256_fmadd_ps(_mm256_loadu_ps(z.as_ptr()), _mm256_permute_ps::<0b10_10_10_10>(both), product)
+            }
+        }
+    }
 
     // SAFETY of every block below: `Wide` exists only inside `run`, whose caller has checked for AVX2 and FMA.
     impl Lanes for Wide {
@@ -430,16 +462,21 @@ mod wide {
             Wide(unsafe { _mm256_permute2f128_pd::<0x31>(first.0, second.0) })
         }
         #[inline(always)]
-        fn greatest_of(low: Self, high: Self) -> (f64, usize) {
+        fn products_are_below(self, vectors: [&[f32; 8]; 3], limit: f32) -> bool {
+            let products = self.products(vectors);
+            // SAFETY: see above.
+            unsafe { _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_LT_OQ>(products, _mm256_set1_ps(limit))) == 0xff }
+        }
+        #[inline(always)]
+        fn greatest_product(self, vectors: [&[f32; 8]; 3]) -> (f32, usize) {
+            let products = self.products(vectors);
             // SAFETY: see above.
             unsafe {
-                let both = _mm256_max_pd(low.0, high.0);
-                let pair = _mm256_max_pd(both, _mm256_permute2f128_pd::<0x01>(both, both));
-                let all = _mm256_max_pd(pair, _mm256_permute_pd::<0b0101>(pair));
-                let in_low = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(low.0, all)) as u32;
-                let in_high = _mm256_movemask_pd(_mm256_cmp_pd::<_CMP_EQ_OQ>(high.0, all)) as u32;
-                let mask = in_low | in_high << 4;
-                (_mm256_cvtsd_f64(all), (mask | 0x80).trailing_zeros() as usize)
+                let four = _mm256_max_ps(products, _mm256_permute2f128_ps::<0x01>(products, products));
+                let two = _mm256_max_ps(four, _mm256_permute_ps::<0b01_00_11_10>(four));
+                let all = _mm256_max_ps(two, _mm256_permute_ps::<0b10_11_00_01>(two));
+                let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(products, all)) as u32;
+                (_mm256_cvtss_f32(all), (mask | 0x80).trailing_zeros() as usize)
             }
         }
         #[inline(always)]
@@ -466,14 +503,20 @@ mod tests {
 
     struct Sample;
     impl Kernel for Sample {
-        type Output = ([f64; 4], [[f64; 4]; 4], f64, u32, [(f64, usize); 4], [[f64; 4]; 5]);
+        type Output = ([f64; 4], [[f64; 4]; 4], f64, u32, [(f64, usize); 2], (f32, usize), [bool; 2], [[f64; 4]; 5]);
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> Self::Output {
             let rows = [[1.0, 2.0, 3.0, 4.0], [5.0, 6.0, 7.0, 8.0], [9.0, 10.0, 11.0, 12.0]].map(|r| L::load(&r));
             let [x, y, z] = rows;
             let combined = x.splat_x().mul_add(y.splat_y(), z.splat_z()).sub(x).add(y).mul(z);
             let turned = L::load(&[7.0, 1.0, 7.0, 1.0]);
-            let picks = [L::greatest_of(x, turned), L::greatest_of(turned, turned), turned.least(), z.least()];
+            let picks = [turned.least(), z.least()];
+            let vectors =
+                [[1.0, 4.0, 2.0, 0.0, 4.0, 0.0, 1.0, 3.0], [0.0, 1.0, 0.0, 0.0, 1.0, 7.5, 0.0, 0.0], [0.5; 8]];
+            let [a, b, c] = &vectors;
+            let vectors = [a, b, c];
+            let greatest = x.greatest_product(vectors);
+            let below = [x.products_are_below(vectors, 16.5), x.products_are_below(vectors, 16.75)];
             let (quotient, greater) = (z.div(y), y.max(turned));
             let chosen = [quotient, greater, x.where_greater(y, turned, z), x.with_first(y), L::upper_halves(x, y)];
             (
@@ -482,6 +525,8 @@ mod tests {
                 x.dot(y),
                 y.greater(L::splat(6.5)),
                 picks,
+                greatest,
+                below,
                 chosen.map(L::to_array),
             )
         }
@@ -494,9 +539,10 @@ mod tests {
         assert_eq!(expected.1[3], [4.0, 8.0, 12.0, 0.0]);
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.3, 0b1100);
-        assert_eq!(expected.4, [(7.0, 4), (7.0, 0), (1.0, 1), (9.0, 0)]);
+        assert_eq!(expected.4, [(1.0, 1), (9.0, 0)]);
+        assert_eq!((expected.5, expected.6), ((16.5, 5), [false, true]));
         assert_eq!(
-            expected.5[1..],
+            expected.7[1..],
             [[7.0, 6.0, 7.0, 8.0], [9.0, 2.0, 11.0, 4.0], [5.0, 2.0, 3.0, 4.0], [3.0, 4.0, 7.0, 8.0]]
         );
     }

@@ -1,7 +1,7 @@
 //! Tests of Voronoi regions: planes around edges and faces, neighbours around vertices, prisms over faces.
 
 use crate::math::{UNIT_ROUNDOFF, Vector};
-use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron};
+use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Steepest, clear_slope};
 use crate::side_search::{self, MANY_SIDES};
 use crate::simd::Lanes;
 
@@ -55,17 +55,14 @@ pub fn test_vertex<L: Lanes>(
     length: f64,
     tolerance: f64,
 ) -> VertexTest {
-    let block = &polyhedron.neighbours[vertex as usize];
-    let [low, high] = slopes(block, g);
-    let strict = L::splat(-STRICT * length);
-    let more = polyhedron.vertices[vertex as usize].more;
-    if low.greater(strict) | high.greater(strict) | more == 0 {
+    let record = &polyhedron.vertices[vertex as usize];
+    if g.products_are_below(directions(&record.neighbours), -clear_slope(length)) & (record.more == 0) {
         return VertexTest::Strict;
     }
     test_vertex_further(rule, polyhedron, vertex, g, length, tolerance)
 }
 
-/// The rest of [`test_vertex`]: some neighbour is not strictly behind, or there are more than eight.
+/// The rest of [`test_vertex`]: some neighbour is not clearly behind, or there are more than eight.
 #[inline(always)]
 fn test_vertex_further<L: Lanes>(
     rule: Rule,
@@ -76,26 +73,35 @@ fn test_vertex_further<L: Lanes>(
     tolerance: f64,
 ) -> VertexTest {
     let (slope, edge, head) = steepest(polyhedron, vertex, g);
-    if slope < -STRICT * length {
+    let clear = clear_slope(length);
+    if (slope > clear) & (f64::from(slope) > tolerance) {
+        if (edge == NONE) | (rule == Rule::First) {
+            leave_by_edge(rule, polyhedron, vertex, g.to_vector(), length, head)
+        } else {
+            VertexTest::Leaves { edge, head }
+        }
+    } else if slope < -clear {
         VertexTest::Strict
-    } else if slope <= tolerance {
-        VertexTest::Tied
-    } else if rule == Rule::First {
-        let [x, y, z, _] = g.to_array();
-        leave_by_first(polyhedron, vertex, Vector::new(x, y, z), tolerance, head)
-    } else if edge != NONE {
-        VertexTest::Leaves { edge, head }
     } else {
-        let [x, y, z, _] = g.to_array();
-        leave_by_edge(polyhedron, vertex, Vector::new(x, y, z), tolerance, head)
+        test_vertex_closely(polyhedron, vertex, &g.to_vector(), length, tolerance)
     }
 }
 
-/// The neighbour with the greatest slope g·ê: the slope, the edge to it or NONE, and the neighbour itself.
+/// [`test_vertex`] where single precision does not tell.
+#[cold]
+fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length: f64, tolerance: f64) -> VertexTest {
+    match polyhedron.steepest_closely(vertex, g, length) {
+        Some(Steepest { slope, edge, head }) if slope > tolerance => VertexTest::Leaves { edge, head },
+        Some(Steepest { slope, .. }) if !(slope < -STRICT * length) => VertexTest::Tied,
+        _ => VertexTest::Strict,
+    }
+}
+
+/// The neighbour with the greatest slope g·ê in single precision: the slope, the edge to it or NONE, and the neighbour itself.
 #[inline(always)]
-pub fn steepest<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, g: L) -> (f64, u32, u32) {
-    let mut best = steepest_of_block(&polyhedron.neighbours[vertex as usize], g);
+pub fn steepest<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, g: L) -> (f32, u32, u32) {
     let record = &polyhedron.vertices[vertex as usize];
+    let mut best = steepest_of_block(&record.neighbours, g);
     for index in record.first_more..record.first_more + record.more {
         let other = steepest_of_block(&polyhedron.more_neighbours[index as usize], g);
         if other.0 > best.0 {
@@ -121,57 +127,33 @@ pub fn climb<L: Lanes>(polyhedron: &Polyhedron, g: L, start: u32) -> u32 {
 }
 
 #[inline(always)]
-fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f64, u32, u32) {
-    let [low, high] = slopes(block, g);
-    let (slope, lane) = L::greatest_of(low, high);
+fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) {
+    let (slope, lane) = g.greatest_product(directions(block));
     (slope, block.edge[lane & 7], block.head[lane & 7])
 }
 
-/// The steepest neighbour is across a merged face: leave by the steepest real edge, or where none rises to the neighbour.
+/// Where the steepest neighbour is across a merged face, or the steepest is not asked for: leave by the steepest real edge that
+/// clearly rises or the first, or where none does to the neighbour.
 #[cold]
-fn leave_by_edge(polyhedron: &Polyhedron, vertex: u32, g: Vector, tolerance: f64, head: u32) -> VertexTest {
-    let mut best = (tolerance, VertexTest::Leaves { edge: NONE, head });
+fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
+    let rough = g.map(|d| d as f32).into();
+    let mut best = (clear_slope(length), VertexTest::Leaves { edge: NONE, head });
     for block in polyhedron.neighbour_blocks(vertex) {
-        for lane in 0..8 {
-            let slope = block.x[lane] * g.x + block.y[lane] * g.y + block.z[lane] * g.z;
+        for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
             if slope > best.0 && block.edge[lane] != NONE {
                 best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane] });
+                if rule == Rule::First {
+                    return best.1;
+                }
             }
         }
     }
     best.1
 }
 
-/// The first real edge that rises, or where none does the neighbour across a merged face.
-fn leave_by_first(polyhedron: &Polyhedron, vertex: u32, g: Vector, tolerance: f64, head: u32) -> VertexTest {
-    for block in polyhedron.neighbour_blocks(vertex) {
-        for lane in 0..8 {
-            let slope = block.x[lane] * g.x + block.y[lane] * g.y + block.z[lane] * g.z;
-            if slope > tolerance && block.edge[lane] != NONE {
-                return VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane] };
-            }
-        }
-    }
-    VertexTest::Leaves { edge: NONE, head }
-}
-
-/// g·ê for the eight lanes of a block.
 #[inline(always)]
-fn slopes<L: Lanes>(block: &NeighbourBlock, g: L) -> [L; 2] {
-    let (x, y, z) = (g.splat_x(), g.splat_y(), g.splat_z());
-    let half = |bx: &[f64; 4], by: &[f64; 4], bz: &[f64; 4]| {
-        L::load(bz).mul_add(z, L::load(by).mul_add(y, L::load(bx).mul(x)))
-    };
-    let (x_low, x_high) = halves(&block.x);
-    let (y_low, y_high) = halves(&block.y);
-    let (z_low, z_high) = halves(&block.z);
-    [half(x_low, y_low, z_low), half(x_high, y_high, z_high)]
-}
-
-#[inline(always)]
-fn halves(x: &[f64; 8]) -> (&[f64; 4], &[f64; 4]) {
-    let (parts, _) = x.as_chunks::<4>();
-    (&parts[0], &parts[1])
+fn directions(block: &NeighbourBlock) -> [&[f32; 8]; 3] {
+    [&block.x, &block.y, &block.z]
 }
 
 /// Values of the four planes at a point.
@@ -196,8 +178,8 @@ pub fn edge_direction(planes: &PlaneBlock) -> Vector {
     Vector::new(planes.x[0], planes.y[0], planes.z[0])
 }
 
-/// The side of a face whose plane is violated by more than the tolerance, by the rule, if there is any. `first` are the values of the
-/// face's first block.
+/// The side of a face whose plane is violated by more than the tolerance, by the rule, if there is any. `first` are the values
+/// of the face's first block.
 #[inline(always)]
 pub fn violated_side<L: Lanes>(
     rule: Rule,
@@ -282,5 +264,68 @@ pub fn end_of(parameter: f64, length: f64, tail: u32, head: u32) -> Option<u32> 
         Some(head)
     } else {
         None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polyhedron_build::build;
+    use crate::simd::{self, Kernel, Portable};
+
+    struct Test<'a> {
+        polyhedron: &'a Polyhedron,
+        vertex: u32,
+        g: Vector,
+        length: f64,
+    }
+
+    impl Kernel for Test<'_> {
+        type Output = VertexTest;
+        #[inline(always)]
+        fn run<L: Lanes>(&mut self) -> VertexTest {
+            test_vertex(Rule::Most, self.polyhedron, self.vertex, L::from_vector(&self.g), self.length, 0.0)
+        }
+    }
+
+    /// A pyramid whose tip sees its neighbours at irregular angles.
+    fn pyramid() -> Polyhedron {
+        let base =
+            [[1.0, 0.1], [0.3, 0.9], [-0.8, 0.4], [-0.5, -0.7], [0.4, -1.1]].map(|[x, y]| Vector::new(x, y, 0.0));
+        build(&[&base[..], &[Vector::new(0.05, -0.03, 0.7)]].concat(), None).unwrap()
+    }
+
+    /// Single precision overrules nothing: directions perpendicular to an edge up to 1e-3 … 1e-17, of any length there is.
+    #[test]
+    fn a_vertex_is_strictly_farthest_only_if_double_precision_says_so() {
+        let polyhedron = pyramid();
+        let mut counts = [0; 2];
+        for vertex in 0..polyhedron.vertices.len() as u32 {
+            let heads: Vec<u32> = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.head).collect();
+            let outward = polyhedron.vertices[vertex as usize].position - Vector::new(0.0, 0.0, 0.2);
+            for (k, &head) in heads.iter().enumerate() {
+                let edge = polyhedron.direction_to(vertex, head);
+                for tilt in (3..18).map(|e| 10.0_f64.powi(-e)).flat_map(|t| [t, -t]) {
+                    let across = outward - edge * edge.dot(&outward);
+                    let unit = (across.normalize() + edge * tilt).normalize();
+                    for exponent in [-1060, -160, -130, -101, -60, 0, 60, 126, 127, 128, 129, 600, 1020] {
+                        let length = 2f64.powi(exponent) * (1.0 + 0.9 * (k as f64 / 8.0));
+                        let mut test =
+                            Test { polyhedron: &polyhedron, vertex, g: unit * length, length: length * 1.01 };
+                        let answers = [simd::dispatch(&mut test), test.run::<Portable>()];
+                        for answer in answers {
+                            let is_strict = matches!(answer, VertexTest::Strict);
+                            counts[usize::from(is_strict)] += 1;
+                            let slope = |head: u32| polyhedron.direction_to(vertex, head).dot(&unit);
+                            assert!(
+                                !is_strict || heads.iter().all(|head| slope(*head) < 0.0),
+                                "{vertex} {unit:?} {length:e}"
+                            );
+                        }
+                    }
+                }
+            }
+        }
+        assert!(counts.iter().all(|count| *count > 1000), "{counts:?}");
     }
 }

@@ -159,11 +159,15 @@ mod tests {
             let head = std::array::from_fn(|lane| *heads.get(lane).unwrap_or(&heads[0]));
             NeighbourBlock { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8], head, edge: [NONE; 8] }
         };
-        let vertex = |p: &[f64; 3]| Vertex { position: Vector::from(*p), first_more: 0, more: 0 };
+        let vertex = |(p, heads): (&[f64; 3], _)| Vertex {
+            position: Vector::from(*p),
+            first_more: 0,
+            more: 0,
+            neighbours: block(heads),
+        };
         Polyhedron {
             centre: Vector::zeros(),
-            vertices: points.iter().map(vertex).collect(),
-            neighbours: heads.iter().map(block).collect(),
+            vertices: points.iter().zip(&heads).map(vertex).collect(),
             more_neighbours: Vec::new(),
             ..hull(&points)
         }

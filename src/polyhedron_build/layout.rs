@@ -62,17 +62,17 @@ fn edge_between(
     let slack = if is_flat { f64::INFINITY } else { slacks[left as usize].max(slacks[right as usize]) };
     Edge {
         planes,
-        normals,
-        slacks: [slacks[left as usize], slacks[right as usize]],
+        tail_position: *a,
         length,
         slack,
-        reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
         tail,
         head,
         left,
         right,
-        bevel: NONE,
         labels: [NONE; 2],
+        normals,
+        reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
+        bevel: NONE,
     }
 }
 
@@ -96,16 +96,17 @@ impl Polyhedron {
             for lane in 0..8 {
                 let (head, edge) = chunk[if lane < chunk.len() { lane } else { 0 }];
                 let direction = unit(&(positions[head as usize] - position));
-                (block.x[lane], block.y[lane], block.z[lane]) = (direction.x, direction.y, direction.z);
+                [block.x[lane], block.y[lane], block.z[lane]] =
+                    [direction.x, direction.y, direction.z].map(|d| d as f32);
                 (block.head[lane], block.edge[lane]) = (head, edge);
             }
             block
         });
-        self.neighbours.extend(blocks.next());
+        let first = blocks.next();
         let first_more = self.more_neighbours.len() as u32;
         self.more_neighbours.extend(blocks);
         let more = self.more_neighbours.len() as u32 - first_more;
-        self.vertices.push(Vertex { position, first_more, more });
+        self.vertices.extend(first.map(|neighbours| Vertex { position, first_more, more, neighbours }));
     }
 
     /// Adds all edges, ordered by their lower vertex, and the bevels of the sharp ones. Returns the edge of each half-edge, NONE

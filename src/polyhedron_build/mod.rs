@@ -228,7 +228,6 @@ impl HullSurface {
             radius,
             ordinary: false,
             vertices: Vec::new(),
-            neighbours: Vec::new(),
             more_neighbours: Vec::new(),
             triangles: Vec::new(),
             face_of_triangle: Vec::new(),
@@ -262,7 +261,6 @@ impl HullSurface {
         let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
         polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
         polyhedron.vertices.reserve_exact(self.positions.len());
-        polyhedron.neighbours.reserve_exact(self.positions.len());
         for v in 0..self.positions.len() as u32 {
             polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
         }

@@ -351,14 +351,18 @@ fn vertices_an_ulp_inside_keep_every_polygon_on_some_face() {
     }
 }
 
-/// Along (1, 1, 1) times the smallest double each product rounds to 0 or ±1 of it, and as rounded all four edges of a ring rise.
+/// Along (1, 1, 1) times the smallest double each product of a double with it rounds to 0 or ±1 of it, and all four edges of a
+/// ring rise.
 #[test]
-fn the_climb_ends_where_slopes_underflow() {
+fn the_climb_ends_for_any_length_of_its_direction() {
     let steps = [[0.72, -0.49, -0.49], [-0.49, 0.72, -0.49], [-0.49, -0.49, 0.72]].map(Vector::from);
     let ring = [Vector::zeros(), steps[0], steps[0] + steps[1], steps[0] + steps[1] + steps[2]];
     let tetrahedron = build(&ring, None).unwrap();
     for start in 0..4 {
-        let (_, climbed) = tetrahedron.support(&Vector::repeat(5e-324), start);
+        let (top, climbed) = tetrahedron.support(&Vector::repeat(1.0), start);
         assert!(climbed < 4);
+        for length in [5e-324, 1e-300, 1e-40, 1e40, 1e300] {
+            assert_eq!(tetrahedron.support(&Vector::repeat(length), start), (top, climbed));
+        }
     }
 }
