@@ -275,7 +275,7 @@ typedef struct swift_shape_options {
   size_t minimum_triangles;
   /** No more levels than these. Default: 32. */
   size_t most_levels;
-  /** Learns how far the building of levels is, and can cancel it. Default: null. */
+  /** Learns how far the building of the shape is, and can cancel it. Default: null. */
   swift_progress_callback progress;
   /** Handed to progress. Default: null. */
   void *progress_user;

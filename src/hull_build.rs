@@ -30,6 +30,7 @@ use std::collections::VecDeque;
 use crate::error::{Error, Result};
 use crate::math::Vector;
 use crate::predicates::{ExactPoints, FilteredPlane};
+use crate::progress::Progress;
 
 /// The exact convex hull of a point set, as a triangulated surface over the input's indices.
 ///
@@ -52,6 +53,9 @@ pub struct Hull {
 /// The largest number of points that a hull is made of.
 const MOST_POINTS: usize = 1 << 30;
 
+/// How often a hull says how far it is.
+const VERTICES_A_REPORT: u32 = 1024;
+
 /// No index.
 const NONE: u32 = u32::MAX;
 
@@ -60,6 +64,14 @@ const NONE: u32 = u32::MAX;
 /// # Errors
 /// No points, more than 2³⁰, or one that is not finite.
 pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
+    convex_hull_in_steps(points, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`convex_hull`], saying how far it is.
+///
+/// # Errors
+/// As [`convex_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
     if points.is_empty() {
         return Err(Error::Argument("a convex hull needs at least one point".into()));
     }
@@ -75,22 +87,22 @@ pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
         AffineBasis::Line => Ok(segment(points)),
         AffineBasis::Plane(corners) => Ok(polygon(points, &exact, corners)),
         AffineBasis::Space(corners) => {
-            let hull = Quickhull::run(&exact, corners);
+            let hull = Quickhull::run(&exact, corners, &mut progress.part(0.0, 0.9))?;
             let (vertices, triangles) = (hull.extreme_vertices(), hull.triangles());
             // Euler's formula: a triangulated sphere has half as many vertices as triangles, and two.
             if vertices.len() == triangles.len() / 2 + 2 {
                 Ok(Hull { dimension: 3, vertices, triangles })
             } else {
-                hull_of_some(points, &vertices)
+                hull_of_some(points, &vertices, &mut progress.part(0.9, 1.0))
             }
         }
     }
 }
 
 /// The hull of the points named in `some`, ascending and without duplicates.
-fn hull_of_some(points: &[Vector], some: &[u32]) -> Result<Hull> {
+fn hull_of_some(points: &[Vector], some: &[u32], progress: &mut Progress) -> Result<Hull> {
     let chosen: Vec<Vector> = some.iter().map(|&v| points[v as usize]).collect();
-    let mut hull = convex_hull(&chosen)?;
+    let mut hull = convex_hull_in_steps(&chosen, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
         *v = some[*v as usize];
     }
@@ -254,7 +266,7 @@ struct Quickhull<'a> {
 }
 
 impl<'a> Quickhull<'a> {
-    fn run(points: &'a ExactPoints, [a, b, c, d]: [u32; 4]) -> Quickhull<'a> {
+    fn run(points: &'a ExactPoints, [a, b, c, d]: [u32; 4], progress: &mut Progress) -> Result<Quickhull<'a>> {
         let mut hull = Quickhull {
             points,
             facets: Vec::new(),
@@ -272,16 +284,21 @@ impl<'a> Quickhull<'a> {
         let mut new = vec![0, 1, 2, 3];
         hull.distribute(&outside, &new);
         let (mut visible, mut horizon) = (Vec::new(), Vec::new());
+        let mut vertex_count = 4;
         while let Some(f) = hull.waiting.pop_front() {
             let Facet { first_outside, farthest: apex, .. } = *hull.facet(f);
             if first_outside != NONE {
+                if vertex_count % VERTICES_A_REPORT == 0 {
+                    progress.report(f64::from(vertex_count) / points.len() as f64)?;
+                }
+                vertex_count += 1;
                 hull.remove_visible(f, apex, &mut visible, &mut horizon);
                 hull.take_outside(&visible, apex, &mut outside);
                 hull.add_cone(apex, &horizon, &mut new);
                 hull.distribute(&outside, &new);
             }
         }
-        hull
+        Ok(hull)
     }
 
     fn triangles(&self) -> Vec<[u32; 3]> {

@@ -3,6 +3,7 @@
 //! See `ARCHITECTURE.md` for the data flow; the modules below are listed in that order, each using only those above it.
 
 pub mod error;
+pub mod progress;
 pub mod math;
 pub mod simd;
 pub mod double_double;
@@ -21,7 +22,6 @@ pub mod face_merge;
 pub mod face_labels;
 pub mod mass;
 pub mod polyhedron_build;
-pub mod progress;
 pub mod quadric;
 pub mod dobkin_kirkpatrick;
 pub mod state;

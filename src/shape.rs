@@ -5,14 +5,14 @@ use std::path::Path;
 use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use crate::hull_build::convex_hull;
+use crate::hull_build::convex_hull_in_steps;
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
 use crate::lookup_build::{LookupOptions, build_lookup};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::mesh::PolygonMesh;
 use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
-use crate::polyhedron_build::{build, build_on_hull};
+use crate::polyhedron_build::build_in_steps;
 use crate::progress::Progress;
 
 /// Default of [`ShapeOptions::convexity_tolerance`].
@@ -70,6 +70,17 @@ impl Default for ShapeOptions {
     }
 }
 
+impl ShapeOptions {
+    /// Which part of building the shape, about, the body itself is.
+    fn share_of_body(&self) -> f64 {
+        match self.hierarchy.kind {
+            HierarchyKind::None | HierarchyKind::Given => 1.0,
+            HierarchyKind::Quadric | HierarchyKind::OuterCuts => 0.4,
+            HierarchyKind::DobkinKirkpatrick => 0.06,
+        }
+    }
+}
+
 /// Geometry for queries: immutable, shared by any number of owners.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shape {
@@ -84,6 +95,14 @@ impl Shape {
     /// [`Error::Argument`] for options out of range, [`Error::Mesh`] for a mesh that the policy does not admit, with the face,
     /// edge or vertex where.
     pub fn from_mesh(mesh: &PolygonMesh, options: &ShapeOptions) -> Result<Shape> {
+        Shape::from_mesh_in_steps(mesh, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_mesh`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_mesh_in_steps(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
@@ -97,14 +116,18 @@ impl Shape {
             None => CONVEXITY_TOLERANCE,
         };
         let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
-        let hull = convex_hull(&mesh.vertices)?;
+        let mut of_body = progress.part(0.0, options.share_of_body());
+        let hull = convex_hull_in_steps(&mesh.vertices, &mut of_body.part(0.0, 0.2))?;
         let allow_flat = options.input != InputPolicy::Strict;
-        let checked = check_surface(&mesh).and_then(|()| check_convexity(&mesh, &hull, tolerance, allow_flat));
+        let closed = check_surface(&mesh);
+        of_body.report(0.32)?;
+        let checked = closed.and_then(|()| check_convexity(&mesh, &hull, tolerance, allow_flat));
         let polygons = match options.input {
             InputPolicy::Strict | InputPolicy::Flat => checked.map(|()| Some(&mesh))?,
             InputPolicy::Hull => checked.is_ok().then_some(&mesh),
         };
-        Shape::admitted(build_on_hull(&mesh.vertices, hull, polygons)?, options)
+        let polyhedron = build_in_steps(&mesh.vertices, hull, polygons, &mut of_body.part(0.45, 0.92))?;
+        Shape::admitted(polyhedron, options, progress)
     }
 
     /// The convex hull of points. A face's label is its own index.
@@ -113,7 +136,19 @@ impl Shape {
     /// [`Error::Argument`] for options out of range, no points or one that is not finite; [`Error::Mesh`] for a hull whose
     /// dimension the policy does not admit.
     pub fn from_points(points: &[Vector], options: &ShapeOptions) -> Result<Shape> {
-        Shape::admitted(build(&transformed(points, options)?, None)?, options)
+        Shape::from_points_in_steps(points, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_points`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let points = transformed(points, options)?;
+        let mut of_body = progress.part(0.0, options.share_of_body());
+        let hull = convex_hull_in_steps(&points, &mut of_body.part(0.0, 0.3))?;
+        let polyhedron = build_in_steps(&points, hull, None, &mut of_body.part(0.3, 0.92))?;
+        Shape::admitted(polyhedron, options, progress)
     }
 
     /// From a mesh file ([`read_mesh`]).
@@ -121,7 +156,15 @@ impl Shape {
     /// # Errors
     /// As [`read_mesh`] and [`Shape::from_mesh`]; the message names the file.
     pub fn from_file(path: &Path, options: &ShapeOptions) -> Result<Shape> {
-        Shape::from_mesh(&read_mesh(path)?, options).map_err(|error| match error {
+        Shape::from_file_in_steps(path, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_file`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_file`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_file_in_steps(path: &Path, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        Shape::from_mesh_in_steps(&read_mesh(path)?, options, progress).map_err(|error| match error {
             Error::Mesh(message) => Error::Mesh(format!("{}: {message}", path.display())),
             other => other,
         })
@@ -141,13 +184,13 @@ impl Shape {
         if options.hierarchy.kind != HierarchyKind::None {
             return Err(Error::Argument("levels are given, and the options ask for others to be built".into()));
         }
-        let Shape { polyhedron, .. } = Shape::from_mesh(mesh, options)?;
+        let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = Vec::with_capacity(levels.len());
         for (i, level) in levels.iter().enumerate() {
             let moved = transformed(&level.vertices, options);
             points.push(moved.map_err(|e| Error::Argument(format!("level {}: {}", i + 1, e.message())))?);
         }
-        let hierarchy = Hierarchy::from_levels(&polyhedron, &points, progress)?;
+        let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
         Ok(Shape { polyhedron, hierarchy })
     }
 
@@ -184,7 +227,7 @@ impl Shape {
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their table and levels.
-    fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions) -> Result<Shape> {
+    fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let least = match options.input {
             InputPolicy::Strict => 3,
             InputPolicy::Flat => 2,
@@ -196,9 +239,12 @@ impl Shape {
             let hint = [HULL_HINT, HULL_HINT, FLAT_HINT][dimension];
             return Err(Error::Mesh(format!("the body has no interior: {}; {hint}", what[dimension])));
         }
+        let share = options.share_of_body();
+        progress.report(0.92 * share)?;
         polyhedron.lookup = build_lookup(&polyhedron, &options.lookup)?;
+        progress.report(share)?;
         let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };
-        shape.with_levels(&options.hierarchy, &mut Progress::new(&mut |_| true))
+        shape.with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }
 }
 

@@ -317,6 +317,10 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
         };
         assert_eq!(make(&options), StatusCode::ErrorCancelled);
         assert_eq!(told.reports, 3);
+        // Without levels, too.
+        told = Told { reports: 0, last: 0.0, stop_after: 2 };
+        assert_eq!(make(&CShapeOptions { hierarchy: 0, ..options }), StatusCode::ErrorCancelled);
+        assert_eq!(told.reports, 3);
         options.progress = None;
         for hierarchy in [HierarchyKind::Given as i32, 99, -1] {
             assert_eq!(make(&CShapeOptions { hierarchy, ..options }), StatusCode::ErrorInvalidArgument);

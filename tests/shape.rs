@@ -1,11 +1,16 @@
 //! Shapes from meshes, points and files: policies, input transform, errors.
 
+#[path = "../benches/common/mod.rs"]
+mod common;
+
 use std::path::Path;
+use std::time::Instant;
 
 use dashu_ratio::RBig;
 use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Vector};
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 /// A unit cube of six quadrilaterals.
@@ -192,4 +197,41 @@ fn files_whose_mesh_is_refused_are_named() {
 fn files_that_are_not_there_are_named() {
     let error = Shape::from_file(Path::new("no/such/file.off"), &ShapeOptions::default()).unwrap_err();
     assert!(matches!(&error, Error::File(m) if m.contains("no/such/file.off")), "{error}");
+}
+
+/// 200,000 triangles: the callback is asked so often that no wait for it is long, and a build that is told to stop stops there.
+#[test]
+fn a_large_build_tells_how_far_it_is_and_stops_when_told() {
+    let mesh = common::models::ellipsoid([1.0, 1.0, 0.1], 100_002).unwrap();
+    let build = |callback: &mut dyn FnMut(f64) -> bool| {
+        Shape::from_mesh_in_steps(&mesh, &ShapeOptions::default(), &mut Progress::new(callback))
+    };
+    // The best of three, as other programs may hold this one up.
+    let mut longest_wait = f64::INFINITY;
+    let mut count = 0;
+    for _ in 0..3 {
+        let start = Instant::now();
+        let mut told = vec![(0.0, 0.0)];
+        build(&mut |fraction| {
+            told.push((fraction, start.elapsed().as_secs_f64()));
+            true
+        })
+        .unwrap();
+        let whole = start.elapsed().as_secs_f64();
+        assert!(told.is_sorted_by(|a, b| a.0 <= b.0), "a fraction falls");
+        assert_eq!(told.last().unwrap().0, 1.0);
+        count = told.len() - 1;
+        let waits = told.windows(2).map(|pair| pair[1].1 - pair[0].1);
+        longest_wait = longest_wait.min(waits.fold(0.0, f64::max) / whole);
+    }
+    assert!(longest_wait < 0.4, "the longest wait for a report is {longest_wait:.2} of the build");
+    for stop_at in [1, 2, count / 2, count - 1, count] {
+        let mut asked = 0;
+        let result = build(&mut |_| {
+            asked += 1;
+            asked < stop_at
+        });
+        assert!(matches!(result, Err(Error::Cancelled(_))), "asked {asked} times");
+        assert_eq!(asked, stop_at);
+    }
 }

@@ -275,7 +275,8 @@ pub unsafe extern "C" fn swift_scene_add_mesh(
         add(scene, object_options, id, || {
             let making = read_options(shape_options)?;
             let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
-            Ok(vec![Arc::new(making.finish(Shape::from_mesh(&mesh, &making.options)?)?)])
+            let shape = making.run(|options, progress| Shape::from_mesh_in_steps(&mesh, options, progress))?;
+            Ok(vec![Arc::new(shape)])
         })
     }
 }
@@ -294,7 +295,9 @@ pub unsafe extern "C" fn swift_scene_add_file(
     unsafe {
         add(scene, object_options, id, || {
             let making = read_options(shape_options)?;
-            Ok(vec![Arc::new(making.finish(Shape::from_file(read_path(path)?, &making.options)?)?)])
+            let path = read_path(path)?;
+            let shape = making.run(|options, progress| Shape::from_file_in_steps(path, options, progress))?;
+            Ok(vec![Arc::new(shape)])
         })
     }
 }

@@ -51,7 +51,7 @@ pub struct CShapeOptions {
     pub minimum_triangles: usize,
     /// No more levels than these. Default: 32.
     pub most_levels: usize,
-    /// Learns how far the building of levels is, and can cancel it. Default: null.
+    /// Learns how far the building of the shape is, and can cancel it. Default: null.
     pub progress: ProgressCallback,
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
@@ -73,17 +73,15 @@ unsafe impl Versioned for CShapeOptions {
 
 /// Options in Rust's terms.
 pub(super) struct Making {
-    /// Without levels: they are built afterwards, with progress.
-    pub options: ShapeOptions,
-    hierarchy: HierarchyOptions,
+    options: ShapeOptions,
     progress: ProgressCallback,
     user: *mut c_void,
 }
 
 impl Making {
-    /// Adds the levels.
-    pub(super) fn finish(&self, shape: Shape) -> Result<Shape> {
-        shape.with_levels(&self.hierarchy, &mut Progress::new(&mut |fraction| self.report(fraction)))
+    /// Makes the shape, telling the callback how far it is.
+    pub(super) fn run(&self, make: impl FnOnce(&ShapeOptions, &mut Progress) -> Result<Shape>) -> Result<Shape> {
+        make(&self.options, &mut Progress::new(&mut |fraction| self.report(fraction)))
     }
 
     /// Asks the callback whether to go on.
@@ -146,15 +144,14 @@ impl CShapeOptions {
             translation: Vector::from(self.translation),
             scale: self.scale,
             convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
-            hierarchy: HierarchyOptions::default(),
+            hierarchy: HierarchyOptions { kind, decimation, minimum_triangles, most_levels },
             lookup: LookupOptions {
                 kind: lookup,
                 resolution: self.lookup_resolution,
                 radius_factor: self.lookup_radius_factor,
             },
         };
-        let hierarchy = HierarchyOptions { kind, decimation, minimum_triangles, most_levels };
-        Ok(Making { options, hierarchy, progress, user: progress_user })
+        Ok(Making { options, progress, user: progress_user })
     }
 }
 
@@ -286,7 +283,7 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
     create(shape, || unsafe {
         let making = read_options(options)?;
         let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
-        Ok(making.finish(Shape::from_mesh(&mesh, &making.options)?)?)
+        Ok(making.run(|options, progress| Shape::from_mesh_in_steps(&mesh, options, progress))?)
     })
 }
 
@@ -310,7 +307,7 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
     create(shape, || unsafe {
         let making = read_options(options)?;
         let points = read_vectors(points, point_count, "points")?;
-        Ok(making.finish(Shape::from_points(&points, &making.options)?)?)
+        Ok(making.run(|options, progress| Shape::from_points_in_steps(&points, options, progress))?)
     })
 }
 
@@ -332,7 +329,8 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
         let making = read_options(options)?;
-        Ok(making.finish(Shape::from_file(read_path(path)?, &making.options)?)?)
+        let path = read_path(path)?;
+        Ok(making.run(|options, progress| Shape::from_file_in_steps(path, options, progress))?)
     })
 }
 
@@ -369,8 +367,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
             let in_level = |f: Failure| Failure { status: f.status, message: format!("levels[{i}]: {}", f.message) };
             meshes.push(read.map_err(in_level)?);
         }
-        let options = ShapeOptions { hierarchy: making.hierarchy, ..making.options.clone() };
-        Ok(Shape::from_levels(&meshes, &options, &mut Progress::new(&mut |fraction| making.report(fraction)))?)
+        Ok(making.run(|options, progress| Shape::from_levels(&meshes, options, progress))?)
     })
 }
 

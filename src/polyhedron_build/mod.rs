@@ -15,6 +15,7 @@ use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::mesh::PolygonMesh;
 use crate::normal::{area_vector, normal_of};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
+use crate::progress::Progress;
 use crate::slack::Flood;
 use crate::triangulation::Triangulation;
 use layout::neighbours_of;
@@ -33,7 +34,20 @@ pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhe
 ///
 /// # Errors
 /// [`crate::error::Error::Bug`] if `hull` is not the hull of the points.
-pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
+pub fn build_on_hull(points: &[Vector], hull: Hull, polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
+    build_in_steps(points, hull, polygons, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`build_on_hull`], saying how far it is.
+///
+/// # Errors
+/// As [`build_on_hull`]; [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+pub fn build_in_steps(
+    points: &[Vector],
+    mut hull: Hull,
+    polygons: Option<&PolygonMesh>,
+    progress: &mut Progress,
+) -> Result<Polyhedron> {
     let centre = centre_of(points);
     // The sum with +0 turns −0 into 0.
     let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
@@ -43,7 +57,7 @@ pub fn build_on_hull(points: &[Vector], mut hull: Hull, polygons: Option<&Polygo
     let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
     // At another scale the centre may be beyond the doubles.
     let about = if factor == 1.0 { centre } else { Vector::zeros() };
-    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about)?;
+    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about, &mut progress.part(0.1, 0.9))?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
             label_by_polygons(&mut polyhedron, &scaled, mesh);
@@ -217,7 +231,8 @@ impl HullSurface {
         HullSurface { dimension: hull.dimension, positions, labels: hull.vertices, triangles, areas, normals }
     }
 
-    fn lay_out(self, centre: Vector) -> Result<Polyhedron> {
+    fn lay_out(self, centre: Vector, progress: &mut Progress) -> Result<Polyhedron> {
+        progress.report(0.0)?;
         let longest = self.positions.iter().map(|p| p.norm()).fold(0.0, f64::max);
         // The norm is right to 3u.
         let radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
@@ -256,10 +271,14 @@ impl HullSurface {
         let sizes: Vec<f64> = self.areas.iter().map(|a| narrow(a).norm()).collect();
         let surface = Triangulation::new(self.triangles, &self.normals, self.positions.len())?;
         let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius));
+        progress.report(0.3)?;
         let mut flood = Flood::new(&surface, &self.positions, radius);
         let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood);
+        progress.report(0.5)?;
         let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
+        progress.report(0.7)?;
         polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
+        progress.report(0.8)?;
         polyhedron.vertices.reserve_exact(self.positions.len());
         for v in 0..self.positions.len() as u32 {
             polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
