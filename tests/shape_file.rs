@@ -3,6 +3,7 @@
 #[path = "../benches/common/mod.rs"]
 mod common;
 
+use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
@@ -13,6 +14,7 @@ use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::polyhedron_build::Labels;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
@@ -137,6 +139,18 @@ fn damage_is_found() {
     }
 }
 
+/// An answer that names a vertex by its label names one, or nobody could check its proof.
+#[test]
+fn vertices_of_one_label_are_refused() {
+    let shape = Shape::from_mesh(&triangulated_cuboid(), &ShapeOptions::default()).unwrap();
+    let mut polyhedron = shape.polyhedron().clone();
+    let mut labels = Labels::of(&polyhedron);
+    assert!(labels.clone().give_to(&mut polyhedron));
+    labels.vertex_labels[5] = labels.vertex_labels[2];
+    assert!(!labels.give_to(&mut polyhedron));
+    assert_eq!(&polyhedron, shape.polyhedron());
+}
+
 /// Whatever loads is sound: its levels contain it, and its hull passed the proof when it was loaded.
 #[test]
 fn forged_files_give_a_sound_shape_or_an_error() {
@@ -168,6 +182,8 @@ fn forged_files_give_a_sound_shape_or_an_error() {
                     assert!(swiftprox::containment::contains(&level.polyhedron, shape.polyhedron()));
                 }
                 assert_eq!(from_bytes(&to_bytes(&shape)).unwrap(), shape);
+                let labels = &shape.polyhedron().vertex_labels;
+                assert_eq!(labels.iter().collect::<BTreeSet<_>>().len(), labels.len(), "vertices of one name");
             }
             Err(Error::File(_)) => refused += 1,
             Err(other) => panic!("{other:?}"),

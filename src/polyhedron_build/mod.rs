@@ -113,6 +113,7 @@ impl Labels {
             _ => divide(&polygon_starts, face_labels.len(), polygon_corners.len()),
         };
         let fit = vertex_labels.len() == polyhedron.vertices.len()
+            && are_distinct(&vertex_labels)
             && divide(&face_label_starts, polyhedron.faces.len(), face_labels.len())
             && every_face_has_one
             && polygons
@@ -127,6 +128,12 @@ impl Labels {
         }
         fit
     }
+}
+
+fn are_distinct(numbers: &[u32]) -> bool {
+    let mut sorted = numbers.to_vec();
+    sorted.sort_unstable();
+    sorted.windows(2).all(|pair| pair[0] != pair[1])
 }
 
 /// Puts the labels where an answer reads them together with the feature.
