@@ -1,7 +1,9 @@
-//! Pair queries about any two bodies, with any levels of detail and look-up tables, along any sequence of poses, the cache carried on or corrupted: every answer is checked by
-//! `verify`, against all that answers promise, against the other queries and the swapped pair from caches of every origin, and
-//! for small bodies against exact rationals.
+//! Pair queries about any two bodies, with any levels of detail and look-up tables, along any sequence of poses, the cache carried
+//! on or corrupted: every answer is checked by `verify`, against all that answers promise, against the other queries and the
+//! swapped pair from caches of every origin, and for small bodies against exact rationals.
 #![no_main]
+
+use std::sync::Mutex;
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
@@ -13,11 +15,14 @@ use swiftprox::verify::verify;
 use swiftprox_fuzz::bodies::Body;
 use swiftprox_fuzz::cases::{Case, Random};
 use swiftprox_fuzz::geometry::{any_number, hull_options, points, poses};
-use swiftprox_fuzz::properties::{Placed, Session};
+use swiftprox_fuzz::properties::{Placed, Session, Work};
 
 /// The oracle takes time in the fourth power of this.
 const FEW_POINTS: usize = 6;
 const MOST_STEPS: usize = 6;
+
+/// The most work of one query so far; each new one is printed.
+static MOST_WORK: Mutex<Work> = Mutex::new(Work([0; 3]));
 
 fuzz_target!(|bytes: &[u8]| {
     // Bytes that end early end the run.
@@ -67,6 +72,7 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
         return Ok(());
     }
     let cold = session.check(placed);
+    print_most_work(session.tally.most);
     // Beyond the range of doubles only the oracle can tell, and what the tests measure in doubles has to leave room for squares.
     session.violations.retain(|v| !v.detail.contains("too large or too far apart to be checked"));
     if is_wild(placed) {
@@ -82,6 +88,16 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
         check_truth(placed, &cold);
     }
     Ok(())
+}
+
+fn print_most_work(of_session: Work) {
+    let mut most = MOST_WORK.lock().expect("no panic");
+    let now = most.max(of_session);
+    if now.0 != most.0 {
+        *most = now;
+        let [steps, iterations, exact_iterations] = now.0;
+        eprintln!("most work: {steps} steps, {iterations} iterations, {exact_iterations} in integers");
+    }
 }
 
 /// Properties that the tests measure in doubles.

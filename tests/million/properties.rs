@@ -44,6 +44,24 @@ pub struct Tally {
     pub queries: usize,
     intersecting: usize,
     by_status: [usize; 5],
+    /// The most that one query took.
+    pub most: Work,
+}
+
+/// Steps of marching, iterations of Gilbert-Johnson-Keerthi in floating point, iterations in integers.
+#[derive(Debug, Default, Clone, Copy)]
+pub struct Work(pub [u32; 3]);
+
+impl Work {
+    fn of(answer: &PairAnswer) -> Work {
+        let statistics = &answer.statistics;
+        Work([statistics.marching_steps, statistics.fallback_iterations, statistics.exact_iterations])
+    }
+
+    /// The larger of each.
+    pub fn max(self, other: Work) -> Work {
+        Work(std::array::from_fn(|i| self.0[i].max(other.0[i])))
+    }
 }
 
 impl AddAssign for Tally {
@@ -54,6 +72,7 @@ impl AddAssign for Tally {
         for (mine, others) in self.by_status.iter_mut().zip(other.by_status) {
             *mine += others;
         }
+        self.most = self.most.max(other.most);
     }
 }
 
@@ -62,7 +81,9 @@ impl fmt::Display for Tally {
         let [_, marched, coherent, fallback, exact] = self.by_status;
         let Tally { pairs, queries, intersecting, .. } = self;
         write!(f, "{pairs} pairs, {queries} queries ({intersecting} intersecting): ")?;
-        write!(f, "{marched} marched, {coherent} coherent, {fallback} fallback, {exact} exact")
+        write!(f, "{marched} marched, {coherent} coherent, {fallback} fallback, {exact} exact; ")?;
+        let Work([steps, iterations, exact_iterations]) = self.most;
+        write!(f, "at most {steps} steps, {iterations} iterations, {exact_iterations} in integers")
     }
 }
 
@@ -151,13 +172,19 @@ impl Session {
         self.tally.queries += 1;
         self.tally.intersecting += usize::from(answer.outcome == Outcome::Intersecting);
         self.tally.by_status[answer.status as usize] += 1;
+        self.tally.most = self.tally.most.max(Work::of(&answer));
         let answered = asked.is_ok();
         let verified = asked.map_err(|e| violation("an answer", e.to_string())).and_then(|()| {
             let verified = verify(&body1.shape, pose1, &body2.shape, pose2, &answer);
             verified.map_err(|e| violation("verify", e.to_string()))
         });
         let is_tight = matches!(question, Question::Distance | Question::Contact);
-        let checks = [verified, check_interval(placed, &answer, is_tight), check_points(placed, &answer)];
+        let checks = [
+            verified,
+            check_interval(placed, &answer, is_tight),
+            check_points(placed, &answer),
+            check_work(placed, &answer),
+        ];
         for Violation { property, detail } in checks.into_iter().filter_map(Result::err) {
             let detail = format!("{detail}; {question:?} from {before:?}: {answer:?}");
             self.violations.push(Violation { property, detail });
@@ -233,6 +260,15 @@ fn violation(property: &'static str, detail: String) -> Violation {
 /// `Ok` if `holds`.
 fn require(holds: bool, property: &'static str, detail: impl FnOnce() -> String) -> Result<(), Violation> {
     if holds { Ok(()) } else { Err(violation(property, detail())) }
+}
+
+/// One step where the last query ended and sixteen from there, then 64 and one for each vertex of the larger body; 128 iterations of
+/// Gilbert-Johnson-Keerthi in floating point. Those in integers end by a proof, not by a count.
+fn check_work(placed: &Placed, answer: &PairAnswer) -> Result<(), Violation> {
+    let larger = placed.bodies.map(|body| body.shape.polyhedron().vertices.len() as u32).into_iter().fold(0, u32::max);
+    let Work([steps, iterations, _]) = Work::of(answer);
+    let holds = steps <= 1 + 16 + 64 + larger && iterations <= 128;
+    require(holds, "bounded work", || format!("{steps} steps, {iterations} iterations, {larger} vertices"))
 }
 
 fn check_interval(placed: &Placed, answer: &PairAnswer, is_tight: bool) -> Result<(), Violation> {
