@@ -81,10 +81,20 @@ impl Program {
     }
 }
 
-/// Beyond the range of doubles `verify` cannot tell.
-fn check_verified(status: StatusCode) {
+/// An answer verifies; beyond the range of doubles `verify` cannot tell. If it does not, all that was asked is printed.
+///
+/// # Safety
+/// The shapes are alive, and each pose is twelve doubles.
+unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answer: &PairAnswer) {
+    // SAFETY: as above.
+    let (status, shapes, poses) = unsafe {
+        let status = swift_pair_verify(shapes[0], poses[0], shapes[1], poses[1], answer);
+        (status, shapes.map(|shape| &*shape), poses.map(|pose| &*pose.cast::<[f64; 12]>()))
+    };
     let beyond = status == StatusCode::ErrorInvalidArgument && last_message().contains("too large or too far apart");
-    assert!(status == StatusCode::Ok || beyond, "{}", last_message());
+    let bodies = || shapes.map(|shape| (shape.polyhedron().centre, &shape.polyhedron().vertices));
+    let verified = status == StatusCode::Ok || beyond;
+    assert!(verified, "{}: {answer:?}\n{poses:?}\n{:?}", last_message(), bodies());
 }
 
 /// What has to do with no handle.

@@ -4,7 +4,6 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
-use swiftprox::ffi::pair::swift_pair_verify;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::swift_shape_retain;
 use swiftprox::object::ObjectId;
@@ -412,5 +411,5 @@ unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
     let ((shape1, pose1), (shape2, pose2)) =
         (placed(result.object1, result.piece1), placed(result.object2, result.piece2));
     // SAFETY: living shapes and twelve doubles each.
-    check_verified(unsafe { swift_pair_verify(shape1, pose1.as_ptr(), shape2, pose2.as_ptr(), &result.answer) });
+    unsafe { check_verified([shape1, shape2], [pose1.as_ptr(), pose2.as_ptr()], &result.answer) };
 }

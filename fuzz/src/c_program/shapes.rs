@@ -191,7 +191,7 @@ impl Program {
             let said = target.read();
             assert_eq!(status == StatusCode::Ok, said.outcome != Outcome::None, "{}", last_message());
             if status == StatusCode::Ok {
-                check_verified(swift_pair_verify(shape1, pointer1, shape2, pointer2, target));
+                check_verified([shape1, shape2], [pointer1, pointer2], &said);
             }
             self.answer = Some(said);
             Ok(status)
