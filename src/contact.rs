@@ -12,6 +12,10 @@ use crate::voronoi::edge_direction;
 /// Neighbours of a vertex beyond which all faces in the order of memory are looked through sooner than those around it.
 const MOST_NEIGHBOURS: usize = 64;
 
+/// Rounds of refinement of the weights of a contact. Each gains the digits that the inverse has, two where the tetrahedron is 10¹⁴
+/// times as long as it is thick; most need one or two.
+const MOST_REFINEMENTS: usize = 12;
+
 const NOTHING: [f64; 3] = [f64::NAN; 3];
 
 /// An answer that says no points and features, only a normal.
@@ -264,7 +268,7 @@ pub fn refined_weights(
     let sides = Matrix::from_columns(&[corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]]);
     let Some(inverse) = sides.try_inverse() else { return weights };
     let missed = |weights: &[f64; 4]| -> Vector { (0..4).map(|k| corners[k] * weights[k]).sum() };
-    for _ in 0..4 {
+    for _ in 0..MOST_REFINEMENTS {
         let step = inverse * missed(&weights);
         let mut better = weights;
         for k in 0..3 {

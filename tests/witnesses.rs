@@ -181,3 +181,31 @@ fn a_limit_below_rounding_is_kept() {
     assert!(ask(&turned).is_err());
     assert!(ask(&at(0.0, 0.0, 3.0)).is_ok());
 }
+
+/// Bars 10¹⁴ times as long as they are thick, crossing: each round that refines the weights of the enclosing tetrahedron gains but two
+/// digits. Found by fuzzing.
+#[test]
+fn crossing_bars_of_extreme_length_have_one_common_point() {
+    let far = [-1_970_324_836_974_585.0, 1_970_324_836_974_599.0];
+    let corners: Vec<[f64; 3]> =
+        (0..8).map(|k| [[3.0, -25.0][k & 1], far[k >> 2], [17.625, -10.375][k >> 1 & 1]]).collect();
+    let bar = hull(&corners);
+    let pose1 = Pose {
+        rows: [
+            [1.0, 1.0269562977782692e-15, 1.0963452368173427e-15, 9.0],
+            [-1.0269562977782704e-15, 1.0, 1.0547118733938981e-15, 8.999999999999977],
+            [0.0019531249999989037, -1.0547118733938993e-15, 1.0, -26.0],
+        ],
+    };
+    let pose2 = Pose {
+        rows: [
+            [0.31701631701631716, 0.8298368298368298, -0.4592074592074592, 0.0],
+            [-0.9137529137529138, 0.1375291375291377, -0.38228438225527844, -31.0],
+            [-0.254079254079254, 0.5407925407925408, 0.801864801864802, -13.0],
+        ],
+    };
+    let mut answer = PairAnswer::default();
+    contact(&bar, &pose1, &bar, &pose2, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+    assert_eq!(answer.outcome, Outcome::Intersecting);
+    verify(&bar, &pose1, &bar, &pose2, &answer).unwrap();
+}
