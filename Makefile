@@ -7,6 +7,7 @@
 # make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
+# make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make build                  the libraries, tools and examples, in build/
@@ -28,7 +29,7 @@ COAL = $(BUILD)/coal/bin/python
 STABILITY = benches/results/stability
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench stability cases hard clean
+.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench stability steps cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -112,6 +113,11 @@ stability:
 	python3 benches/stability/stability.py $(BUILD)/hard --build $(BUILD) --coal $(COAL) \
 		--compare $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare --csv $(STABILITY).csv --cost $(STABILITY)-cost.csv
 	python3 benches/stability/chart.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
+
+steps:
+	@scripts/require.sh $(CC_PACKAGES) python3=python3
+	cargo bench --locked --bench worst_case -- --csv $(CURDIR)/benches/results/worst-case.csv
+	python3 benches/plot_steps.py benches/results/worst-case.csv
 
 cases:
 	$(if $(CASES),,$(error make cases CASES=DIR: the folder of cases is missing))

@@ -68,8 +68,8 @@ class Panel:
     def y(self, value):
         return self.top + self.height * (self.high - math.log10(value)) / (self.high - self.low)
 
-    def frame(self, title, x_ticks, labelled):
-        """x_ticks: (unit, label); y labels only where `labelled`."""
+    def frame(self, title, x_ticks, labelled, y_label=None):
+        """x_ticks: (unit, label); y labels, durations unless `y_label` makes others, only where `labelled`."""
         for exponent in range(math.floor(self.low), math.ceil(self.high) + 1):
             for digit in (1, 2, 5):
                 value = digit * 10.0**exponent
@@ -77,7 +77,7 @@ class Panel:
                     y = self.y(value)
                     self.line(self.left, y, self.left + self.width, y, GRID)
                     if labelled:
-                        self.text(self.left - 6, y + 4, duration(value), "end")
+                        self.text(self.left - 6, y + 4, (y_label or duration)(value), "end")
         free = -math.inf
         for unit, label in x_ticks:
             x, half = self.x(unit), 3.4 * len(label)
@@ -117,14 +117,16 @@ def text_element(x, y, text, anchor="start", weight="normal", turn=""):
 
 
 def duration(ns):
-    return f"{ns:g} ns" if ns < 1000 else f"{ns / 1000:g} µs"
+    for unit, name in ((1e6, "ms"), (1e3, "µs")):
+        if ns >= unit:
+            return f"{ns / unit:g} {name}"
+    return f"{ns:g} ns"
 
 
-def legend(methods, left, top, width):
-    """Entries from left to right, in as many lines as it takes; and the height used."""
+def legend(styles, left, top, width):
+    """Entries (colour, dash pattern, label) from left to right, in as many lines as it takes; and the height used."""
     parts, x, y = [], left, top
-    for method in methods:
-        colour, dash, label = style(method, methods)
+    for colour, dash, label in styles:
         advance = 46 + 6.3 * len(label)
         if x + advance > left + width:
             x, y = left, y + 18
@@ -178,7 +180,7 @@ def draw_speed(path, head, n, rows):
     position = step_positions(steps)
     side, gap, left, panel_height = 300, 18, 66, 300
     width = left + len(orbits) * (side + gap)
-    entries, used = legend(methods, left, 48, width - left - 16)
+    entries, used = legend([style(m, methods) for m in methods], left, 48, width - left - 16)
     top = 48 + used + 18
     parts = title(head, f"Exact distance with witness points, {n} vertices: time a query", width) + entries
     for k, orbit in enumerate(orbits):
@@ -213,7 +215,7 @@ def draw_accuracy(path, head, n, rows):
     ticks = [(unit(10.0**e), f"1e{e}" if e else "1") for e in range(-16, 1, 4)]
     side, gap, left, panel_height, row_gap = 200, 16, 66, 170, 44
     width = left + len(steps) * (side + gap)
-    entries, used = legend(methods, left, 48, width - left - 16)
+    entries, used = legend([style(m, methods) for m in methods], left, 48, width - left - 16)
     top = 48 + used + 18
     parts = title(head, f"Speed against accuracy, {n} vertices", width) + entries
     for i, orbit in enumerate(orbits):
