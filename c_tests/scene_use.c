@@ -147,10 +147,69 @@ static void activation(void)
     CHECK_OK(swift_scene_destroy(scene));
 }
 
+/* Round bodies with levels of detail, four radii apart: what was built and what it takes, which levels answered, and how much of the
+ * error was spent. */
+static void levels(void)
+{
+    enum { COUNT = 500 };
+    double points[3 * COUNT], pose[12];
+    swift_shape_options options;
+    swift_shape *shape;
+    swift_shape_info info = {sizeof info};
+    CHECK_OK(swift_shape_options_init(&options));
+    options.hierarchy = SWIFT_HIERARCHY_QUADRIC;
+    for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
+        const double z = 1 - (2 * i + 1.0) / COUNT, r = sqrt(1 - z * z);
+        points[3 * i] = r * cos(2.4 * i);
+        points[3 * i + 1] = r * sin(2.4 * i);
+        points[3 * i + 2] = z;
+    }
+    if (!CHECK_OK(swift_shape_create_from_points(points, COUNT, &options, &shape)))
+        return;
+    CHECK_OK(swift_shape_get_info(shape, &info));
+    CHECK(info.hierarchy == SWIFT_HIERARCHY_QUADRIC && info.level_count > 0 && info.lookup == SWIFT_LOOKUP_SHELLS);
+    CHECK(info.level_bytes > 0 && info.lookup_bytes > 0 && info.level_bytes + info.lookup_bytes < info.bytes);
+
+    swift_scene *scene;
+    swift_scene_query query;
+    swift_scene_answer answer;
+    swift_scene_statistics statistics;
+    swift_object_options where;
+    swift_object_id id;
+    CHECK_OK(swift_scene_create(NULL, &scene));
+    CHECK_OK(swift_object_options_init(&where));
+    for (int i = 0; i < 3; ++i) {
+        set_pose_at(pose, 4.0 * i);
+        memcpy(where.pose, pose, sizeof pose);
+        CHECK_OK(swift_scene_add_object(scene, (const swift_shape *const *)&shape, 1, &where, &id));
+    }
+    swift_shape_release(shape);
+    CHECK_OK(swift_scene_query_init(&query));
+    query.levels = SWIFT_LEVELS_ALL;
+    query.error_budget = 3;
+    CHECK_OK(swift_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK(answer.count == 3);
+    for (size_t i = 0; i < answer.count; ++i) {
+        const swift_pair_answer *pair = &answer.pairs[i].answer;
+        CHECK(pair->status == SWIFT_PAIR_STATUS_WITHIN_TOLERANCE && pair->upper - pair->lower <= 1);
+        CHECK(pair->statistics.levels[0] > 0 && pair->statistics.levels[1] > 0);
+    }
+    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK(statistics.pairs == 3 && statistics.within_tolerance == 3 && statistics.by_level[0] == 0);
+    CHECK(statistics.error_spent > 0 && statistics.error_spent <= 3);
+    query.error_budget = 0;
+    CHECK_OK(swift_scene_reset_statistics(scene));
+    CHECK_OK(swift_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK(statistics.within_tolerance == 0 && statistics.by_level[0] == 3 && statistics.error_spent < 1e-12);
+    swift_scene_destroy(scene);
+}
+
 int main(void)
 {
     queries();
     motion();
     activation();
+    levels();
     return check_report("scene_use");
 }
