@@ -6,6 +6,8 @@
 # make miri                   unit tests under Miri
 # make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
+# make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
+#                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -27,9 +29,11 @@ CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
 COAL = $(BUILD)/coal/bin/python
 STABILITY = benches/results/stability
+FIGURES = benches/results/figures
+TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench stability steps cases hard clean
+.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench figures stability steps cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -99,6 +103,20 @@ bench:
 	mkdir -p $(dir $(RESULTS))
 	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --csv $(RESULTS)
 	python3 benches/plot.py $(RESULTS)
+
+# Each measurement takes a minute or two.
+COMPARE = $(TIMED) $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare
+figures:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
+	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	$(COMPARE) --figures 5,6,7,8,9,10,11,12 --count 1800 --passes 5 --csv $(FIGURES)-paper.csv
+	$(COMPARE) --figures choice --count 1800 --passes 5 --csv $(FIGURES)-choice.csv
+	$(COMPARE) --figures error --count 1800 --passes 5 --csv $(FIGURES)-error.csv
+	$(COMPARE) --figures size --count 900 --passes 3 --csv $(FIGURES)-size.csv
+	$(COMPARE) --build --n 1002,10002,100002 --passes 3 --csv $(FIGURES)-build.csv
+	$(COMPARE) --query intersection --n 1002,10002 --count 1800 --passes 5 --csv $(FIGURES)-verdict.csv
+	python3 benches/figures.py $(FIGURES)-*.csv
 
 # Peers that are not installed are left out; coal comes from PyPI into an environment of its own in build/.
 stability:

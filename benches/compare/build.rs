@@ -1,27 +1,33 @@
-//! Notes the compiler, and compiles the FCL shim where pkg-config finds FCL (Debian: libfcl-dev); without it the comparison leaves FCL out.
+//! Notes the compiler, and compiles the shims of those peers in C and C++ that pkg-config finds (Debian: libfcl-dev, libccd-dev); without
+//! them the comparison leaves them out.
 
 use std::process::Command;
 
 fn main() {
-    println!("cargo:rerun-if-changed=src/fcl.cpp");
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
-    println!("cargo:rustc-check-cfg=cfg(fcl)");
-    let Some(flags) = pkg_config("--cflags") else {
-        println!("cargo:warning=pkg-config finds no fcl (Debian: libfcl-dev): compared without it");
+    // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
+    link_shim("fcl", "libfcl-dev", "src/fcl.cpp", cc::Build::new().cpp(true).std("c++14"));
+    link_shim("ccd", "libccd-dev", "src/ccd.c", cc::Build::new().std("c99"));
+}
+
+/// Sets the condition `package` where there is such a library.
+fn link_shim(package: &str, debian: &str, source: &str, build: &mut cc::Build) {
+    println!("cargo:rerun-if-changed={source}");
+    println!("cargo:rustc-check-cfg=cfg({package})");
+    let Some(flags) = pkg_config("--cflags", package) else {
+        println!("cargo:warning=pkg-config finds no {package} (Debian: {debian}): compared without it");
         return;
     };
-    let mut build = cc::Build::new();
-    // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    build.cpp(true).std("c++14").opt_level(3).define("NDEBUG", None).warnings(false).file("src/fcl.cpp");
+    build.opt_level(3).define("NDEBUG", None).warnings(false).file(source);
     for flag in flags.split_whitespace() {
         build.flag(flag);
     }
-    build.compile("fcl_shim");
-    for flag in pkg_config("--libs").unwrap_or_default().split_whitespace() {
+    build.compile(&format!("{package}_shim"));
+    for flag in pkg_config("--libs", package).unwrap_or_default().split_whitespace() {
         println!("cargo:rustc-link-arg={flag}");
     }
-    println!("cargo:rustc-cfg=fcl");
+    println!("cargo:rustc-cfg={package}");
 }
 
 /// The version of parry that Cargo.toml pins.
@@ -41,7 +47,7 @@ fn compiler() -> String {
     if flags.is_empty() { version } else { format!("{version}, {flags}") }
 }
 
-fn pkg_config(what: &str) -> Option<String> {
-    let output = Command::new("pkg-config").args([what, "fcl"]).output().ok()?;
+fn pkg_config(what: &str, package: &str) -> Option<String> {
+    let output = Command::new("pkg-config").args([what, package]).output().ok()?;
     output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
 }

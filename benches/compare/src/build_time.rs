@@ -1,9 +1,12 @@
-//! How long shapes take to build.
+//! How long shapes take to build, as a whole and part by part, and the memory that they take.
 
 use std::hint::black_box;
 
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
+use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
+use swiftprox::lookup_build::{LookupKind, LookupOptions, build_lookup};
+use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use crate::model;
@@ -12,20 +15,42 @@ use crate::report::{self, BuildRow};
 use crate::timing::{Time, measure, median};
 
 pub fn run(options: &Options) -> Result<(), String> {
-    let defaults = ShapeOptions::default();
+    let body_alone = LookupOptions { kind: LookupKind::None, ..LookupOptions::DEFAULT };
+    let body_alone = ShapeOptions { lookup: body_alone, ..ShapeOptions::default() };
     let mut rows = Vec::new();
     for &n in &options.vertices {
         for name in &options.models {
             let mesh = model(options, name, n)?;
             let points: Vec<Vector> = mesh.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
-            let mut push = |method, work: &dyn Fn() -> bool| {
-                let time = time_build(options.passes, work).ok_or_else(|| format!("{name} {n}: {method} fails"))?;
-                rows.push(BuildRow { model: name.clone(), n: mesh.vertices.len(), method, time });
+            let body = Shape::from_mesh(&mesh, &body_alone).map_err(|e| e.to_string())?;
+            let polyhedron = body.polyhedron();
+            let mut push = |method, work: &dyn Fn() -> Option<usize>| {
+                let (time, bytes) =
+                    time_build(options.passes, work).ok_or_else(|| format!("{name} {n}: {method} fails"))?;
+                rows.push(BuildRow { model: name.clone(), n: mesh.vertices.len(), method, time, bytes });
                 Ok::<(), String>(())
             };
-            push("swiftprox-mesh", &|| Shape::from_mesh(black_box(&mesh), &defaults).is_ok())?;
-            push("swiftprox-points", &|| Shape::from_points(black_box(&mesh.vertices), &defaults).is_ok())?;
-            push("parry-hull", &|| try_convex_hull(black_box(&points)).is_ok())?;
+            let defaults = ShapeOptions::default();
+            let bytes = |shape: swiftprox::error::Result<Shape>| shape.ok().map(|shape| shape.bytes());
+            push("swiftprox-mesh", &|| bytes(Shape::from_mesh(black_box(&mesh), &defaults)))?;
+            push("swiftprox-points", &|| bytes(Shape::from_points(black_box(&mesh.vertices), &defaults)))?;
+            push("parry-hull", &|| try_convex_hull(black_box(&points)).ok().map(|_| 0))?;
+            push("body", &|| bytes(Shape::from_mesh(black_box(&mesh), &body_alone)))?;
+            push("table", &|| {
+                build_lookup(black_box(polyhedron), &LookupOptions::DEFAULT).ok().map(|lookup| lookup.heap_bytes())
+            })?;
+            for (method, kind) in [
+                ("quadric", HierarchyKind::Quadric),
+                ("outer cuts", HierarchyKind::OuterCuts),
+                ("Dobkin-Kirkpatrick", HierarchyKind::DobkinKirkpatrick),
+            ] {
+                let wanted = HierarchyOptions { kind, ..HierarchyOptions::default() };
+                push(method, &|| {
+                    let hierarchy = Hierarchy::build(black_box(polyhedron), &wanted, &mut Progress::new(&mut |_| true));
+                    hierarchy.ok().map(|hierarchy| hierarchy.heap_bytes())
+                })?;
+            }
+            eprintln!("{name} {n} done");
         }
     }
     report::print_build(&rows);
@@ -35,16 +60,15 @@ pub fn run(options: &Options) -> Result<(), String> {
     Ok(())
 }
 
-/// `None` when the work fails.
-fn time_build(passes: usize, work: &dyn Fn() -> bool) -> Option<Time> {
+/// The time, and the bytes that the work says; `None` when it fails.
+fn time_build(passes: usize, work: &dyn Fn() -> Option<usize>) -> Option<(Time, usize)> {
     let mut times = Vec::with_capacity(passes);
+    let mut bytes = 0;
     for _ in 0..passes {
-        let mut good = false;
-        times.push(measure(|| good = work()));
-        if !good {
-            return None;
-        }
+        let mut done = None;
+        times.push(measure(|| done = work()));
+        bytes = done?;
     }
     let median = median(&mut times);
-    Some(Time { best: times[0], median })
+    Some((Time { best: times[0], median }, bytes))
 }

@@ -1,4 +1,4 @@
-//! Exact distance with witness points: every method on every scene.
+//! Exact distance with witness points, or the verdict alone: every method on every scene.
 
 use std::rc::Rc;
 
@@ -24,7 +24,7 @@ pub fn run(options: &Options) -> Result<(), String> {
     for n in sizes {
         for name in &options.models {
             let mesh = model(options, name, n)?;
-            let mut methods = methods(&mesh, &options.methods)?;
+            let mut methods = methods(&mesh, options)?;
             for orbit in &options.orbits {
                 for &step in &options.steps {
                     let poses = motion(options, orbit, step)?;
@@ -36,7 +36,7 @@ pub fn run(options: &Options) -> Result<(), String> {
                     let times = time_methods(&mut methods, poses.len(), options.passes);
                     for (m, method) in methods.iter().enumerate() {
                         let scene = (name.as_str(), mesh.vertices.len(), orbit.as_str(), step);
-                        let accuracy = Accuracy::of(&replies[m], &replies[0]);
+                        let accuracy = Accuracy::of(options.query, &replies[m], &replies[0]);
                         rows.push(Row::new(scene, method.name(), &replies[m], times[m], accuracy));
                     }
                     eprintln!("{name} {} {orbit} {step} done", mesh.vertices.len());
@@ -52,7 +52,26 @@ pub fn run(options: &Options) -> Result<(), String> {
 }
 
 /// The methods asked for that are there, in the order of `--help`.
-fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>, String> {
+fn methods(mesh: &PolygonMesh, options: &Options) -> Result<Vec<Box<dyn Method>>, String> {
+    let wanted = &options.methods;
+    let mut all = match options.query {
+        Query::Intersection => of_intersection(mesh)?,
+        _ => of_distance(mesh)?,
+    };
+    all.retain(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name()));
+    if all.is_empty() { Err("--methods: none of these is there".into()) } else { Ok(all) }
+}
+
+fn of_intersection(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
+    let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
+    Ok(vec![
+        setting("swiftprox", Query::Intersection, &shape, PairConfig::default()),
+        #[cfg(ccd)]
+        Box::new(crate::ccd::Mpr::new(mesh)),
+    ])
+}
+
+fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let mut all: Vec<Box<dyn Method>> = Vec::new();
     let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
     for (name, bounds) in [("swiftprox", Bounds::Tight), ("swiftprox-verdict", Bounds::Verdict)] {
@@ -70,8 +89,7 @@ fn methods(mesh: &PolygonMesh, wanted: &[String]) -> Result<Vec<Box<dyn Method>>
             None => eprintln!("FCL refuses this model: compared without it"),
         }
     }
-    all.retain(|method| wanted.is_empty() || wanted.iter().any(|name| name == method.name()));
-    if all.is_empty() { Err("--methods: none of these is there".into()) } else { Ok(all) }
+    Ok(all)
 }
 
 /// How a method's answers differ from the reference's.
@@ -85,16 +103,17 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    fn of(replies: &[Reply], reference: &[Reply]) -> Accuracy {
+    fn of(query: Query, replies: &[Reply], reference: &[Reply]) -> Accuracy {
         let (mut disagreements, mut errors) = (0, Vec::new());
         for (reply, reference) in replies.iter().zip(reference) {
             let error = (reply.distance - reference.distance).abs();
             let same_verdict = (reply.distance > 0.0) == (reference.distance > 0.0);
             // Negated, so that NaN disagrees.
-            if !(same_verdict && error <= AGREEMENT * reference.distance) {
+            let verdict_alone = query == Query::Intersection;
+            if !(same_verdict && (verdict_alone || error <= AGREEMENT * reference.distance)) {
                 disagreements += 1;
             }
-            if reply.distance > 0.0 && reference.distance > 0.0 {
+            if reply.distance > 0.0 && reference.distance > 0.0 && !verdict_alone {
                 errors.push(error);
             }
         }

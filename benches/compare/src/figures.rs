@@ -236,23 +236,26 @@ fn errors(mesh: &PolygonMesh) -> Result<Vec<Series>> {
     Ok(all)
 }
 
-/// Two, three and four levels down to about 62 triangles, against none.
+/// Two, three and four levels down to about 62 triangles, and levels from the tables, against none.
 fn sizes(mesh: &PolygonMesh) -> Result<Vec<Series>> {
     let triangles = mesh.face_count() as f64;
-    let bare = shape(mesh, NO_TABLE, none())?;
-    let table = shape(mesh, spherical(32, 2.0), none())?;
-    let ours = shape(mesh, LookupOptions::DEFAULT, none())?;
-    let mut all = Vec::new();
-    for query in [Query::Intersection, Query::Distance] {
-        all.push(Series::new("nothing", query, &bare, simple()));
-        all.push(Series::new("LUT 2 5.625", query, &table, by_tables()));
-        all.push(Series::new("automatic", query, &ours, PairConfig::default()));
-    }
+    let mut shapes = vec![
+        ("nothing", shape(mesh, NO_TABLE, none())?, simple()),
+        ("LUT 2 5.625", shape(mesh, spherical(32, 2.0), none())?, by_tables()),
+    ];
     for (count, name) in [(1, "2 levels"), (2, "3 levels"), (3, "4 levels")] {
         let decimation = (62.0 / triangles).powf(1.0 / f64::from(count));
         let quadric = shape(mesh, NO_TABLE, decimated(HierarchyKind::Quadric, decimation))?;
-        for query in [Query::Intersection, Query::Distance] {
-            all.push(Series::new(name, query, &quadric, through_levels(Refinement::SingleSingle)));
+        shapes.push((name, quadric, through_levels(Refinement::SingleSingle)));
+    }
+    let quadric = shape(mesh, LookupOptions::DEFAULT, decimated(HierarchyKind::Quadric, 0.25))?;
+    shapes.push(("levels and table", quadric, config(Start::Automatic, Levels::All, Refinement::Adaptive)));
+    shapes.push(("automatic", shape(mesh, LookupOptions::DEFAULT, none())?, PairConfig::default()));
+    let mut all = Vec::new();
+    for query in [Query::Intersection, Query::Approximate, Query::Distance] {
+        let absolute_error = if query == Query::Approximate { 1e-2 } else { 0.0 };
+        for (name, shape, config) in &shapes {
+            all.push(Series::new(*name, query, shape, PairConfig { absolute_error, ..*config }));
         }
     }
     Ok(all)

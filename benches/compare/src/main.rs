@@ -2,6 +2,8 @@
 
 mod answers;
 mod build_time;
+#[cfg(ccd)]
+mod ccd;
 mod distance;
 #[cfg(fcl)]
 mod fcl;

@@ -4,6 +4,7 @@ use std::path::PathBuf;
 
 use crate::scenes::models::ELLIPSOIDS;
 use crate::scenes::orbits::{ORBITS, STEPS, Step};
+use crate::setting::Query;
 
 pub const HELP: &str = "\
 Speed and accuracy of exact distance: swiftprox beside parry3d-f64 and FCL, on ellipsoids that orbit one another.
@@ -13,7 +14,9 @@ usage: compare [options]
   --models LIST     of fat, plate, long (all)
   --orbits LIST     of small, large, deep (all)
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
-  --methods LIST    of swiftprox, swiftprox-verdict, parry-hc, parry-hc-matrix, fcl-1e-6, fcl-1e-10 (all); answers
+  --query QUERY     distance, or intersection, the verdict alone (distance)
+  --methods LIST    of swiftprox, swiftprox-verdict, parry-hc, parry-hc-matrix, fcl-1e-6, fcl-1e-10 (all); of intersection,
+                    of swiftprox, libccd-mpr; answers
                     are compared with those of the first of them
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
@@ -34,6 +37,7 @@ pub struct Options {
     pub models: Vec<String>,
     pub orbits: Vec<String>,
     pub steps: Vec<Step>,
+    pub query: Query,
     /// Empty: all.
     pub methods: Vec<String>,
     pub count: usize,
@@ -55,6 +59,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         models: ELLIPSOIDS.iter().map(|(name, _)| name.to_string()).collect(),
         orbits: ORBITS.iter().map(|orbit| orbit.name.to_string()).collect(),
         steps: STEPS.to_vec(),
+        query: Query::Distance,
         methods: Vec::new(),
         count: 3600,
         passes: 9,
@@ -74,6 +79,13 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--models" => options.models = list(&value()?).map(str::to_string).collect(),
             "--orbits" => options.orbits = list(&value()?).map(str::to_string).collect(),
             "--steps" => options.steps = list(&value()?).map(str::parse).collect::<Result<_, _>>()?,
+            "--query" => {
+                options.query = match value()?.as_str() {
+                    "distance" => Query::Distance,
+                    "intersection" => Query::Intersection,
+                    other => return Err(format!("--query: {other} is neither distance nor intersection")),
+                }
+            }
             "--methods" => options.methods = list(&value()?).map(str::to_string).collect(),
             "--count" => options.count = number(&value()?)?.max(1),
             "--passes" => options.passes = number(&value()?)?.max(1),

@@ -10,8 +10,8 @@ use crate::method::Reply;
 use crate::scenes::orbits::Step;
 use crate::timing::{Time, median};
 
-/// The method that ratios are against.
-const PEER: &str = "parry-hc";
+/// The methods that ratios are against: the first of them that is there.
+const PEERS: [&str; 2] = ["parry-hc", "libccd-mpr"];
 
 /// A method on a scene.
 pub struct Row {
@@ -65,6 +65,8 @@ pub struct BuildRow {
     pub n: usize,
     pub method: &'static str,
     pub time: Time,
+    /// Of what is built; 0 where that is not known.
+    pub bytes: usize,
 }
 
 pub fn distance_csv(rows: &[Row]) -> String {
@@ -98,10 +100,10 @@ pub fn distance_csv(rows: &[Row]) -> String {
 }
 
 pub fn build_csv(rows: &[BuildRow]) -> String {
-    let mut text = "model,n,method,best_ms,median_ms\n".to_string();
+    let mut text = "model,n,method,best_ms,median_ms,bytes\n".to_string();
     for r in rows {
         let (best, median) = (r.time.best * 1e-6, r.time.median * 1e-6);
-        let _ = writeln!(text, "{},{},{},{best:.3},{median:.3}", r.model, r.n, r.method);
+        let _ = writeln!(text, "{},{},{},{best:.3},{median:.3},{}", r.model, r.n, r.method, r.bytes);
     }
     text
 }
@@ -129,7 +131,7 @@ pub fn print_distance(rows: &[Row]) {
     for (n, orbit) in scenes {
         let here: Vec<&Row> = rows.iter().filter(|r| r.n == n && r.orbit == orbit).collect();
         println!(
-            "\n{n} vertices, {orbit} orbit: ns a query, geometric mean over the models (times faster than {PEER})\n"
+            "\n{n} vertices, {orbit} orbit: ns a query, geometric mean over the models (times faster than the peer)\n"
         );
         print_means(&here);
     }
@@ -146,6 +148,7 @@ pub fn print_distance(rows: &[Row]) {
 
 fn print_means(rows: &[&Row]) {
     let methods = in_order(rows.iter().map(|r| r.method.as_str()));
+    let peer = PEERS.into_iter().find(|peer| methods.contains(peer)).unwrap_or_default();
     println!("| step | {} |", methods.join(" | "));
     println!("|---|{}", "--:|".repeat(methods.len()));
     for step in in_order(rows.iter().map(|r| r.step.to_string())) {
@@ -157,8 +160,8 @@ fn print_means(rows: &[&Row]) {
         print!("| {step} |");
         for method in &methods {
             let mean = means[method];
-            match means.get(PEER) {
-                Some(peer) if *method != PEER => print!(" {mean:.0} ({:.1}) |", peer / mean),
+            match means.get(peer) {
+                Some(time) if *method != peer => print!(" {mean:.0} ({:.1}) |", time / mean),
                 _ => print!(" {mean:.0} |"),
             }
         }
@@ -167,10 +170,10 @@ fn print_means(rows: &[&Row]) {
 }
 
 pub fn print_build(rows: &[BuildRow]) {
-    println!("| model | vertices | method | best ms | median ms |\n|---|--:|---|--:|--:|");
+    println!("| model | vertices | method | best ms | median ms | bytes |\n|---|--:|---|--:|--:|--:|");
     for r in rows {
         let (best, median) = (r.time.best * 1e-6, r.time.median * 1e-6);
-        println!("| {} | {} | {} | {best:.3} | {median:.3} |", r.model, r.n, r.method);
+        println!("| {} | {} | {} | {best:.3} | {median:.3} | {} |", r.model, r.n, r.method, r.bytes);
     }
 }
 
