@@ -14,12 +14,12 @@ use crate::common::hard::flight::{fly, poses};
 use crate::{Flight, ask, contradiction};
 
 /// The number of 32-bit words in a cache: its kind, two feature indices, four vertex pairs, a place.
-const WORDS: usize = size_of::<PairCache>() / 4;
+pub const WORDS: usize = size_of::<PairCache>() / 4;
 
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
 const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
 
-type Query =
+pub type Query =
     fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 /// Every query there is.
@@ -63,7 +63,7 @@ pub fn check(flight: &mut Flight) {
             ("right", flown[number]),
             ("of another pose", any(&mut random, &flown)),
             ("of another pair", any(&mut random, &foreign)),
-            ("of random bytes", made_of([(); WORDS].map(|()| random.bits() as u32))),
+            ("of random bytes", cache_of_words(words_of_a_cache(&mut random))),
             ("of random features", random_features(&mut random, shapes)),
             ("of the farthest vertices", farthest(shapes, placed, &mut random)),
         ];
@@ -142,7 +142,7 @@ fn random_features(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
     for word in &mut words[11..] {
         *word = [f32::NAN, f32::INFINITY, 0.0, -1e30, random.signed() as f32][random.below(5) as usize].to_bits();
     }
-    made_of(words)
+    cache_of_words(words)
 }
 
 /// The vertices that are farthest from each other as a pair of features, or as the pairs of an enclosing tetrahedron.
@@ -159,10 +159,15 @@ fn farthest(shapes: [&Shape; 2], poses: &[Pose; 2], random: &mut Random) -> Pair
     let mut words = [0; WORDS];
     words[0] = KINDS[[0, 6, 9][random.below(3) as usize]];
     words[1..11].chunks_mut(2).for_each(|pair| pair.copy_from_slice(&[support(0, &away), support(1, &-away)]));
-    made_of(words)
+    cache_of_words(words)
 }
 
-fn made_of(words: [u32; WORDS]) -> PairCache {
+/// Random bits, as many as a cache has.
+pub fn words_of_a_cache(random: &mut Random) -> [u32; WORDS] {
+    [(); WORDS].map(|()| random.bits() as u32)
+}
+
+pub fn cache_of_words(words: [u32; WORDS]) -> PairCache {
     #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
     // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
     unsafe {

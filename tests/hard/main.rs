@@ -1,5 +1,5 @@
 //! The catalogue of hard families (`benches/common/hard`) against everything that answers promise: the truth, computed in
-//! integers without the library; the independence of warm starts; the independence of how a pair is told.
+//! integers without the library; the independence of warm starts and of levels of detail; the independence of how a pair is told.
 //!
 //! `HARD_SEED` and `HARD_COUNT` (sequences a family) make longer runs, `HARD_FAMILY` runs one family alone. The counts of every
 //! family, how its queries ended and in how many steps, are printed: `cargo test --profile checked --test hard -- --nocapture`.
@@ -13,6 +13,7 @@ mod cases;
 #[path = "../../benches/common/mod.rs"]
 mod common;
 mod history;
+mod levels;
 #[path = "../oracle/mod.rs"]
 mod oracle;
 #[path = "../million/properties.rs"]
@@ -155,6 +156,16 @@ fn answers_do_not_depend_on_history() {
 #[test]
 fn answers_do_not_depend_on_the_telling() {
     over_all_families("telling", 0.5, retelling::check);
+}
+
+#[test]
+fn levels_of_detail_change_no_verdict() {
+    let from_levels = AtomicUsize::new(0);
+    over_all_families("levels", 0.5, |flight| {
+        from_levels.fetch_add(levels::check(flight), Ordering::Relaxed);
+    });
+    println!("{} answers from levels", from_levels.load(Ordering::Relaxed));
+    assert!(from_levels.into_inner() > 0);
 }
 
 /// Everything that the million queries of `tests/million` are held against: tight intervals, witness points, normals, features.
