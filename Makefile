@@ -1,5 +1,5 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
-# make test                   everything that is tested: lint, test-rust and test-c
+# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
 # make tsan                   tests with threads under the thread sanitizer
@@ -33,7 +33,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c fuzz asan tsan miri valgrind bench figures stability steps cases hard clean
+.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability steps cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -43,7 +43,7 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-test: lint test-rust test-c
+test: lint test-rust test-c test-fuzz
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES)
@@ -63,6 +63,10 @@ test-c:
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
+
+# Every input of the corpora, and a few seconds of new ones; an input that fails fails.
+test-fuzz:
+	scripts/fuzz.sh --if-possible 8
 
 # Each target begins with its corpus in fuzz/corpus. Without nightly Rust the address sanitizer is left out; the script says so.
 fuzz:

@@ -1,21 +1,38 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets and runs each for a while, two at a time, beginning with its corpus (fuzz/README.md says what they check):
 #
-#   fuzz.sh SECONDS [TARGET ...]
+#   fuzz.sh [--if-possible] SECONDS [TARGET ...]
 #
-# What fails is kept in fuzz/artifacts, with the command that repeats it; what is new on the way in the build folder.
+# With --if-possible a machine that cannot have what it takes, crates or a C++ compiler, says so, and that is no failure. What fails
+# is kept in fuzz/artifacts, with the command that repeats it; what is new on the way in the build folder.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
+if_possible=false
+if [ "$1" = --if-possible ]; then
+    if_possible=true
+    shift
+fi
 seconds=$1
 shift
 targets=("$@")
 ((${#targets[@]})) || targets=(mesh_readers shape_files hull pairs c_calls)
 
 cargo=(cargo)
-if cargo +nightly --version >/dev/null 2>&1; then
+wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' ../Cargo.toml)
+nightly=$(cargo +nightly --version 2>/dev/null | cut -d ' ' -f 2 || true)
+if [ "$(printf '%s\n' "$wanted" "${nightly:-0}" | sort -V | head -n 1)" = "$wanted" ]; then
     cargo+=(+nightly)
 else
-    echo "fuzz: no nightly Rust (rustup toolchain install nightly), so without the address sanitizer"
+    echo "fuzz: no nightly Rust $wanted or newer (rustup toolchain install nightly), so without the address sanitizer"
+fi
+if $if_possible; then
+    if ! command -v c++ >/dev/null; then
+        echo "fuzz: skipped: no C++ compiler, which libFuzzer is built with"
+        exit 0
+    elif ! "${cargo[@]}" fetch --locked --quiet; then
+        echo "fuzz: skipped: the crates of the fuzz targets cannot be had"
+        exit 0
+    fi
 fi
 export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}/fuzz"
 RUSTC_WRAPPER="$PWD/rustc.sh" "${cargo[@]}" build --locked --release --bins
