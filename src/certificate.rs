@@ -11,6 +11,8 @@
 //! costs width, never truth. δ is bounded in O(1): 0 at a vertex all of whose neighbours lie strictly behind (on an exact convex
 //! hull a local maximum is a global one), else from the planes around the feature, each with its own slack from build time.
 
+mod skewed;
+
 use crate::frame::Frame;
 use crate::math::{UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::polyhedron::{Bevel, Edge, Face, NONE, Polyhedron};
@@ -143,7 +145,9 @@ pub struct CloserLook<L, const BETWEEN_PLANES: bool> {
 impl<L: Lanes, const BETWEEN_PLANES: bool> Certify<L> for CloserLook<L, BETWEEN_PLANES> {
     #[inline(always)]
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
-        let minimum = if BETWEEN_PLANES { minimum.between_planes(frame, state) } else { Some(*minimum) };
+        let put_right = if frame.rigid { None } else { minimum.unskewed(frame, state) };
+        let minimum = put_right.unwrap_or(*minimum);
+        let minimum = if BETWEEN_PLANES { minimum.between_planes(frame, state) } else { Some(minimum) };
         self.found = minimum.map(|minimum| (minimum, minimum.gap_closely(frame, state)));
     }
 }
