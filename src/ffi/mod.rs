@@ -104,8 +104,11 @@ impl From<Error> for Failure {
 /// pair query pays a few instructions for it.
 #[inline(always)]
 fn guard(body: impl FnOnce() -> Checked<()>) -> StatusCode {
+    let outside = INSIDE.replace(true);
     // Unwind safety: what a panic may leave half-changed is reset or poisoned by the entry points themselves.
-    match catch_unwind(AssertUnwindSafe(body)) {
+    let ended = catch_unwind(AssertUnwindSafe(body));
+    INSIDE.set(outside);
+    match ended {
         Ok(Ok(())) => StatusCode::Ok,
         Ok(Err(failure)) => report(failure),
         Err(payload) => {
@@ -134,6 +137,16 @@ thread_local! {
     static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
     /// What the panic hook saw, on its way to the guard.
     static LAST_PANIC: Cell<Option<String>> = const { Cell::new(None) };
+    /// Whether this thread is in a call from C: its panics are caught.
+    static INSIDE: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Calls a callback of the caller's, whose panics are no bugs of ours.
+fn call_out<T>(callback: impl FnOnce() -> T) -> T {
+    let inside = INSIDE.replace(false);
+    let result = callback();
+    INSIDE.set(inside);
+    result
 }
 
 /// The failure that a caught panic becomes.
@@ -143,11 +156,11 @@ fn bug() -> Failure {
     Failure::new(StatusCode::ErrorBug, format!("a bug in swiftprox, please report it: {seen}"))
 }
 
-/// Keeps the message and the place of a panic for [`bug`] and keeps them off the standard error of a C program. Called by
-/// the functions that make handles: without a handle there is nothing that could panic, and queries need not ask.
+/// Keeps the message and the place of a panic in a call from C for [`bug`] and keeps them off the standard error of the program.
+/// Called by the functions that make handles: without a handle there is nothing that could panic, and queries need not ask.
 ///
-/// The threads of a C program are unknown to Rust and have no Rust name; named ones belong to a Rust program, whose own
-/// hook is then left to do its work.
+/// The hook is one for all that was linked with one standard library, which the C libraries have for themselves. A Rust program
+/// shares its own: its other panics go on to the hook that it had.
 fn keep_panics_quiet() {
     static INSTALLED: Once = Once::new();
     if std::thread::panicking() {
@@ -156,8 +169,9 @@ fn keep_panics_quiet() {
     INSTALLED.call_once(|| {
         let previous = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
-            let _ = LAST_PANIC.try_with(|last| last.set(Some(info.to_string().replace('\n', " "))));
-            if std::thread::current().name().is_some() {
+            if INSIDE.get() {
+                let _ = LAST_PANIC.try_with(|last| last.set(Some(info.to_string().replace('\n', " "))));
+            } else {
                 previous(info);
             }
         }));
@@ -378,4 +392,45 @@ unsafe fn write_struct<T: Versioned>(pointer: *mut T, name: &str, value: &T) -> 
         pointer.cast::<u8>().add(start).copy_from_nonoverlapping(source, size - start);
     }
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// What the test below looks at: in a process of its own, since the hook is set once.
+    #[test]
+    #[ignore = "run by the_messages_of_other_threads_are_not_swallowed"]
+    fn panics_inside_and_outside() {
+        keep_panics_quiet();
+        let threads = [
+            std::thread::spawn(|| assert_eq!(guard(|| panic!("a panic inside")), StatusCode::ErrorBug)),
+            std::thread::spawn(|| panic!("a panic outside")),
+            std::thread::spawn(|| {
+                let status = guard(|| {
+                    // What the caller's own code does in its callback is not kept quiet.
+                    let caught = call_out(|| catch_unwind(|| panic!("a panic in a callback")));
+                    assert!(caught.is_err());
+                    panic!("a second panic inside");
+                });
+                assert_eq!(status, StatusCode::ErrorBug);
+                panic!("a panic after a call");
+            }),
+        ];
+        assert_eq!(threads.map(|thread| thread.join().is_ok()), [true, false, false]);
+    }
+
+    #[test]
+    #[cfg_attr(miri, ignore = "no processes")]
+    fn the_messages_of_other_threads_are_not_swallowed() {
+        let mut this = std::process::Command::new(std::env::current_exe().unwrap());
+        let run = this.args(["--exact", "ffi::tests::panics_inside_and_outside", "--ignored", "--nocapture"]).output();
+        let run = run.unwrap();
+        assert!(run.status.success(), "{run:?}");
+        let printed = String::from_utf8(run.stderr).unwrap();
+        for seen in ["a panic outside", "a panic in a callback", "a panic after a call"] {
+            assert!(printed.contains(seen), "{seen}: {printed}");
+        }
+        assert!(!printed.contains("panic inside"), "{printed}");
+    }
 }

@@ -6,7 +6,7 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, read_struct, string,
+    Checked, Failure, StatusCode, Versioned, array, call_out, guard, input, keep_panics_quiet, output, read_struct, string,
     write_struct,
 };
 use crate::error::Result;
@@ -87,7 +87,7 @@ impl Making {
     /// Asks the callback whether to go on.
     fn report(&self, fraction: f64) -> bool {
         // SAFETY: the callback takes any fraction and its own user pointer (swift_shape_options).
-        self.progress.is_none_or(|callback| unsafe { callback(self.user, fraction) } == 0)
+        self.progress.is_none_or(|callback| call_out(|| unsafe { callback(self.user, fraction) }) == 0)
     }
 }
 
