@@ -84,7 +84,7 @@ pub struct PairResult {
     pub piece1: u32,
     /// Which piece of object 2.
     pub piece2: u32,
-    /// The answer; its outcome is [`Outcome::None`] when the pair could not be answered.
+    /// The answer.
     pub answer: PairAnswer,
 }
 
@@ -95,9 +95,6 @@ pub struct SceneAnswer<'a> {
     pub intersecting: bool,
     /// The pairs that the query lists, in the scene's order. Owned by the scene until its next change or query.
     pub pairs: &'a [PairResult],
-    /// Why the first of the pairs that could not be answered could not. Such pairs are listed with [`Outcome::None`]; all
-    /// others are answered as if it were not there.
-    pub failure: Option<&'a Error>,
 }
 
 /// What the queries of a scene did since it was made or [`Scene::reset_statistics`] was called.
@@ -116,8 +113,6 @@ pub struct SceneStatistics {
     pub fallback: u64,
     /// … of which integer arithmetic decided.
     pub exact: u64,
-    /// … of which could not be answered.
-    pub failed: u64,
     /// Feature pairs visited by Voronoi marching.
     pub marching_steps: u64,
     /// Iterations of Gilbert-Johnson-Keerthi in floating point.
@@ -139,7 +134,7 @@ impl SceneStatistics {
     fn count(&mut self, answer: &PairAnswer) {
         self.pairs += 1;
         *match answer.status {
-            Status::None => &mut self.failed,
+            Status::None => return,
             Status::Marched => &mut self.marched,
             Status::Coherent => &mut self.coherent,
             Status::Fallback => &mut self.fallback,
@@ -183,7 +178,6 @@ pub struct Scene {
     pairs: Vec<TestedPair>,
     pairs_changed: bool,
     results: Vec<PairResult>,
-    failure: Option<Error>,
     statistics: SceneStatistics,
 }
 
@@ -206,7 +200,6 @@ impl Scene {
             pairs: Vec::new(),
             pairs_changed: false,
             results: Vec::new(),
-            failure: None,
             statistics: SceneStatistics::default(),
         })
     }
@@ -507,7 +500,6 @@ impl Scene {
         }
         self.update_pairs()?;
         self.results.clear();
-        self.failure = None;
         self.statistics.queries += 1;
         let share = query.error_budget / self.pairs.len() as f64;
         let [absolute_error, relative_error] =
@@ -530,12 +522,8 @@ impl Scene {
             let shape1 = &object1.pieces[piece1 as usize];
             let shape2 = &object2.pieces[piece2 as usize];
             let mut answer = PairAnswer::default();
-            let solved = solver(shape1, &object1.pose, shape2, &object2.pose, &mut pair.cache, &config, &mut answer);
-            let failed = solved.is_err();
-            if let Err(error) = solved {
-                answer = PairAnswer::default();
-                self.failure.get_or_insert(error);
-            }
+            // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
+            solver(shape1, &object1.pose, shape2, &object2.pose, &mut pair.cache, &config, &mut answer)?;
             self.statistics.count(&answer);
             if answer.outcome == Outcome::Intersecting {
                 intersecting = true;
@@ -544,7 +532,7 @@ impl Scene {
                     break;
                 }
             }
-            if failed || listed(&answer) {
+            if listed(&answer) {
                 self.results.push(PairResult {
                     object1: object1.id(),
                     object2: object2.id(),
@@ -556,7 +544,7 @@ impl Scene {
                 });
             }
         }
-        Ok(SceneAnswer { intersecting, pairs: &self.results, failure: self.failure.as_ref() })
+        Ok(SceneAnswer { intersecting, pairs: &self.results })
     }
 }
 

@@ -56,7 +56,7 @@ fn refused<T: std::fmt::Debug>(result: Result<T, Error>, part: &str) {
 fn an_empty_scene_answers() {
     let mut scene = scene();
     let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
-    assert!(!answer.intersecting && answer.pairs.is_empty() && answer.failure.is_none());
+    assert!(!answer.intersecting && answer.pairs.is_empty());
 }
 
 #[test]
@@ -129,7 +129,7 @@ fn far_objects_cost_no_other_answer() {
     let mut scene = scene();
     let ids = cubes(&mut scene, &[0.0, 0.5, f64::MAX, -f64::MAX, 1e300, 4.0]);
     let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
-    assert!(answer.intersecting && answer.failure.is_none());
+    assert!(answer.intersecting);
     assert_eq!(answer.pairs.len(), 15);
     for pair in answer.pairs {
         let near = [ids[0], ids[1], ids[5]];
@@ -316,7 +316,7 @@ fn statistics_add_up() {
     scene.query_contacts(&SceneQuery::default()).unwrap();
     scene.query_contacts(&SceneQuery::default()).unwrap();
     let statistics = *scene.statistics();
-    assert_eq!((statistics.queries, statistics.pairs, statistics.failed), (2, 6, 0));
+    assert_eq!((statistics.queries, statistics.pairs), (2, 6));
     let SceneStatistics { marched, coherent, fallback, exact, .. } = statistics;
     assert_eq!(marched + coherent + fallback + exact, 6);
     assert!(statistics.marching_steps + statistics.fallback_iterations + statistics.exact_iterations > 0);
@@ -459,7 +459,6 @@ fn answers_do_not_depend_on_the_past() {
 
         let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
         assert_eq!(answer.intersecting, !intersecting.is_empty());
-        assert!(answer.failure.is_none());
         agree(answer.pairs, &expected);
         let mut answers = answer.pairs.to_vec();
         let answer = scene.query_intersection(&SceneQuery::default()).unwrap();

@@ -568,10 +568,7 @@ pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> Stat
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
 /// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
-/// then.
-///
-/// When a pair could not be answered, the call returns that pair's status, but the answer is there: such pairs are listed with
-/// SWIFT_OUTCOME_NONE, all others are answered as if these were not in the scene.
+/// then. What a scene has accepted it answers: no pair makes a query fail.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_query_intersection(
     scene: *mut SceneHandle,
@@ -778,7 +775,7 @@ unsafe fn ask(
             }
             found.count = listed.pairs.len();
             found.intersecting = i32::from(listed.intersecting);
-            listed.failure.map_or(Ok(()), |failure| Err(failure.clone().into()))
+            Ok(())
         })
     };
     // SAFETY: by the caller.

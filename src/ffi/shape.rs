@@ -6,8 +6,8 @@ use std::path::Path;
 use std::sync::Arc;
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, array, call_out, guard, input, keep_panics_quiet, output, read_struct, string,
-    write_struct,
+    Checked, Failure, StatusCode, Versioned, array, call_out, guard, input, keep_panics_quiet, output, read_struct,
+    string, write_struct,
 };
 use crate::error::Result;
 use crate::hierarchy::{HierarchyKind, HierarchyOptions};
