@@ -16,7 +16,8 @@
  * nothing keeps a pointer of the caller except swift_library_set_log.
  *
  * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
- * is not const needs exclusive use during the call. Nothing else is shared between calls: different objects need no care.
+ * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, a
+ * count of scenes, by which their ids differ, and which vector units the processor has; and a last message for each thread.
  *
  * Structs. Those that come in begin with struct_size: fill them with their _init function, then change members. A struct of an
  * older header is accepted, one of a newer header as long as what this library does not know is zero. Enumerators travel as
@@ -291,20 +292,6 @@ typedef struct swift_shape_options {
   double lookup_radius_factor;
 } swift_shape_options;
 
-/** A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it. */
-typedef struct swift_mesh {
-  /** 3 * vertex_count coordinates. */
-  const double *vertices;
-  /** The number of vertices. */
-  size_t vertex_count;
-  /** The 0-based vertex numbers of all faces, one face after the other. */
-  const uint32_t *indices;
-  /** The number of vertices of each face, or null when all are triangles. */
-  const uint32_t *valences;
-  /** The number of faces. */
-  size_t face_count;
-} swift_mesh;
-
 /** What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it. */
 typedef struct swift_shape_info {
   /** Set by the caller. */
@@ -347,6 +334,20 @@ typedef struct swift_shape_info {
   /** Its share of `bytes`. */
   size_t lookup_bytes;
 } swift_shape_info;
+
+/** A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it. */
+typedef struct swift_mesh {
+  /** 3 * vertex_count coordinates. */
+  const double *vertices;
+  /** The number of vertices. */
+  size_t vertex_count;
+  /** The 0-based vertex numbers of all faces, one face after the other. */
+  const uint32_t *indices;
+  /** The number of vertices of each face, or null when all are triangles. */
+  const uint32_t *valences;
+  /** The number of faces. */
+  size_t face_count;
+} swift_mesh;
 
 /** What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it. */
 typedef struct swift_level_info {
@@ -470,6 +471,14 @@ typedef struct swift_scene_options {
   double rotation_limit;
 } swift_scene_options;
 
+/**
+ * Names an object of a scene. Zero (SWIFT_OBJECT_ID_NULL, the default) names none; the id of a removed object is refused
+ * for ever, that of another scene unless about a million scenes were made in between.
+ */
+typedef uint64_t swift_object_id;
+/** Names no object. */
+#define SWIFT_OBJECT_ID_NULL 0
+
 /** How an object begins. Fill it with swift_object_options_init, then change what should differ. */
 typedef struct swift_object_options {
   /** Set by swift_object_options_init. */
@@ -481,14 +490,6 @@ typedef struct swift_object_options {
   /** Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0. */
   int32_t fixed;
 } swift_object_options;
-
-/**
- * Names an object of a scene. Zero (SWIFT_OBJECT_ID_NULL, the default) names none; the id of a removed object is refused
- * for ever, that of another scene unless about a million scenes were made in between.
- */
-typedef uint64_t swift_object_id;
-/** Names no object. */
-#define SWIFT_OBJECT_ID_NULL 0
 
 /** What an object is. Set struct_size to sizeof(swift_object_info) before asking for it. */
 typedef struct swift_object_info {
@@ -554,7 +555,7 @@ typedef struct swift_pair_result {
   uint32_t piece1;
   /** Which piece of object 2. */
   uint32_t piece2;
-  /** The answer; its outcome is SWIFT_OUTCOME_NONE when the pair could not be answered. */
+  /** The answer. */
   struct swift_pair_answer answer;
 } swift_pair_result;
 
@@ -585,8 +586,6 @@ typedef struct swift_scene_statistics {
   uint64_t fallback;
   /** ... of which integer arithmetic decided. */
   uint64_t exact;
-  /** ... of which could not be answered. */
-  uint64_t failed;
   /** Feature pairs visited by Voronoi marching. */
   uint64_t marching_steps;
   /** Iterations of Gilbert-Johnson-Keerthi in floating point. */
@@ -700,25 +699,6 @@ swift_status swift_shape_create_from_file(const char *path,
                                           struct swift_shape **shape);
 
 /**
- * Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
- * swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
- * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
- * bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
- * levels.
- *
- * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
- * `options` may be null for the defaults.
- *
- * SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
- * names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
- * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
- */
-swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
-                                            size_t level_count,
-                                            const struct swift_shape_options *options,
-                                            struct swift_shape **shape);
-
-/**
  * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
  * encoding (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file
  * refuses it.
@@ -788,6 +768,25 @@ swift_status swift_shape_copy_vertices(const struct swift_shape *shape,
 swift_status swift_shape_copy_triangles(const struct swift_shape *shape,
                                         uint32_t *corners,
                                         size_t capacity);
+
+/**
+ * Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
+ * swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
+ * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
+ * bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
+ * levels.
+ *
+ * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+ * `options` may be null for the defaults.
+ *
+ * SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
+ * names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ */
+swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
+                                            size_t level_count,
+                                            const struct swift_shape_options *options,
+                                            struct swift_shape **shape);
 
 /**
  * Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
@@ -933,6 +932,51 @@ swift_status swift_scene_create(const struct swift_scene_options *options,
 swift_status swift_scene_destroy(struct swift_scene *scene);
 
 /**
+ * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
+ * same.
+ *
+ * SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
+ * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_pair(struct swift_scene *scene,
+                                       swift_object_id id1,
+                                       swift_object_id id2);
+
+/** Deactivates the pair of two objects: queries leave it out. Errors as of swift_scene_activate_pair. */
+swift_status swift_scene_deactivate_pair(struct swift_scene *scene, swift_object_id id1, swift_object_id id2);
+
+/**
+ * Activates all pairs that an object is in now.
+ *
+ * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_object(struct swift_scene *scene,
+                                         swift_object_id id);
+
+/** Deactivates all pairs that an object is in now. Errors as of swift_scene_activate_object. */
+swift_status swift_scene_deactivate_object(struct swift_scene *scene, swift_object_id id);
+
+/**
+ * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
+ *
+ * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+ */
+swift_status swift_scene_activate_all(struct swift_scene *scene);
+
+/** Deactivates all pairs that there are now. Errors as of swift_scene_activate_all. */
+swift_status swift_scene_deactivate_all(struct swift_scene *scene);
+
+/**
+ * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
+ *
+ * Errors as of swift_scene_activate_pair; SWIFT_ERROR_NULL_POINTER also when active is null.
+ */
+swift_status swift_scene_is_pair_active(const struct swift_scene *scene,
+                                        swift_object_id id1,
+                                        swift_object_id id2,
+                                        int32_t *active);
+
+/**
  * Fills `options` with the defaults, struct_size included.
  *
  * SWIFT_ERROR_NULL_POINTER: options is null.
@@ -1061,51 +1105,6 @@ swift_status swift_scene_set_all_transforms(struct swift_scene *scene,
                                             size_t count);
 
 /**
- * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
- * same.
- *
- * SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
- * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
- */
-swift_status swift_scene_activate_pair(struct swift_scene *scene,
-                                       swift_object_id id1,
-                                       swift_object_id id2);
-
-/** Deactivates the pair of two objects: queries leave it out. Errors as of swift_scene_activate_pair. */
-swift_status swift_scene_deactivate_pair(struct swift_scene *scene, swift_object_id id1, swift_object_id id2);
-
-/**
- * Activates all pairs that an object is in now.
- *
- * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
- */
-swift_status swift_scene_activate_object(struct swift_scene *scene,
-                                         swift_object_id id);
-
-/** Deactivates all pairs that an object is in now. Errors as of swift_scene_activate_object. */
-swift_status swift_scene_deactivate_object(struct swift_scene *scene, swift_object_id id);
-
-/**
- * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
- *
- * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
- */
-swift_status swift_scene_activate_all(struct swift_scene *scene);
-
-/** Deactivates all pairs that there are now. Errors as of swift_scene_activate_all. */
-swift_status swift_scene_deactivate_all(struct swift_scene *scene);
-
-/**
- * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
- *
- * Errors as of swift_scene_activate_pair; SWIFT_ERROR_NULL_POINTER also when active is null.
- */
-swift_status swift_scene_is_pair_active(const struct swift_scene *scene,
-                                        swift_object_id id1,
-                                        swift_object_id id2,
-                                        int32_t *active);
-
-/**
  * Fills `query` with the defaults, struct_size included.
  *
  * SWIFT_ERROR_NULL_POINTER: query is null.
@@ -1117,10 +1116,7 @@ swift_status swift_scene_query_init(struct swift_scene_query *query);
  *
  * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
  * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
- * then.
- *
- * When a pair could not be answered, the call returns that pair's status, but the answer is there: such pairs are listed with
- * SWIFT_OUTCOME_NONE, all others are answered as if these were not in the scene.
+ * then. What a scene has accepted it answers: no pair makes a query fail.
  */
 swift_status swift_scene_query_intersection(struct swift_scene *scene,
                                             const struct swift_scene_query *query,

@@ -3,6 +3,7 @@
 //! See `ARCHITECTURE.md` for the data flow; the modules below are listed in that order, each using only those above it.
 
 pub mod error;
+mod enumerator;
 pub mod progress;
 pub mod math;
 pub mod simd;

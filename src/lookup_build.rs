@@ -1,5 +1,6 @@
 //! Builds the look-up tables of vertices.
 
+use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup::{Lookup, Shells, Spherical, Table};
 use crate::math::Vector;
@@ -19,6 +20,8 @@ pub enum LookupKind {
     /// That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass.
     Spherical = 3,
 }
+
+enumerator!(LookupKind { Automatic, None, Shells, Spherical });
 
 /// How a body's look-up table is made.
 #[derive(Debug, Clone, Copy, PartialEq)]

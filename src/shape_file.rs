@@ -9,8 +9,9 @@
 use std::fs;
 use std::path::Path;
 
+use crate::enumerator::Enumerator;
 use crate::error::{Error, Result};
-use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
+use crate::hierarchy::{Hierarchy, Links};
 use crate::hull_build::{Hull, convex_hull};
 use crate::hull_check::check_hull;
 use crate::lookup::Table;
@@ -93,16 +94,13 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
     reader.rest = content.get(12..).unwrap_or_default();
     let mut polyhedron = reader.polyhedron(None)?;
     let kind = reader.number()?;
-    let kinds = [LookupKind::None, LookupKind::Shells, LookupKind::Spherical];
-    let Some(&kind) = kinds.iter().find(|known| **known as u32 == kind) else {
+    let Some(kind) = read_kind(kind).filter(|kind| *kind != LookupKind::Automatic) else {
         return damaged("an unknown kind of look-up table");
     };
     let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
     polyhedron.lookup = build_lookup(&polyhedron, &lookup).or_else(|e| damaged(e.message()))?;
     let kind = reader.number()?;
-    use HierarchyKind::{DobkinKirkpatrick, Given, OuterCuts, Quadric};
-    let kinds = [HierarchyKind::None, Quadric, DobkinKirkpatrick, OuterCuts, Given];
-    let Some(&kind) = kinds.iter().find(|known| **known as u32 == kind) else {
+    let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");
     };
     let mut levels = Vec::new();
@@ -114,6 +112,10 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
     }
     let hierarchy = Hierarchy::restored(&polyhedron, kind, levels).or_else(|e| damaged(e.message()))?;
     Ok(Shape::from_parts(polyhedron, hierarchy))
+}
+
+fn read_kind<T: Enumerator>(number: u32) -> Option<T> {
+    T::from_number(i32::try_from(number).ok()?)
 }
 
 fn damaged<T>(what: &str) -> Result<T> {

@@ -10,9 +10,13 @@
 
 // In the order of the header.
 pub mod library;
+pub mod shape_options;
 pub mod shape;
+pub mod level;
 pub mod pair;
 pub mod scene;
+pub mod object;
+pub mod query;
 
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char};
@@ -20,8 +24,10 @@ use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
+use crate::enumerator::{Enumerator, enumerator};
 use crate::error::Error;
-use crate::pair::{Bounds, Levels, Refinement, Start};
+use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
+use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -232,75 +238,25 @@ unsafe fn array<'a, T>(pointer: *const T, count: usize, name: &str) -> Checked<&
     Ok(unsafe { std::slice::from_raw_parts(pointer, count) })
 }
 
-/// Which interval, as C says it in a member of `owner`.
+/// An enumerator, as C passes it in `member`, one of the C type `kind`.
 #[inline(always)]
-fn read_bounds(bounds: i32, owner: &str) -> Checked<Bounds> {
-    const TIGHT: i32 = Bounds::Tight as i32;
-    const VERDICT: i32 = Bounds::Verdict as i32;
-    match bounds {
-        TIGHT => Ok(Bounds::Tight),
-        VERDICT => Ok(Bounds::Verdict),
-        _ => Err(Failure::new(
-            StatusCode::ErrorInvalidArgument,
-            format!("{owner}->bounds is {bounds}, which is no swift_bounds"),
-        )),
-    }
+fn read_enumerator<T: Enumerator>(number: i32, member: &str, kind: &str) -> Checked<T> {
+    T::from_number(number).ok_or_else(|| unknown(number, member, kind))
 }
 
-/// Where to start, as C says it in a member of `owner`.
-#[inline(always)]
-fn read_start(start: i32, owner: &str) -> Checked<Start> {
-    const AUTOMATIC: i32 = Start::Automatic as i32;
-    const CACHE: i32 = Start::Cache as i32;
-    const TABLE: i32 = Start::Table as i32;
-    const COLD: i32 = Start::Cold as i32;
-    match start {
-        AUTOMATIC => Ok(Start::Automatic),
-        CACHE => Ok(Start::Cache),
-        TABLE => Ok(Start::Table),
-        COLD => Ok(Start::Cold),
-        _ => Err(Failure::new(
-            StatusCode::ErrorInvalidArgument,
-            format!("{owner}->start is {start}, which is no swift_start"),
-        )),
-    }
+#[cold]
+fn unknown(number: i32, member: &str, kind: &str) -> Failure {
+    Failure::new(StatusCode::ErrorInvalidArgument, format!("{member} is {number}, which is no {kind}"))
 }
 
-/// Which levels of detail, as C says it in a member of `owner`.
-#[inline(always)]
-fn read_levels(levels: i32, owner: &str) -> Checked<Levels> {
-    const AUTOMATIC: i32 = Levels::Automatic as i32;
-    const NONE: i32 = Levels::None as i32;
-    const ALL: i32 = Levels::All as i32;
-    match levels {
-        AUTOMATIC => Ok(Levels::Automatic),
-        NONE => Ok(Levels::None),
-        ALL => Ok(Levels::All),
-        _ => Err(Failure::new(
-            StatusCode::ErrorInvalidArgument,
-            format!("{owner}->levels is {levels}, which is no swift_levels"),
-        )),
-    }
-}
-
-/// How to go to finer levels, as C says it in a member of `owner`.
-#[inline(always)]
-fn read_refinement(refinement: i32, owner: &str) -> Checked<Refinement> {
-    const ADAPTIVE: i32 = Refinement::Adaptive as i32;
-    const SINGLE: i32 = Refinement::Single as i32;
-    const SINGLE_SINGLE: i32 = Refinement::SingleSingle as i32;
-    const DOUBLE_DOUBLE: i32 = Refinement::DoubleDouble as i32;
-    match refinement {
-        ADAPTIVE => Ok(Refinement::Adaptive),
-        SINGLE => Ok(Refinement::Single),
-        SINGLE_SINGLE => Ok(Refinement::SingleSingle),
-        DOUBLE_DOUBLE => Ok(Refinement::DoubleDouble),
-        _ => Err(Failure::new(
-            StatusCode::ErrorInvalidArgument,
-            format!("{owner}->refinement is {refinement}, which is no swift_refinement"),
-        )),
-    }
-}
+enumerator!(InputPolicy { Strict, Flat, Hull });
+enumerator!(Bounds { Tight, Verdict });
+enumerator!(Start { Automatic, Cache, Table, Cold });
+enumerator!(Levels { Automatic, None, All });
+enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });
+enumerator!(Outcome { None, Separated, Beyond, Intersecting, Undecided });
+enumerator!(Status { None, Marched, Coherent, Fallback, Exact, WithinTolerance, BudgetSpent });
+enumerator!(FeatureKind { None, Vertex, Edge, Face });
 
 /// A string that must not be null.
 ///
@@ -397,6 +353,51 @@ unsafe fn write_struct<T: Versioned>(pointer: *mut T, name: &str, value: &T) -> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::mem::offset_of;
+
+    /// A struct of which the first version ended before `newer`.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[repr(C)]
+    struct Grown {
+        struct_size: usize,
+        older: f64,
+        newer: f64,
+    }
+
+    // SAFETY: repr(C), struct_size first.
+    unsafe impl Versioned for Grown {
+        const NAME: &'static str = "swift_grown";
+        const FIRST_SIZE: usize = offset_of!(Grown, newer);
+    }
+
+    const DEFAULTS: Grown = Grown { struct_size: size_of::<Grown>(), older: 1.0, newer: 2.0 };
+
+    #[test]
+    fn a_struct_of_an_older_header_keeps_the_defaults_of_what_it_lacks() {
+        let given = Grown { struct_size: Grown::FIRST_SIZE, older: 3.0, newer: 4.0 };
+        // SAFETY: a live struct, larger than it says.
+        let read = unsafe { read_struct(&given, DEFAULTS) }.unwrap();
+        assert_eq!((read.older, read.newer), (3.0, 2.0));
+        let whole = Grown { struct_size: size_of::<Grown>(), ..given };
+        // SAFETY: a live struct, as large as it says; null; one that is too small to be any.
+        let [whole, null, small] = unsafe {
+            let small = Grown { struct_size: Grown::FIRST_SIZE - 1, ..given };
+            [read_struct(&whole, DEFAULTS), read_struct(std::ptr::null(), DEFAULTS), read_struct(&small, DEFAULTS)]
+        };
+        assert_eq!(whole.unwrap().newer, 4.0);
+        assert_eq!(null.unwrap(), DEFAULTS);
+        let refused = small.unwrap_err();
+        assert_eq!(refused.status, StatusCode::ErrorStructSize);
+        assert!(refused.message.contains("swift_grown"), "{}", refused.message);
+    }
+
+    #[test]
+    fn nothing_is_written_beyond_the_end_of_an_older_struct() {
+        let mut info = Grown { struct_size: Grown::FIRST_SIZE, older: 3.0, newer: 4.0 };
+        // SAFETY: a live struct, larger than it says.
+        unsafe { write_struct(&raw mut info, "info", &DEFAULTS) }.unwrap();
+        assert_eq!(info, Grown { struct_size: Grown::FIRST_SIZE, older: 1.0, newer: 4.0 });
+    }
 
     /// What the test below looks at: in a process of its own, since the hook is set once.
     #[test]

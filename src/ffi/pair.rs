@@ -2,12 +2,13 @@
 //! and configuration are read where the caller has them.
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_bounds, read_levels,
-    read_refinement, read_start, read_struct, struct_size,
+    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_enumerator, read_struct, struct_size,
 };
 use crate::error::Result;
 use crate::math::Pose;
-use crate::pair::{self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status};
+use crate::pair::{
+    self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status,
+};
 use crate::shape::Shape;
 use crate::verify::verify;
 
@@ -217,16 +218,16 @@ unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checke
     }
     // SAFETY: the enumerators have been members since the first version, so their bytes are there, whatever they hold.
     let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
-    read_bounds(bounds, "config")?;
+    read_enumerator::<Bounds>(bounds, "config->bounds", "swift_bounds")?;
     // SAFETY: as above.
     let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
-    read_start(start, "config")?;
+    read_enumerator::<Start>(start, "config->start", "swift_start")?;
     // SAFETY: as above.
     let levels = unsafe { (&raw const (*config).levels).cast::<i32>().read() };
-    read_levels(levels, "config")?;
+    read_enumerator::<Levels>(levels, "config->levels", "swift_levels")?;
     // SAFETY: as above.
     let refinement = unsafe { (&raw const (*config).refinement).cast::<i32>().read() };
-    read_refinement(refinement, "config")?;
+    read_enumerator::<Refinement>(refinement, "config->refinement", "swift_refinement")?;
     if size == size_of::<PairConfig>() {
         // SAFETY: as large as today's struct, and its enumerators are valid.
         return Ok(unsafe { &*config });
@@ -272,17 +273,10 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
-    for (name, value, last) in [
-        ("outcome", outcome, Outcome::Undecided as i32),
-        ("status", status, Status::BudgetSpent as i32),
-        ("feature1.kind", kind1, FeatureKind::Face as i32),
-        ("feature2.kind", kind2, FeatureKind::Face as i32),
-    ] {
-        if !(0..=last).contains(&value) {
-            let message = format!("answer->{name} is {value}, which is no known enumerator");
-            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
-        }
-    }
+    read_enumerator::<Outcome>(outcome, "answer->outcome", "swift_outcome")?;
+    read_enumerator::<Status>(status, "answer->status", "swift_pair_status")?;
+    read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swift_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swift_feature_kind")?;
     // SAFETY: its enumerators are valid, and any other bytes are.
     Ok(unsafe { &*answer })
 }

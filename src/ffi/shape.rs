@@ -1,159 +1,20 @@
 //! Shapes: made from arrays or files, shared by count.
 
-use std::ffi::{c_char, c_void};
-use std::mem::offset_of;
+use std::ffi::c_char;
 use std::path::Path;
 use std::sync::Arc;
 
+use super::shape_options::{CShapeOptions, read_options};
 use super::{
-    Checked, Failure, StatusCode, Versioned, array, call_out, guard, input, keep_panics_quiet, output, read_struct,
-    string, write_struct,
+    Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, string, write_struct,
 };
-use crate::error::Result;
-use crate::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::lookup::Table;
-use crate::lookup_build::{LookupKind, LookupOptions};
-use crate::math::{Matrix, Vector};
+use crate::lookup_build::LookupKind;
+use crate::math::Vector;
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::Polyhedron;
-use crate::progress::Progress;
-use crate::shape::{InputPolicy, Shape, ShapeOptions};
+use crate::shape::Shape;
 use crate::shape_file;
-
-/// Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
-/// Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must return,
-/// and must not use what the call is working on; a C++ exception that leaves it ends the program.
-pub type ProgressCallback = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> i32>;
-
-/// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
-#[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct CShapeOptions {
-    /// Set by swift_shape_options_init.
-    pub struct_size: usize,
-    /// A swift_input: what to do with input that is not a closed convex mesh with interior. Default: refuse it.
-    pub input: i32,
-    /// Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
-    /// scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
-    pub rotation: [f64; 9],
-    /// See rotation. Default: 0.
-    pub translation: [f64; 3],
-    /// See rotation; positive. Default: 1.
-    pub scale: f64,
-    /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-    /// which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
-    pub convexity_tolerance: f64,
-    /// A swift_hierarchy: how levels of detail are made. Default: there are none.
-    pub hierarchy: i32,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25.
-    pub decimation: f64,
-    /// No level has fewer triangles. Default: 50.
-    pub minimum_triangles: usize,
-    /// No more levels than these. Default: 32.
-    pub most_levels: usize,
-    /// Learns how far the building of the shape is, and can cancel it. Default: null.
-    pub progress: ProgressCallback,
-    /// Handed to progress. Default: null.
-    pub progress_user: *mut c_void,
-    /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. Default: automatic.
-    pub lookup: i32,
-    /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
-    /// from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
-    /// Default: 0, which means what the number of vertices asks for, or 32.
-    pub lookup_resolution: u32,
-    /// Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2.
-    pub lookup_radius_factor: f64,
-}
-
-// SAFETY: repr(C), struct_size first.
-unsafe impl Versioned for CShapeOptions {
-    const NAME: &'static str = "swift_shape_options";
-    const FIRST_SIZE: usize = offset_of!(CShapeOptions, hierarchy);
-}
-
-/// Options in Rust's terms.
-pub(super) struct Making {
-    options: ShapeOptions,
-    progress: ProgressCallback,
-    user: *mut c_void,
-}
-
-impl Making {
-    /// Makes the shape, telling the callback how far it is.
-    pub(super) fn run(&self, make: impl FnOnce(&ShapeOptions, &mut Progress) -> Result<Shape>) -> Result<Shape> {
-        make(&self.options, &mut Progress::new(&mut |fraction| self.report(fraction)))
-    }
-
-    /// Asks the callback whether to go on.
-    fn report(&self, fraction: f64) -> bool {
-        // SAFETY: the callback takes any fraction and its own user pointer (swift_shape_options).
-        self.progress.is_none_or(|callback| call_out(|| unsafe { callback(self.user, fraction) }) == 0)
-    }
-}
-
-impl CShapeOptions {
-    const DEFAULT: CShapeOptions = CShapeOptions {
-        struct_size: size_of::<CShapeOptions>(),
-        input: InputPolicy::Strict as i32,
-        rotation: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
-        translation: [0.0; 3],
-        scale: 1.0,
-        convexity_tolerance: -1.0,
-        hierarchy: HierarchyKind::None as i32,
-        decimation: 0.25,
-        minimum_triangles: 50,
-        most_levels: 32,
-        progress: None,
-        progress_user: std::ptr::null_mut(),
-        lookup: LookupKind::Automatic as i32,
-        lookup_resolution: 0,
-        lookup_radius_factor: LookupOptions::DEFAULT.radius_factor,
-    };
-
-    /// The options in Rust's terms. What is left to check, the makers of shapes check.
-    fn checked(&self) -> Checked<Making> {
-        let input = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull]
-            .into_iter()
-            .find(|policy| *policy as i32 == self.input)
-            .ok_or_else(|| {
-                let message = format!("options->input is {}, which is no swift_input", self.input);
-                Failure::new(StatusCode::ErrorInvalidArgument, message)
-            })?;
-        let lookup = [LookupKind::Automatic, LookupKind::None, LookupKind::Shells, LookupKind::Spherical]
-            .into_iter()
-            .find(|kind| *kind as i32 == self.lookup)
-            .ok_or_else(|| {
-                let message = format!("options->lookup is {}, which is no swift_lookup", self.lookup);
-                Failure::new(StatusCode::ErrorInvalidArgument, message)
-            })?;
-        if self.convexity_tolerance.is_nan() {
-            return Err(Failure::new(StatusCode::ErrorInvalidArgument, "options->convexity_tolerance is not a number"));
-        }
-        use HierarchyKind::{DobkinKirkpatrick, OuterCuts, Quadric};
-        let kind = [HierarchyKind::None, Quadric, DobkinKirkpatrick, OuterCuts]
-            .into_iter()
-            .find(|kind| *kind as i32 == self.hierarchy)
-            .ok_or_else(|| {
-                let message = format!("options->hierarchy is {}, which no levels can be built as", self.hierarchy);
-                Failure::new(StatusCode::ErrorInvalidArgument, message)
-            })?;
-        let &CShapeOptions { decimation, minimum_triangles, most_levels, progress, progress_user, .. } = self;
-        let options = ShapeOptions {
-            input,
-            rotation: Matrix::from_row_slice(&self.rotation),
-            translation: Vector::from(self.translation),
-            scale: self.scale,
-            convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
-            hierarchy: HierarchyOptions { kind, decimation, minimum_triangles, most_levels },
-            lookup: LookupOptions {
-                kind: lookup,
-                resolution: self.lookup_resolution,
-                radius_factor: self.lookup_radius_factor,
-            },
-        };
-        Ok(Making { options, progress, user: progress_user })
-    }
-}
 
 /// What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
@@ -201,59 +62,7 @@ pub struct ShapeInfo {
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for ShapeInfo {
     const NAME: &'static str = "swift_shape_info";
-    const FIRST_SIZE: usize = offset_of!(ShapeInfo, hierarchy);
-}
-
-/// What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it.
-#[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct LevelInfo {
-    /// Set by the caller.
-    pub struct_size: usize,
-    /// Vertices of the level's hull.
-    pub vertex_count: usize,
-    /// Edges between faces that are not coplanar.
-    pub edge_count: usize,
-    /// Faces, coplanar triangles counted as one.
-    pub face_count: usize,
-    /// Triangles of the level's hull.
-    pub triangle_count: usize,
-    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
-    /// body.
-    pub deviation: f64,
-    /// Memory that the level holds, in bytes.
-    pub bytes: usize,
-}
-
-// SAFETY: repr(C), struct_size first.
-unsafe impl Versioned for LevelInfo {
-    const NAME: &'static str = "swift_level_info";
-    const FIRST_SIZE: usize = size_of::<LevelInfo>();
-}
-
-/// A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it.
-#[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct CMesh {
-    /// 3 * vertex_count coordinates.
-    pub vertices: *const f64,
-    /// The number of vertices.
-    pub vertex_count: usize,
-    /// The 0-based vertex numbers of all faces, one face after the other.
-    pub indices: *const u32,
-    /// The number of vertices of each face, or null when all are triangles.
-    pub valences: *const u32,
-    /// The number of faces.
-    pub face_count: usize,
-}
-
-/// Fills `options` with the defaults, struct_size included.
-///
-/// SWIFT_ERROR_NULL_POINTER: options is null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_options_init(options: *mut CShapeOptions) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(options, "options", CShapeOptions::DEFAULT) })
+    const FIRST_SIZE: usize = size_of::<ShapeInfo>();
 }
 
 /// Makes a shape from a polygon mesh. The arrays are copied.
@@ -331,43 +140,6 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
         let making = read_options(options)?;
         let path = read_path(path)?;
         Ok(making.run(|options, progress| Shape::from_file_in_steps(path, options, progress))?)
-    })
-}
-
-/// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
-/// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
-/// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
-/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
-/// levels.
-///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
-/// `options` may be null for the defaults.
-///
-/// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
-/// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_create_from_levels(
-    levels: *const CMesh,
-    level_count: usize,
-    options: *const CShapeOptions,
-    shape: *mut *mut Shape,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    create(shape, || unsafe {
-        let making = read_options(options)?;
-        let levels = array(levels, level_count, "levels")?;
-        let mut meshes = Vec::with_capacity(levels.len());
-        for (i, level) in levels.iter().enumerate() {
-            let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
-            let read = match i {
-                0 => read_arrays(vertices, vertex_count, indices, valences, face_count),
-                _ => read_arrays(vertices, vertex_count, indices, valences, 0),
-            };
-            let in_level = |f: Failure| Failure { status: f.status, message: format!("levels[{i}]: {}", f.message) };
-            meshes.push(read.map_err(in_level)?);
-        }
-        Ok(making.run(|options, progress| Shape::from_levels(&meshes, options, progress))?)
     })
 }
 
@@ -514,82 +286,10 @@ pub unsafe extern "C" fn swift_shape_copy_triangles(
     })
 }
 
-/// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swift_level_info) first.
-///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
-/// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_get_level_info(
-    shape: *const Shape,
-    level: usize,
-    info: *mut LevelInfo,
-) -> StatusCode {
-    guard(|| {
-        // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
-        let polyhedron = polyhedron_of(shape, level)?;
-        let coarse = level.checked_sub(1).map(|i| &shape.hierarchy().levels[i]);
-        let value = LevelInfo {
-            struct_size: size_of::<LevelInfo>(),
-            vertex_count: polyhedron.vertices.len(),
-            edge_count: polyhedron.edges.len(),
-            face_count: polyhedron.faces.len(),
-            triangle_count: polyhedron.triangles.len(),
-            deviation: coarse.map_or(0.0, |level| level.deviation),
-            bytes: coarse.map_or(size_of::<Polyhedron>() + polyhedron.heap_bytes(), |level| level.bytes()),
-        };
-        // SAFETY: the header's pointer rules.
-        unsafe { write_struct(info, "info", &value) }
-    })
-}
-
-/// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
-/// swift_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
-/// swift_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
-///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_level_vertices(
-    shape: *const Shape,
-    level: usize,
-    vertices: *mut f64,
-    capacity: usize,
-) -> StatusCode {
-    guard(|| {
-        // SAFETY: the header's pointer rules.
-        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
-        // SAFETY: the header's pointer rules.
-        unsafe { copy_vertices(polyhedron, vertices, capacity) }
-    })
-}
-
-/// Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
-/// swift_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
-/// swift_level_info.triangle_count.
-///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFT_ERROR_NULL_POINTER: shape or corners is null.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_level_triangles(
-    shape: *const Shape,
-    level: usize,
-    corners: *mut u32,
-    capacity: usize,
-) -> StatusCode {
-    guard(|| {
-        // SAFETY: the header's pointer rules.
-        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
-        // SAFETY: the header's pointer rules.
-        unsafe { copy_triangles(polyhedron, corners, capacity) }
-    })
-}
-
 // --- What the functions above share --------------------------------------------------------------------------------------
 
 /// Runs `make` in the guard and hands its shape to the caller, or null.
-fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> StatusCode {
+pub(super) fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
         unsafe { output(shape, "shape", std::ptr::null_mut()) }?;
@@ -600,23 +300,11 @@ fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> Stat
     })
 }
 
-/// The body itself for level 0, or a level of detail.
-fn polyhedron_of(shape: &Shape, level: usize) -> Checked<&Polyhedron> {
-    let levels = &shape.hierarchy().levels;
-    match level {
-        0 => Ok(shape.polyhedron()),
-        _ => levels.get(level - 1).map(|level| &level.polyhedron).ok_or_else(|| {
-            let message = format!("there is no level {level}: the shape has {} beside the body", levels.len());
-            Failure::new(StatusCode::ErrorInvalidArgument, message)
-        }),
-    }
-}
-
 /// Copies vertices in the local frame.
 ///
 /// # Safety
 /// `vertices` has room for `capacity` vertices or is null.
-unsafe fn copy_vertices(polyhedron: &Polyhedron, vertices: *mut f64, capacity: usize) -> Checked<()> {
+pub(super) unsafe fn copy_vertices(polyhedron: &Polyhedron, vertices: *mut f64, capacity: usize) -> Checked<()> {
     check_capacity(vertices, "vertices", capacity, polyhedron.vertices.len())?;
     for i in 0..polyhedron.vertices.len() {
         let point: [f64; 3] = polyhedron.local_position(i as u32).into();
@@ -630,21 +318,12 @@ unsafe fn copy_vertices(polyhedron: &Polyhedron, vertices: *mut f64, capacity: u
 ///
 /// # Safety
 /// `corners` has room for `capacity` triangles or is null.
-unsafe fn copy_triangles(polyhedron: &Polyhedron, corners: *mut u32, capacity: usize) -> Checked<()> {
+pub(super) unsafe fn copy_triangles(polyhedron: &Polyhedron, corners: *mut u32, capacity: usize) -> Checked<()> {
     let triangles = &polyhedron.triangles;
     check_capacity(corners, "corners", capacity, triangles.len())?;
     // SAFETY: not null, room for the triangles, and the caller's array is not ours.
     unsafe { corners.cast::<[u32; 3]>().copy_from_nonoverlapping(triangles.as_ptr(), triangles.len()) };
     Ok(())
-}
-
-/// The options, or the defaults for null.
-///
-/// # Safety
-/// `options` meets the header's pointer rules.
-pub(super) unsafe fn read_options(options: *const CShapeOptions) -> Checked<Making> {
-    // SAFETY: by the caller; any bytes make valid options.
-    unsafe { read_struct(options, CShapeOptions::DEFAULT) }?.checked()
 }
 
 /// A mesh from a caller's arrays.

@@ -11,6 +11,7 @@ use std::borrow::Cow;
 
 use crate::containment::contains;
 use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
+use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::math::Vector;
 use crate::outer_cuts::outer_cuts;
@@ -39,6 +40,8 @@ pub enum HierarchyKind {
     /// The caller's, translated and scaled until they contain the body.
     Given = 4,
 }
+
+enumerator!(HierarchyKind { None, Quadric, DobkinKirkpatrick, OuterCuts, Given });
 
 /// What levels to make.
 #[derive(Debug, Clone, Copy, PartialEq)]

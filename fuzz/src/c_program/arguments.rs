@@ -6,7 +6,7 @@ use std::ptr::null_mut;
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
-use swiftprox::ffi::shape::*;
+use swiftprox::ffi::shape_options::*;
 use swiftprox::math::Pose;
 use swiftprox::pair::PairConfig;
 

@@ -4,6 +4,8 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::object::*;
+use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::swift_shape_retain;
 use swiftprox::object::ObjectId;

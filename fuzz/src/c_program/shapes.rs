@@ -4,6 +4,7 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::level::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape::*;
 use swiftprox::pair::{Outcome, PairAnswer};

@@ -1,0 +1,171 @@
+//! Levels of detail: those that a caller gives, and what the levels of a shape are.
+
+use super::shape::{copy_triangles, copy_vertices, create, read_arrays};
+use super::shape_options::{CShapeOptions, read_options};
+use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+
+/// A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMesh {
+    /// 3 * vertex_count coordinates.
+    pub vertices: *const f64,
+    /// The number of vertices.
+    pub vertex_count: usize,
+    /// The 0-based vertex numbers of all faces, one face after the other.
+    pub indices: *const u32,
+    /// The number of vertices of each face, or null when all are triangles.
+    pub valences: *const u32,
+    /// The number of faces.
+    pub face_count: usize,
+}
+
+/// What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct LevelInfo {
+    /// Set by the caller.
+    pub struct_size: usize,
+    /// Vertices of the level's hull.
+    pub vertex_count: usize,
+    /// Edges between faces that are not coplanar.
+    pub edge_count: usize,
+    /// Faces, coplanar triangles counted as one.
+    pub face_count: usize,
+    /// Triangles of the level's hull.
+    pub triangle_count: usize,
+    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
+    /// body.
+    pub deviation: f64,
+    /// Memory that the level holds, in bytes.
+    pub bytes: usize,
+}
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for LevelInfo {
+    const NAME: &'static str = "swift_level_info";
+    const FIRST_SIZE: usize = size_of::<LevelInfo>();
+}
+
+/// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
+/// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
+/// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
+/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
+/// levels.
+///
+/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// `options` may be null for the defaults.
+///
+/// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
+/// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_create_from_levels(
+    levels: *const CMesh,
+    level_count: usize,
+    options: *const CShapeOptions,
+    shape: *mut *mut Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let making = read_options(options)?;
+        let levels = array(levels, level_count, "levels")?;
+        let mut meshes = Vec::with_capacity(levels.len());
+        for (i, level) in levels.iter().enumerate() {
+            let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
+            let read = match i {
+                0 => read_arrays(vertices, vertex_count, indices, valences, face_count),
+                _ => read_arrays(vertices, vertex_count, indices, valences, 0),
+            };
+            let in_level = |f: Failure| Failure { status: f.status, message: format!("levels[{i}]: {}", f.message) };
+            meshes.push(read.map_err(in_level)?);
+        }
+        Ok(making.run(|options, progress| Shape::from_levels(&meshes, options, progress))?)
+    })
+}
+
+/// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
+/// info->struct_size to sizeof(swift_level_info) first.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
+/// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_get_level_info(
+    shape: *const Shape,
+    level: usize,
+    info: *mut LevelInfo,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let shape = unsafe { input(shape, "shape") }?;
+        let polyhedron = polyhedron_of(shape, level)?;
+        let coarse = level.checked_sub(1).map(|i| &shape.hierarchy().levels[i]);
+        let value = LevelInfo {
+            struct_size: size_of::<LevelInfo>(),
+            vertex_count: polyhedron.vertices.len(),
+            edge_count: polyhedron.edges.len(),
+            face_count: polyhedron.faces.len(),
+            triangle_count: polyhedron.triangles.len(),
+            deviation: coarse.map_or(0.0, |level| level.deviation),
+            bytes: coarse.map_or(size_of::<Polyhedron>() + polyhedron.heap_bytes(), |level| level.bytes()),
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &value) }
+    })
+}
+
+/// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
+/// swift_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
+/// swift_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_level_vertices(
+    shape: *const Shape,
+    level: usize,
+    vertices: *mut f64,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_vertices(polyhedron, vertices, capacity) }
+    })
+}
+
+/// Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
+/// swift_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
+/// swift_level_info.triangle_count.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_copy_level_triangles(
+    shape: *const Shape,
+    level: usize,
+    corners: *mut u32,
+    capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        // SAFETY: the header's pointer rules.
+        unsafe { copy_triangles(polyhedron, corners, capacity) }
+    })
+}
+
+/// The body itself for level 0, or a level of detail.
+fn polyhedron_of(shape: &Shape, level: usize) -> Checked<&Polyhedron> {
+    let levels = &shape.hierarchy().levels;
+    match level {
+        0 => Ok(shape.polyhedron()),
+        _ => levels.get(level - 1).map(|level| &level.polyhedron).ok_or_else(|| {
+            let message = format!("there is no level {level}: the shape has {} beside the body", levels.len());
+            Failure::new(StatusCode::ErrorInvalidArgument, message)
+        }),
+    }
+}

@@ -1,0 +1,297 @@
+//! Queries over a scene, whose results the scene owns, and their statistics.
+
+use super::scene::{SceneHandle, change, look};
+use super::{StatusCode, Versioned, guard, output, read_enumerator, read_struct};
+use crate::error::Result;
+use crate::pair::{Bounds, Levels, Refinement};
+use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
+
+/// What a query over a scene is asked for. Fill it with swift_scene_query_init, then change what should differ.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CSceneQuery {
+    /// Set by swift_scene_query_init.
+    pub struct_size: usize,
+    /// List pairs up to this distance, intersecting ones always; from 0 to infinity (the default: all pairs). A pair whose
+    /// interval does not exclude it is listed, so that none is missed. swift_scene_query_intersection does not look at it.
+    pub distance_tolerance: f64,
+    /// Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0.
+    pub early_exit: i32,
+    /// A swift_bounds: which interval the answers carry; with a finite distance tolerance the tight one always. Default: the
+    /// tight one.
+    pub bounds: i32,
+    /// swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
+    pub absolute_error: f64,
+    /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+    /// equal shares, whatever the two errors say. Default: infinity.
+    pub error_budget: f64,
+    /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+    /// UINT32_MAX, no limit.
+    pub step_budget: u32,
+    /// A swift_levels: which levels of detail queries go through. Default: the automatic choice.
+    pub levels: i32,
+    /// A swift_refinement: how they go from level to level. Default: the adaptive one.
+    pub refinement: i32,
+}
+
+// SAFETY: repr(C), struct_size first.
+unsafe impl Versioned for CSceneQuery {
+    const NAME: &'static str = "swift_scene_query";
+    const FIRST_SIZE: usize = size_of::<CSceneQuery>();
+}
+
+impl CSceneQuery {
+    const DEFAULT: CSceneQuery = CSceneQuery {
+        struct_size: size_of::<CSceneQuery>(),
+        distance_tolerance: f64::INFINITY,
+        early_exit: 0,
+        bounds: Bounds::Tight as i32,
+        absolute_error: 0.0,
+        relative_error: 0.0,
+        error_budget: f64::INFINITY,
+        step_budget: u32::MAX,
+        levels: Levels::Automatic as i32,
+        refinement: Refinement::Adaptive as i32,
+    };
+}
+
+/// What a query over a scene found.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CSceneAnswer {
+    /// The pairs that the query lists, by object 1, object 2, piece 1, piece 2, objects in order of creation. Owned by the
+    /// scene, valid until its next call that takes it by a pointer that is not const. Null when count is 0.
+    pub pairs: *const PairResult,
+    /// How many pairs.
+    pub count: usize,
+    /// 1 if any tested pair intersects, else 0.
+    pub intersecting: i32,
+}
+
+impl CSceneAnswer {
+    const EMPTY: CSceneAnswer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0 };
+}
+
+/// Fills `query` with the defaults, struct_size included.
+///
+/// SWIFT_ERROR_NULL_POINTER: query is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe { output(query, "query", CSceneQuery::DEFAULT) })
+}
+
+/// Lists the intersecting pairs (touching ones are), each with its verdict alone. `query` may be null for the defaults.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
+/// then. What a scene has accepted it answers: no pair makes a query fail.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_intersection(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_intersection, scene, query, answer) }
+}
+
+/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Errors as of
+/// swift_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_tolerance(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_tolerance, scene, query, answer) }
+}
+
+/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swift_pair_distance
+/// says of each. Errors as of swift_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_exact_distance(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_exact_distance, scene, query, answer) }
+}
+
+/// As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+/// for and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+/// (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_approximate_distance(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_approximate_distance, scene, query, answer) }
+}
+
+/// As swift_scene_query_exact_distance, with what swift_pair_contact says of each pair. Errors as of
+/// swift_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_query_contacts(
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { ask(Scene::query_contacts, scene, query, answer) }
+}
+
+/// What the queries of a scene did since it was made or swift_scene_reset_statistics was called.
+///
+/// SWIFT_ERROR_NULL_POINTER: scene or statistics is null. SWIFT_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_get_statistics(
+    scene: *const SceneHandle,
+    statistics: *mut SceneStatistics,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe { output(statistics, "statistics", *look(scene)?.statistics()) })
+}
+
+/// Sets the statistics of a scene to zero.
+///
+/// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_scene_reset_statistics(scene: *mut SceneHandle) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        change(scene, |scene| {
+            scene.reset_statistics();
+            Ok(())
+        })
+    }
+}
+
+// --- What the functions above share --------------------------------------------------------------------------------------
+
+/// Runs a query and shows its results where the scene has them.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+unsafe fn ask(
+    run: for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<SceneAnswer<'a>>,
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    let mut found = CSceneAnswer::EMPTY;
+    // SAFETY: by the caller.
+    let status = unsafe {
+        change(scene, |scene| {
+            let query = read_struct(query, CSceneQuery::DEFAULT)?;
+            let query = SceneQuery {
+                early_exit: query.early_exit != 0,
+                distance_tolerance: query.distance_tolerance,
+                bounds: read_enumerator(query.bounds, "query->bounds", "swift_bounds")?,
+                absolute_error: query.absolute_error,
+                relative_error: query.relative_error,
+                error_budget: query.error_budget,
+                step_budget: query.step_budget,
+                levels: read_enumerator(query.levels, "query->levels", "swift_levels")?,
+                refinement: read_enumerator(query.refinement, "query->refinement", "swift_refinement")?,
+            };
+            let listed = run(scene, &query)?;
+            if !listed.pairs.is_empty() {
+                found.pairs = listed.pairs.as_ptr();
+            }
+            found.count = listed.pairs.len();
+            found.intersecting = i32::from(listed.intersecting);
+            Ok(())
+        })
+    };
+    // SAFETY: by the caller.
+    match guard(|| unsafe { output(answer, "answer", found) }) {
+        StatusCode::Ok => status,
+        failure => failure,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::library::swift_library_last_error_message;
+    use super::super::object::swift_scene_add_object;
+    use super::super::scene::{swift_scene_activate_all, swift_scene_create, swift_scene_destroy};
+    use super::*;
+    use crate::math::Vector;
+    use crate::object::ObjectId;
+    use crate::shape::{Shape, ShapeOptions};
+    use std::ffi::CStr;
+    use std::ptr::{null, null_mut};
+    use std::sync::Arc;
+
+    fn last_message() -> String {
+        let message = swift_library_last_error_message();
+        // SAFETY: never null, terminated, and unchanged until the next failure of this thread.
+        unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned()
+    }
+
+    fn new_scene() -> *mut SceneHandle {
+        let mut scene = null_mut();
+        // SAFETY: null options, and room for a pointer.
+        assert_eq!(unsafe { swift_scene_create(null(), &mut scene) }, StatusCode::Ok);
+        scene
+    }
+
+    #[test]
+    fn a_panic_becomes_a_status_with_its_message_and_poisons_its_scene_only() {
+        let (broken, sound) = (new_scene(), new_scene());
+        // SAFETY: living scenes, used by this thread only, and room for every output.
+        unsafe {
+            let status = change(broken, |_| panic!("injected {}", 42));
+            assert_eq!(status, StatusCode::ErrorBug);
+            assert!(last_message().contains("injected 42"), "{}", last_message());
+            assert!(last_message().contains("query.rs"), "{}", last_message());
+
+            let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7 };
+            let mut statistics = SceneStatistics::default();
+            assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!((answer.count, answer.intersecting), (0, 0));
+            assert_eq!(swift_scene_activate_all(broken), StatusCode::ErrorPoisoned);
+            assert_eq!(swift_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
+            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
+        }
+    }
+
+    #[test]
+    fn a_panic_in_a_query_poisons_its_scene_and_none_that_shares_its_shapes() {
+        let corners = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
+        let shape = Arc::new(Shape::from_points(&corners, &ShapeOptions::default()).unwrap());
+        let (broken, sound) = (new_scene(), new_scene());
+        let pieces = [Arc::as_ptr(&shape)];
+        let mut id = ObjectId::NULL;
+        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7 };
+        // SAFETY: living scenes, used by this thread only, a living shape, and room for every output.
+        unsafe {
+            for scene in [broken, broken, sound, sound] {
+                assert_eq!(swift_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
+            }
+            let run = |scene: &mut Scene, query: &SceneQuery| -> Result<SceneAnswer<'static>> {
+                // Half of it is done.
+                let _ = scene.query_contacts(query);
+                panic!("injected")
+            };
+            assert_eq!(ask(run, broken, null(), &mut answer), StatusCode::ErrorBug);
+            assert_eq!((answer.count, answer.intersecting), (0, 0));
+            assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!((answer.count, answer.intersecting), (1, 1));
+            assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
+            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
+        }
+        assert_eq!(Arc::strong_count(&shape), 1, "a poisoned scene gives its shares back, too");
+    }
+}
