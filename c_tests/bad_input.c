@@ -78,7 +78,8 @@ static void meshes(void)
     }
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "points", swift_shape_create_from_points(NULL, 4, NULL, &shape));
     CHECK_FAILS(SWIFT_ERROR_LIMIT, "points", swift_shape_create_from_points(CORNERS, SIZE_MAX / 8, NULL, &shape));
-    CHECK(swift_shape_create_from_points(CORNERS, 0, NULL, &shape) != SWIFT_OK && shape == NULL);
+    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "at least one point", swift_shape_create_from_points(CORNERS, 0, NULL, &shape));
+    CHECK(shape == NULL);
     CHECK_FAILS(SWIFT_ERROR_MESH, "interior", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_FLAT", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_HULL", swift_shape_create_from_points(CORNERS, 2, NULL, &shape));
@@ -145,7 +146,7 @@ static void files(const char *folder)
 
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "path", swift_shape_create_from_file(NULL, NULL, &shape));
     CHECK_FAILS(SWIFT_ERROR_FILE, "no-such-file.off", swift_shape_create_from_file("no-such-file.off", NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_FILE, "", swift_shape_create_from_file(folder, NULL, &shape));
+    CHECK_FAILS(SWIFT_ERROR_FILE, folder, swift_shape_create_from_file(folder, NULL, &shape));
     for (i = 0; i < sizeof garbage; ++i) {
         state = state * 1664525u + 1013904223u;
         garbage[i] = (char)(state >> 24);
@@ -212,7 +213,7 @@ static void pairs(void)
     CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
     CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
     CHECK_FAILS(SWIFT_ERROR_POSE, "reflection", swift_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "", swift_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
+    CHECK_FAILS(SWIFT_ERROR_POSE, "entry 0", swift_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
     CHECK_OK(swift_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
     CHECK_OK(swift_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
@@ -239,17 +240,17 @@ static void pairs(void)
     CHECK_OK(swift_pair_distance(shape, HERE, shape, THERE, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFT_OUTCOME_SEPARATED && answer.lower <= 2 && 2 <= answer.upper);
     CHECK_OK(swift_pair_verify(shape, HERE, shape, THERE, &answer));
-    CHECK_FAILS(SWIFT_ERROR_UNVERIFIED, "", swift_pair_verify(shape, HERE, shape, HERE, &answer));
+    CHECK_FAILS(SWIFT_ERROR_UNVERIFIED, "apart", swift_pair_verify(shape, HERE, shape, HERE, &answer));
     memset(&answer, 0x7f, sizeof answer);
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "outcome", swift_pair_verify(shape, HERE, shape, THERE, &answer));
     memset(&answer, 0, sizeof answer);
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "outcome", swift_pair_verify(shape, HERE, shape, THERE, &answer));
     answer.outcome = SWIFT_OUTCOME_INTERSECTING;
     answer.proof_count = UINT32_MAX;
-    CHECK(swift_pair_verify(shape, HERE, shape, THERE, &answer) != SWIFT_OK);
+    CHECK_FAILS(SWIFT_ERROR_UNVERIFIED, "4294967295 vertex pairs", swift_pair_verify(shape, HERE, shape, THERE, &answer));
     answer.proof_count = 4;
     answer.proof[3][1] = UINT32_MAX;
-    CHECK(swift_pair_verify(shape, HERE, shape, THERE, &answer) != SWIFT_OK);
+    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "vertex", swift_pair_verify(shape, HERE, shape, THERE, &answer));
 
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {

@@ -41,17 +41,43 @@ fn assert_contains(level: &Polyhedron, base: &Polyhedron) {
     }
 }
 
-/// Against what an experiment had found, with 15 % of room: for the plate of 124 planes it takes 9 %.
+/// The polyhedron of as many planes that touch an ellipsoid where a Fibonacci spiral touches the ball that it was made from (R.
+/// Swinbank, R. J. Purser, "Fibonacci grids", 2006): what one would do without looking at the body.
+fn spread_evenly(half_axes: [f64; 3], count: usize) -> Polyhedron {
+    let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+    let normals: Vec<Vector> = (0..count)
+        .map(|i| {
+            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
+            let (sine, cosine) = (golden_angle * i as f64).sin_cos();
+            Vector::new(cosine, sine, 0.0) * (1.0 - z * z).sqrt() + Vector::z() * z
+        })
+        .collect();
+    // Planes n·x = 1 meet where the polar of the normals' hull has its vertices.
+    let polar = hull(&normals);
+    let corners: Vec<Vector> = polar
+        .triangles
+        .iter()
+        .map(|corners| {
+            let [a, b, c] = corners.map(|v| polar.vertices[v as usize].position + polar.centre);
+            let normal = (b - a).cross(&(c - a));
+            (normal / normal.dot(&a)).component_mul(&Vector::from(half_axes))
+        })
+        .collect();
+    hull(&corners)
+}
+
+/// On a ball there is nothing to look at; on thin bodies planes spread evenly are wasted.
 #[test]
-fn they_stand_off_no_more_than_expected() {
+fn they_stand_off_less_than_planes_spread_evenly() {
     const COUNTS: [usize; 4] = [12, 28, 60, 124];
-    let expected = [[0.73, 0.15, 0.067, 0.034], [0.14, 0.08, 0.025, 0.0105], [0.12, 0.032, 0.0105, 0.0051]];
-    for ((name, half_axes), expected) in ELLIPSOIDS.into_iter().zip(expected) {
+    for (name, half_axes) in ELLIPSOIDS {
         let body = hull(&ellipsoid(half_axes, 1002).unwrap().vertices);
-        for ((level, count), expected) in levels(&body, &COUNTS).iter().zip(COUNTS).zip(expected) {
+        for (level, count) in levels(&body, &COUNTS).iter().zip(COUNTS) {
             let reached = deviation(level, &body) / body.mass.radius;
-            println!("{name}, {count} planes: {reached:.4}, expected {expected}");
-            assert!(reached <= 1.15 * expected, "{name}, {count} planes: {reached}");
+            let even = deviation(&spread_evenly(half_axes, count), &body) / body.mass.radius;
+            println!("{name}, {count} planes: {reached:.4}, spread evenly {even:.4}");
+            let most = if half_axes == [1.0; 3] { even } else { 0.5 * even };
+            assert!(reached <= most, "{name}, {count} planes: {reached}");
             assert_eq!(level.faces.len(), count);
             assert!(level.vertices.len() <= 2 * count - 4);
             assert_contains(level, &body);

@@ -158,11 +158,11 @@ fn a_bad_pose_is_refused_and_the_object_stays() {
     let mut scene = scene();
     let ids = cubes(&mut scene, &[0.0, 2.0]);
     let mut numbers = [1.0, 0.0, 0.0, 5.0, 0.0, 1.0, 0.0, 6.0, 0.0, 0.0, 1.0, 7.0];
-    for bad in [f64::NAN, f64::INFINITY, 1.1] {
+    for (bad, part) in [(f64::NAN, "entry 5"), (f64::INFINITY, "entry 5"), (1.1, "orthonormal")] {
         numbers[5] = bad;
-        refused(scene.set_pose(ids[0], &Pose::from_row_major(&numbers)), "");
+        refused(scene.set_pose(ids[0], &Pose::from_row_major(&numbers)), part);
         let options = ObjectOptions { pose: Pose::from_row_major(&numbers), ..Default::default() };
-        refused(scene.add_object(vec![cuboid([1.0; 3])], &options), "");
+        refused(scene.add_object(vec![cuboid([1.0; 3])], &options), part);
     }
     numbers[5] = -1.0;
     refused(scene.set_pose(ids[0], &Pose::from_row_major(&numbers)), "reflection");

@@ -219,24 +219,3 @@ fn given_levels_go_through_the_input_transform() {
     let hierarchy = HierarchyOptions { kind: HierarchyKind::Quadric, ..HierarchyOptions::default() };
     assert!(message(&[fine], &ShapeOptions { hierarchy, ..ShapeOptions::default() }).contains("built"));
 }
-
-/// n log n at worst: ten times as many triangles take about 13 times as long. Quadratic work would take a hundred times. The best
-/// of three ratios, because other programs may take the machine's time.
-#[test]
-fn build_time_grows_like_n_log_n() {
-    let bodies = [1002, 10002].map(|n| polyhedron(&ellipsoid([1.0, 1.0, 0.1], n).unwrap()));
-    for kind in KINDS {
-        let options = HierarchyOptions { kind, ..HierarchyOptions::default() };
-        let time = |body: &Polyhedron| {
-            let start = std::time::Instant::now();
-            std::hint::black_box(built(body, &options));
-            start.elapsed().as_secs_f64()
-        };
-        let ratio = |_| {
-            let [small, large] = bodies.each_ref().map(time);
-            large / small
-        };
-        let best = (0..3).map(ratio).fold(f64::INFINITY, f64::min);
-        assert!(best < 40.0, "{kind:?}: {best}");
-    }
-}
