@@ -1,9 +1,8 @@
 //! The check of answers: right ones pass however odd the bodies, wrong ones do not.
 
-use swiftprox::answer::{Feature, FeatureKind, Outcome};
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 

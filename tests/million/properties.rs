@@ -3,9 +3,10 @@
 use std::fmt;
 use std::ops::AddAssign;
 
-use swiftprox::answer::{Feature, FeatureKind};
 use swiftprox::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
+use swiftprox::pair::{
+    Bounds, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection,
+};
 use swiftprox::verify::verify;
 
 use crate::bodies::Body;
