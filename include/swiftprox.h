@@ -376,7 +376,7 @@ typedef struct swift_pair_config {
   size_t struct_size;
   /** Pairs farther apart than this are answered with SWIFT_OUTCOME_BEYOND; +infinity (the default): none. */
   double distance_tolerance;
-  /** Largest accepted |R^T R - I| entry, at most (and by default) 1e-2. */
+  /** Largest accepted |R^T R - I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2. */
   double rotation_limit;
   /** Which interval. */
   swift_bounds bounds;
@@ -674,8 +674,8 @@ swift_status swift_shape_create_from_mesh(const double *vertices,
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults, which refuse a hull without interior.
  *
- * SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate
- * that is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
+ * SWIFT_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
+ * SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
  * options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_points(const double *points,

@@ -2,6 +2,7 @@
 //! and where: which face, which vertex, which line of which file.
 
 use std::fmt;
+use std::ops::RangeInclusive;
 
 /// Everything that can go wrong in this library.
 #[derive(Debug, Clone, PartialEq)]
@@ -28,6 +29,14 @@ pub enum Error {
 
 /// The result type of every fallible function of this crate.
 pub type Result<T> = std::result::Result<T, Error>;
+
+/// Refuses a number of the caller's that is out of range or none, by the name it has in Rust and in C.
+pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -> Result<()> {
+    if range.contains(&number) {
+        return Ok(());
+    }
+    Err(Error::Argument(format!("{name} is {number:?}, it must be from {} to {}", range.start(), range.end())))
+}
 
 impl Error {
     /// The message without the kind.

@@ -29,6 +29,7 @@ use std::collections::VecDeque;
 
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::mesh::check_vertex;
 use crate::predicates::{ExactPoints, FilteredPlane};
 use crate::progress::Progress;
 
@@ -62,7 +63,7 @@ const NONE: u32 = u32::MAX;
 /// The exact convex hull of `points`.
 ///
 /// # Errors
-/// No points, more than 2³⁰, or one that is not finite.
+/// [`Error::Argument`] for no points, [`Error::Limit`] for more than 2³⁰, [`Error::Mesh`] for one that is not finite.
 pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
     convex_hull_in_steps(points, &mut Progress::new(&mut |_| true))
 }
@@ -78,9 +79,7 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
     if points.len() > MOST_POINTS {
         return Err(Error::Limit(format!("{} points; a convex hull takes at most {MOST_POINTS}", points.len())));
     }
-    if let Some(i) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        return Err(Error::Argument(format!("point {i} is not finite: {:?}", points[i].as_slice())));
-    }
+    points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))?;
     let exact = ExactPoints::new(points);
     match AffineBasis::find(points, &exact) {
         AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: vec![a], triangles: Vec::new() }),

@@ -13,7 +13,7 @@ use std::collections::HashMap;
 use crate::error::{Error, Result};
 use crate::hull_build::convex_hull;
 use crate::math::Vector;
-use crate::mesh::PolygonMesh;
+use crate::mesh::{PolygonMesh, check_vertex};
 use edges::match_edges;
 
 /// Checks a mesh in the caller's numbering against the contract of `docs/conventions.md`. `tolerance` is the
@@ -77,10 +77,7 @@ fn check_indices(mesh: &PolygonMesh) -> Result<()> {
             return violation(format!("face {f}: corner {i} is vertex {v}, there are {count} vertices"));
         }
     }
-    match mesh.vertices.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-        Some(v) => violation(format!("vertex {v} is not finite: {:?}", mesh.vertices[v].as_slice())),
-        None => Ok(()),
-    }
+    mesh.vertices.iter().enumerate().try_for_each(|(v, vertex)| check_vertex(v, vertex))
 }
 
 /// The faces over merged vertices: exactly equal ones are replaced by the first, and a vertex that

@@ -116,7 +116,11 @@ fn starts_from_valences(valences: &[u32], index_count: u32) -> Result<Vec<u32>> 
     }
 }
 
-fn check_vertex(v: usize, position: &Vector) -> Result<()> {
+/// Refuses a vertex with a coordinate that is not finite.
+///
+/// # Errors
+/// [`Error::Mesh`], naming vertex and coordinate.
+pub(crate) fn check_vertex(v: usize, position: &Vector) -> Result<()> {
     match position.iter().zip(["x", "y", "z"]).find(|(x, _)| !x.is_finite()) {
         None => Ok(()),
         Some((x, axis)) => Err(Error::Mesh(format!("vertex {v}: {axis} is not finite ({x})"))),

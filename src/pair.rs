@@ -2,6 +2,8 @@
 
 mod levels;
 
+pub(crate) use levels::check_accuracy;
+
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
 use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
 use crate::contact;
@@ -9,7 +11,7 @@ use crate::contact_direction::contact_direction;
 pub use crate::descent::Refinement;
 use crate::descent::{Accuracy, Leveled, Place};
 use crate::enclosure::encloses_origin;
-use crate::error::{Error, Result};
+use crate::error::{Result, check_range};
 use crate::exact::VertexPair;
 use crate::frame::{Frame, RIGID_TOGETHER};
 use crate::marching::{self, March, Step};
@@ -146,7 +148,7 @@ pub struct PairConfig {
     pub struct_size: usize,
     /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
     pub distance_tolerance: f64,
-    /// Largest accepted |RᵀR − I| entry, at most (and by default) 1e-2.
+    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2.
     pub rotation_limit: f64,
     /// Which interval.
     pub bounds: Bounds,
@@ -298,12 +300,9 @@ fn query(
     }
 }
 
-#[cold]
-fn bad_config(config: &PairConfig) -> Error {
-    Error::Argument(format!(
-        "distance_tolerance ({}) and rotation_limit ({}) are to be non-negative numbers",
-        config.distance_tolerance, config.rotation_limit
-    ))
+fn check_config(config: &PairConfig) -> Result<()> {
+    check_range("distance_tolerance", config.distance_tolerance, 0.0..=f64::INFINITY)?;
+    check_range("rotation_limit", config.rotation_limit, 0.0..=f64::INFINITY)
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -578,9 +577,7 @@ impl PairQuery<'_> {
     /// The whole query, for what is not the common case from the start.
     #[cold]
     fn begin(&mut self, shapes: [&Shape; 2]) -> Result<()> {
-        if !(self.config.distance_tolerance >= 0.0 && self.config.rotation_limit >= 0.0) {
-            return Err(bad_config(self.config));
-        }
+        check_config(self.config)?;
         if !self.config.start.asks_cache() {
             // Those of a query that is refused would find their cache forgotten.
             for pose in self.poses {

@@ -8,7 +8,7 @@
 use std::sync::Arc;
 
 use crate::activation::Activation;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_range};
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
@@ -188,11 +188,7 @@ impl Scene {
     /// [`Error::Argument`] for a rotation limit that is negative, NaN or above [`ROTATION_LIMIT`].
     pub fn new(options: &SceneOptions) -> Result<Scene> {
         let rotation_limit = options.rotation_limit;
-        if !(0.0..=ROTATION_LIMIT).contains(&rotation_limit) {
-            return Err(Error::Argument(format!(
-                "the rotation limit is {rotation_limit:e}, it must be from 0 to {ROTATION_LIMIT:e}"
-            )));
-        }
+        check_range("rotation_limit", rotation_limit, 0.0..=ROTATION_LIMIT)?;
         Ok(Scene {
             objects: ObjectTable::new(),
             activation: Activation::default(),
@@ -467,12 +463,8 @@ impl Scene {
     /// of 0.
     pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
-        if !(absolute_error >= 0.0 && relative_error >= 0.0 && error_budget >= 0.0 && step_budget > 0) {
-            return Err(Error::Argument(format!(
-                "the errors ({absolute_error}, {relative_error}) and their budget ({error_budget}) must be from 0 to +∞, \
-                 the step budget ({step_budget}) at least 1"
-            )));
-        }
+        pair::check_accuracy(absolute_error, relative_error, step_budget)?;
+        check_range("error_budget", error_budget, 0.0..=f64::INFINITY)?;
         self.run(query, distance_tolerance, pair::approximate, |answer| within(answer, distance_tolerance))
     }
 
@@ -494,10 +486,7 @@ impl Scene {
         solver: Solver,
         listed: impl Fn(&PairAnswer) -> bool,
     ) -> Result<SceneAnswer<'_>> {
-        let given = query.distance_tolerance;
-        if given.is_nan() || given < 0.0 {
-            return Err(Error::Argument(format!("the distance tolerance is {given}, it must be from 0 to +∞")));
-        }
+        check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
         self.update_pairs()?;
         self.results.clear();
         self.statistics.queries += 1;

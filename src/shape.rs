@@ -3,13 +3,14 @@
 use std::path::Path;
 
 use crate::double_double::{DoubleDouble, two_product};
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::hull_build::convex_hull_in_steps;
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
-use crate::lookup_build::{LookupOptions, build_lookup};
+use crate::lookup_build::build_lookup;
+pub use crate::lookup_build::{LookupKind, LookupOptions};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
-use crate::mesh::PolygonMesh;
+use crate::mesh::{PolygonMesh, check_vertex};
 use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::build_in_steps;
@@ -108,9 +109,9 @@ impl Shape {
         }
         let mesh = PolygonMesh { vertices: transformed(&mesh.vertices, options)?, ..mesh.clone() };
         let tolerance = match options.convexity_tolerance {
-            Some(tolerance) if tolerance >= 0.0 && tolerance.is_finite() => tolerance,
             Some(tolerance) => {
-                return Err(Error::Argument(format!("the convexity tolerance {tolerance:e} is not finite and ≥ 0")));
+                check_range("convexity_tolerance", tolerance, 0.0..=f64::MAX)?;
+                tolerance
             }
             None if mesh.single_precision => SINGLE_PRECISION_CONVEXITY_TOLERANCE,
             None => CONVEXITY_TOLERANCE,
@@ -133,7 +134,7 @@ impl Shape {
     /// The convex hull of points. A face's label is its own index.
     ///
     /// # Errors
-    /// [`Error::Argument`] for options out of range, no points or one that is not finite; [`Error::Mesh`] for a hull whose
+    /// [`Error::Argument`] for options out of range and no points; [`Error::Mesh`] for a point that is not finite and a hull whose
     /// dimension the policy does not admit.
     pub fn from_points(points: &[Vector], options: &ShapeOptions) -> Result<Shape> {
         Shape::from_points_in_steps(points, options, &mut Progress::new(&mut |_| true))
@@ -188,7 +189,11 @@ impl Shape {
         let mut points = Vec::with_capacity(levels.len());
         for (i, level) in levels.iter().enumerate() {
             let moved = transformed(&level.vertices, options);
-            points.push(moved.map_err(|e| Error::Argument(format!("level {}: {}", i + 1, e.message())))?);
+            let in_level = |message: String| format!("level {}: {message}", i + 1);
+            points.push(moved.map_err(|error| match error {
+                Error::Mesh(message) => Error::Mesh(in_level(message)),
+                other => Error::Argument(in_level(other.to_string())),
+            })?);
         }
         let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
         Ok(Shape { polyhedron, hierarchy })
@@ -253,7 +258,7 @@ impl Shape {
 fn transformed(points: &[Vector], options: &ShapeOptions) -> Result<Vec<Vector>> {
     let ShapeOptions { rotation, translation, scale, .. } = options;
     if !(*scale > 0.0 && scale.is_finite()) {
-        return Err(Error::Argument(format!("the input scale {scale:e} is not positive and finite")));
+        return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
     }
     Pose::new(rotation, translation)
         .check(ROTATION_LIMIT)
@@ -269,6 +274,7 @@ fn transformed(points: &[Vector], options: &ShapeOptions) -> Result<Vec<Vector>>
         (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
     };
     let transform = |(v, p): (usize, &Vector)| {
+        check_vertex(v, p)?;
         let image = Vector::from_fn(|row, _| coordinate(p, row));
         if image.iter().all(|x| x.is_finite()) {
             Ok(image)

@@ -294,9 +294,9 @@ fn bad_points_are_named() {
     assert!(convex_hull(&[]).is_err());
     let points = [Vector::zeros(), Vector::new(0.0, f64::NAN, 0.0)];
     let message = convex_hull(&points).unwrap_err().to_string();
-    assert!(message.contains("point 1"), "{message}");
+    assert!(message.contains("vertex 1: y"), "{message}");
     let points = [Vector::new(f64::NEG_INFINITY, 0.0, 0.0)];
-    assert!(convex_hull(&points).unwrap_err().to_string().contains("point 0"));
+    assert!(convex_hull(&points).unwrap_err().to_string().contains("vertex 0: x"));
 }
 
 /// The proof is worth something only if it fails on what is no hull.

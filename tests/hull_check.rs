@@ -193,7 +193,7 @@ fn broken_indices_are_named() {
     refused(&m, 1e-9, &["starts"]);
     let mut m = cube();
     m.vertices[3].y = f64::NAN;
-    refused(&m, 1e-9, &["vertex 3 is not finite"]);
+    refused(&m, 1e-9, &["vertex 3: y is not finite"]);
     refused(&PolygonMesh::default(), 1e-9, &["no vertices"]);
     let mut m = cube();
     m.vertices.push(Vector::new(0.5, 0.5, 0.5));

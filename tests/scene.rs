@@ -186,7 +186,7 @@ fn the_pose_limit_is_the_scenes() {
     refused(strict.set_pose(id, &stretched), "orthonormal");
     refused(strict.set_all_poses(&[stretched]), "pose 0 of 1");
     for rotation_limit in [-1e-9, 2.0 * ROTATION_LIMIT, f64::NAN] {
-        refused(Scene::new(&SceneOptions { rotation_limit }), "rotation limit");
+        refused(Scene::new(&SceneOptions { rotation_limit }), "rotation_limit");
     }
 }
 

@@ -29,7 +29,7 @@ fn check(points: &[Vector]) {
     let hull = match convex_hull(points) {
         Ok(hull) => hull,
         Err(error) => {
-            assert!(!finite && matches!(error, Error::Argument(_)), "{error:?} for {points:?}");
+            assert!(!finite && matches!(error, Error::Mesh(_)), "{error:?} for {points:?}");
             return;
         }
     };

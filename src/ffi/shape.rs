@@ -102,8 +102,8 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults, which refuse a hull without interior.
 ///
-/// SWIFT_ERROR_MESH: the options do not admit a hull of that dimension. SWIFT_ERROR_INVALID_ARGUMENT: no points, a coordinate
-/// that is not finite, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
+/// SWIFT_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
+/// SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
 /// options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_points(

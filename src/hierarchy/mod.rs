@@ -14,6 +14,7 @@ use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::mesh::check_vertex;
 use crate::outer_cuts::outer_cuts;
 use crate::point_distance::PointDistance;
 use crate::polyhedron::Polyhedron;
@@ -187,8 +188,8 @@ impl Hierarchy {
     /// its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains P₀.
     ///
     /// # Errors
-    /// [`Error::Mesh`] for a level without interior or so thin that no rounding makes it contain P₀, [`Error::Argument`] for a
-    /// coordinate that is not finite or a body too small or too large (2^±200), [`Error::Cancelled`].
+    /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it contain
+    /// P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`].
     pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
         let centred = centred(base);
         let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
@@ -200,11 +201,8 @@ impl Hierarchy {
             let done = |k: usize| k as f64 / levels.len() as f64;
             let mut part = progress.part(done(i), done(i + 1));
             part.report(0.0)?;
-            if let Some(p) = points.iter().position(|p| !p.iter().all(|x| x.is_finite())) {
-                return Err(Error::Argument(format!(
-                    "vertex {p} of level {number} is not finite: {:?}",
-                    points[p].as_slice()
-                )));
+            for (v, point) in points.iter().enumerate() {
+                check_vertex(v, point).map_err(|e| Error::Mesh(format!("level {number}: {e}")))?;
             }
             let points = translated(points, &-base.centre);
             if !builder.add_in_general(&points, &mut part)? {

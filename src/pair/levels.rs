@@ -3,13 +3,13 @@
 
 use super::{
     Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
-    Statistics, Status, TRIAL_STEPS, bad_config, has_jumped, set_interval, step_limit,
+    Statistics, Status, TRIAL_STEPS, check_config, has_jumped, set_interval, step_limit,
 };
 use crate::certificate::Interval;
 use crate::contact;
 use crate::descent::{Accuracy, Descended, Descent, Found};
 use crate::enclosure::encloses_origin;
-use crate::error::{Error, Result};
+use crate::error::{Error, Result, check_range};
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
 use crate::lookup::Table;
@@ -31,26 +31,28 @@ pub(super) fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    // A NaN is not.
     if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
-        return Err(bad_accuracy(config));
+        check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
     }
     if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
     }
-    if !(config.distance_tolerance >= 0.0 && config.rotation_limit >= 0.0) {
-        return Err(bad_config(config));
-    }
+    check_config(config)?;
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     PairQuery { query: Query::Approximate, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
 
-#[cold]
-fn bad_accuracy(config: &PairConfig) -> Error {
-    Error::Argument(format!(
-        "absolute_error ({}) and relative_error ({}) are to be non-negative numbers, step_budget ({}) at least 1",
-        config.absolute_error, config.relative_error, config.step_budget
-    ))
+/// Refuses error tolerances and step budgets that are none.
+///
+/// # Errors
+/// [`Error::Argument`], naming the first.
+pub(crate) fn check_accuracy(absolute_error: f64, relative_error: f64, step_budget: u32) -> Result<()> {
+    check_range("absolute_error", absolute_error, 0.0..=f64::INFINITY)?;
+    check_range("relative_error", relative_error, 0.0..=f64::INFINITY)?;
+    if step_budget == 0 {
+        return Err(Error::Argument("step_budget is 0, it must be at least 1".into()));
+    }
+    Ok(())
 }
 
 impl PairQuery<'_> {
