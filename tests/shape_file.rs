@@ -192,3 +192,46 @@ fn forged_files_give_a_sound_shape_or_an_error() {
     // A label may be any number, and a coordinate may change by a little.
     assert!(accepted > 100 && refused > 1000, "{accepted} {refused}");
 }
+
+/// One vertex 10⁸ times as far out as the others. Found by fuzzing.
+#[test]
+fn levels_of_a_body_with_a_far_vertex_come_back() {
+    let points = [
+        [0.9999999999999993, 7.0, 3.375],
+        [3.3749999999999973, -2.25, 0.0],
+        [-0.875, -0.8750000000000011, 20.0],
+        [-2.0, 30.0, -30.0],
+        [0.0, 2.5, -1.375],
+        [7.0, -0.125, 26.0],
+        [1e-9, 1.375, 8.0],
+        [-2.375, 0.0, -32.0],
+        [-32.0, -32.00000000000011, 32.00000000000011],
+        [3.625, 3.625000000000001, 2.0],
+        [1.999999999999998, -6.01220703125, -6.012207031249994],
+        [7.0, 7.000000000000007, -17.0],
+        [-4.0, -6.01220703125, -6.012207031249994],
+        [7.0, 7.000000000000007, -17.0],
+        [10.0, -3.25, 16.0],
+        [16.0, 0.0, 0.1],
+        [858993459.2, 858993459.2000008, -858993459.2000008],
+        [-3.25, -9.0, -0.375],
+        [2.5, -32.0, -30.0],
+        [-30.00000000000002, 0.0, 0.5],
+    ];
+    let hierarchy = HierarchyOptions {
+        kind: HierarchyKind::DobkinKirkpatrick,
+        decimation: 0.75,
+        minimum_triangles: 7,
+        ..HierarchyOptions::default()
+    };
+    let lookup = LookupOptions { kind: LookupKind::Spherical, resolution: 8, radius_factor: 2.0 };
+    let options = ShapeOptions { input: InputPolicy::Hull, hierarchy, lookup, ..ShapeOptions::default() };
+    let shape = Shape::from_points(&points.map(Vector::from), &options).unwrap();
+    let loaded = from_bytes(&to_bytes(&shape)).unwrap();
+    assert_eq!(loaded.polyhedron(), shape.polyhedron());
+    for (i, (level, again)) in shape.hierarchy().levels.iter().zip(&loaded.hierarchy().levels).enumerate() {
+        assert_eq!(level.deviation, again.deviation, "level {i}");
+        assert_eq!(level.polyhedron, again.polyhedron, "level {i}");
+    }
+    assert_eq!(loaded, shape);
+}

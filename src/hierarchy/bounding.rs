@@ -4,7 +4,7 @@ use crate::containment::contains;
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::polyhedron::Polyhedron;
-use crate::polyhedron_build::build;
+use crate::polyhedron_build::{build, copy_labels};
 
 /// Growing a level that rounding left too small: so many times, each by four times as much as before.
 const ATTEMPTS: u32 = 16;
@@ -58,6 +58,7 @@ pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Sc
         for label in &mut level.vertex_labels {
             *label = hull.vertex_labels[*label as usize];
         }
+        copy_labels(&mut level);
         if level.centre == base.centre && contains(&level, base) {
             return Ok(Some(level));
         }

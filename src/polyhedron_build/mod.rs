@@ -136,8 +136,8 @@ fn are_distinct(numbers: &[u32]) -> bool {
     sorted.windows(2).all(|pair| pair[0] != pair[1])
 }
 
-/// Puts the labels where an answer reads them together with the feature.
-fn copy_labels(polyhedron: &mut Polyhedron) {
+/// Puts the labels where an answer reads them together with the feature; to be called when they have changed.
+pub fn copy_labels(polyhedron: &mut Polyhedron) {
     for edge in &mut polyhedron.edges {
         edge.labels = [edge.tail, edge.head].map(|v| polyhedron.vertex_labels[v as usize]);
     }
