@@ -287,20 +287,17 @@ def error_table(rows):
 
 
 def size_table(rows):
-    """Approximate distance at 1 % of the radius: the automatic choice without levels, and through levels."""
+    """Our settings by size: without levels, through levels, and which the automatic choice takes."""
     here = [r for r in rows if r["figure"] == "size"]
+    series = ("table alone", "levels and table", "automatic")
     lines = []
     for n in in_order(r["n"] for r in here):
         for step in in_order(r["step"] for r in here):
-            line = [f"{2 * n - 4:,}", step if step == "random" else step + "°"]
-            line.append(ns(mean(here, n=n, step=step, query="distance", series="automatic")))
-            for query in ("approximate", "intersection"):
-                for series in ("automatic", "levels and table", "4 levels"):
-                    line.append(ns(mean(here, n=n, step=step, query=query, series=series)))
+            line = [f"{2 * n - 4:,}, {step if step == 'random' else step + '°'}"]
+            line += [ns(mean(here, n=n, step=step, query=q, series=s)) for q in ("intersection", "approximate", "distance") for s in series]
             lines.append(line)
-    head = ["triangles", "motion", "exact, automatic"] + [f"{q}, {s}" for q in ("error 0.01", "intersection")
-                                                         for s in ("automatic", "levels and table", "4 levels")]
-    return table(head, lines)
+    head = [f"{q}: no levels | levels | automatic" for q in ("intersection", "error 0.01", "exact")]
+    return table(["triangles, motion", *" | ".join(head).split(" | ")], lines)
 
 
 PARTS = ("body", "table", "quadric", "outer cuts", "Dobkin-Kirkpatrick")

@@ -40,6 +40,7 @@ STYLES = {
     "3 levels": (GREEN, "", "3 levels"),
     "4 levels": (BROWN, "", "4 levels"),
     "levels and table": (TEAL, THIN, "quadric 0.25, from shells (ours)"),
+    "table alone": ("#41a1e0", THIN, "no levels, from shells (ours)"),
 }
 for colour, cut_off in ((BLUE, 20), (GREEN, 100), (RED, 250)):
     for dash, policy in (("", "Single"), (THIN, "Single-Single"), (DOTS, "Double-Double")):
@@ -150,7 +151,8 @@ def draw_error(head, rows):
     """Approximate distance over the error asked for, with intersection at the left end and exact distance at the right."""
     rows = [r for r in rows if r["figure"] == "error"]
     errors = sorted({r["error"] for r in rows if r["query"] == "approximate"}, reverse=True)
-    unit = {e: 0.16 + 0.68 * k / (len(errors) - 1) for k, e in enumerate(errors)}
+    most, least = math.log10(errors[0]), math.log10(errors[-1])
+    unit = {e: 0.16 + 0.68 * (most - math.log10(e)) / (most - least) for e in errors}
     decade = {e: f"1e{round(math.log10(e))}" if math.log10(e) % 1 in (0.0, 1.0) else "" for e in errors}
     ticks = [(0.04, "verdict")] + [(unit[e], decade[e]) for e in errors] + [(0.96, "exact")]
     for step in ("10", "random"):

@@ -130,8 +130,8 @@ impl Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum Levels {
-    /// Those that save time whatever the motion: none so far. From the look-up tables the bodies themselves answer as quickly,
-    /// but for coarse questions about large thin bodies.
+    /// Those that save time whatever the motion: of large bodies (30,000 vertices each), for intersection and for approximate queries
+    /// that they may answer. Smaller bodies themselves answer about as quickly, from their look-up tables.
     #[default]
     Automatic = 0,
     /// None.
@@ -235,7 +235,7 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query(Query::Intersection, [shape1, shape2], [pose1, pose2], cache, config, answer)
+    levels::intersection([shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which

@@ -353,6 +353,42 @@ fn coarse_questions_are_answered_by_coarse_levels() {
     }
 }
 
+/// The automatic choice: levels for what they may answer of large bodies, none for the rest; the answers hold the exact ones.
+#[test]
+fn levels_of_large_bodies_are_used_where_they_save_time() {
+    let hierarchy = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
+    let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+    let shape = |n| Shape::from_mesh(&ellipsoid([1.0, 1.0, 0.1], n).unwrap(), &options).unwrap();
+    let (large, small) = (shape(30_002), shape(1002));
+    let mut random = Random::new(17);
+    let mut by_levels = 0;
+    for round in 0..300 {
+        let pose1 = Pose::new(&random.rotation(), &Vector::zeros());
+        let pose2 = Pose::new(&random.rotation(), &(random.direction() * random.uniform(0.2, 3.0)));
+        for (shape, is_large) in [(&large, true), (&small, false)] {
+            let ask = |query: Query, absolute_error| {
+                let config = PairConfig { absolute_error, ..PairConfig::default() };
+                let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                query(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
+                answer
+            };
+            let exact = ask(pair::distance, 0.0);
+            assert_eq!(exact.statistics.levels, [0, 0]);
+            for (query, error) in
+                [(pair::intersection as Query, 0.0), (pair::approximate, 0.05), (pair::approximate, 1e-6)]
+            {
+                let answer = ask(query, error);
+                assert_eq!(answer.outcome, exact.outcome, "round {round}");
+                assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?} {exact:?}");
+                let levels = answer.statistics.levels != [0, 0];
+                assert!(!levels || (is_large && error != 1e-6), "{answer:?}");
+                by_levels += usize::from(levels);
+            }
+        }
+    }
+    assert!(by_levels > 300, "{by_levels}");
+}
+
 #[test]
 fn settings_out_of_range_are_refused() {
     let [a, b] = leveled_pair(HierarchyKind::None);

@@ -37,7 +37,7 @@ static const char HELP[] =
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
     "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
-    "  --levels auto         levels of detail where they save time whatever the motion: none so far (the default)\n"
+    "  --levels auto         no levels of detail: building them is not worth it for one file of poses (the default)\n"
     "  --levels none         no levels of detail\n"
     "  --levels quadric      build levels by quadric error simplification, and send all queries through them\n"
     "  --levels dk           the same with levels after Dobkin and Kirkpatrick\n"

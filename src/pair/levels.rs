@@ -12,6 +12,7 @@ use crate::enclosure::encloses_origin;
 use crate::error::{Error, Result, check_range};
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
+use crate::hierarchy::Level;
 use crate::lookup::Table;
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::overlap::Decision;
@@ -34,13 +35,62 @@ pub(super) fn approximate(
     if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
     }
+    if pay(shapes, config, config.absolute_error) {
+        let config = &PairConfig { levels: Levels::All, ..*config };
+        return through_levels(Query::Approximate, shapes, poses, cache, config, answer);
+    }
     if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
     }
+    through_levels(Query::Approximate, shapes, poses, cache, config, answer)
+}
+
+/// See [`super::intersection`].
+#[inline(always)]
+pub(super) fn intersection(
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    if pay(shapes, config, f64::INFINITY) {
+        let config = &PairConfig { levels: Levels::All, ..*config };
+        return through_levels(Query::Intersection, shapes, poses, cache, config, answer);
+    }
+    super::query(Query::Intersection, shapes, poses, cache, config, answer)
+}
+
+fn through_levels(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
     check_config(config)?;
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    PairQuery { query: Query::Approximate, polyhedra, poses, cache, config, answer }.descend(shapes)
+    PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
+
+/// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the tightest,
+/// may answer to within the error.
+#[inline(always)]
+fn pay([shape1, shape2]: [&Shape; 2], config: &PairConfig, error: f64) -> bool {
+    let [levels1, levels2] = [&shape1.hierarchy().levels, &shape2.hierarchy().levels];
+    if (levels1.is_empty() & levels2.is_empty()) | (config.levels != Levels::Automatic) {
+        return false;
+    }
+    let finest = |levels: &[Level]| levels.first().map_or(0.0, |level| level.deviation);
+    shape1.polyhedron().vertices.len() + shape2.polyhedron().vertices.len() >= MANY_VERTICES
+        && finest(levels1) + finest(levels2) < error
+}
+
+/// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the radius
+/// up to 1.5 times slower at 0.1°, 10° and random poses, 1.5 times faster at 1°), 60,004 (up to 1.1 times slower at 0.1°, 1.2 to 2.5 times
+/// faster elsewhere) and 200,004 vertices (1.4 to 5 times faster).
+const MANY_VERTICES: usize = 60_000;
 
 /// Refuses error tolerances and step budgets that are none.
 ///
