@@ -18,6 +18,7 @@ pub mod scene;
 pub mod object;
 pub mod query;
 
+use std::any::Any;
 use std::cell::{Cell, RefCell};
 use std::ffi::{CStr, CString, c_char};
 use std::mem::MaybeUninit;
@@ -112,16 +113,21 @@ impl From<Error> for Failure {
 fn guard(body: impl FnOnce() -> Checked<()>) -> StatusCode {
     let outside = INSIDE.replace(true);
     // Unwind safety: what a panic may leave half-changed is reset or poisoned by the entry points themselves.
-    let ended = catch_unwind(AssertUnwindSafe(body));
+    let ended = catch_unwind(AssertUnwindSafe(body)).map_err(discard);
     INSIDE.set(outside);
     match ended {
         Ok(Ok(())) => StatusCode::Ok,
         Ok(Err(failure)) => report(failure),
-        Err(payload) => {
-            // Dropping a payload may panic in its turn (no payload of ours does): forgetting it cannot.
-            std::mem::forget(payload);
-            report(bug())
-        }
+        Err(()) => report(bug()),
+    }
+}
+
+/// Frees what a panic carries. Dropping it may panic in its turn (no payload of ours does); what that one carries is forgotten.
+#[cold]
+#[inline(never)]
+fn discard(payload: Box<dyn Any + Send>) {
+    if let Err(another) = catch_unwind(AssertUnwindSafe(|| drop(payload))) {
+        std::mem::forget(another);
     }
 }
 
