@@ -10,12 +10,11 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::library::*;
-use swiftprox::ffi::scene::*;
 use swiftprox_fuzz::c_program::{Program, last_message};
 
 const MOST_CALLS: usize = 64;
 
-fuzz_target!(init: show_panics(), |bytes: &[u8]| {
+fuzz_target!(|bytes: &[u8]| {
     let mut program = Program::default();
     let mut u = Unstructured::new(bytes);
     for _ in 0..MOST_CALLS {
@@ -25,21 +24,6 @@ fuzz_target!(init: show_panics(), |bytes: &[u8]| {
     }
     program.end();
 });
-
-/// The library keeps panics of threads without a Rust name, as this one is, off the standard error; here they are to be seen.
-fn show_panics() {
-    let mut scene = std::ptr::null_mut();
-    // SAFETY: room for the scene, which is destroyed at once.
-    unsafe {
-        assert_eq!(swift_scene_create(std::ptr::null(), &mut scene), StatusCode::Ok);
-        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
-    }
-    let hook = std::panic::take_hook();
-    std::panic::set_hook(Box::new(move |info| {
-        eprintln!("{info}");
-        hook(info);
-    }));
-}
 
 fn step(program: &mut Program, u: &mut Unstructured) -> Result<()> {
     let status = program.call(u)?;

@@ -1,5 +1,6 @@
 //! A C program that arbitrary bytes write: what it holds, and one call after the other.
 
+mod approximate;
 mod arguments;
 mod model;
 mod scenes;
@@ -65,12 +66,20 @@ impl Program {
             18 => self.activate(u),
             19..=21 => self.scene_query(u),
             22 => self.statistics(u),
-            _ => library(u),
+            // At the end, so that the bytes of the corpus go on to mean the same calls.
+            _ => match u.int_in_range(0..=15)? {
+                call @ 0..=5 => library(u, call),
+                6..=9 => self.pair_query_through_levels(u),
+                10..=12 => self.scene_query_through_levels(u),
+                13 | 14 => self.shape_from_levels(u),
+                _ => self.set_log(u),
+            },
         }
     }
 
     /// Gives everything back.
     pub fn end(self) {
+        swift_library_set_log(None, null_mut());
         // SAFETY: all are alive, and none is used again.
         unsafe {
             for scene in &self.scenes {
@@ -100,10 +109,10 @@ unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answ
 }
 
 /// What has to do with no handle.
-fn library(u: &mut Unstructured) -> Result<StatusCode> {
+fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
     // SAFETY: what is null may be, by the header.
     Ok(unsafe {
-        match u.int_in_range(0..=5)? {
+        match call {
             0 => swift_shape_options_init(null_mut()),
             1 => swift_scene_options_init(null_mut()),
             2 => swift_pair_config_init(null_mut()),

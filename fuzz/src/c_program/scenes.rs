@@ -52,7 +52,7 @@ impl Program {
     }
 
     /// One of the scenes, made if there is none.
-    fn scene(&mut self, u: &mut Unstructured) -> Result<usize> {
+    pub fn scene(&mut self, u: &mut Unstructured) -> Result<usize> {
         if self.scenes.is_empty() {
             let mut handle = null_mut();
             // SAFETY: room for the scene.
@@ -398,7 +398,7 @@ impl Program {
 ///
 /// # Safety
 /// The scene lives and the result is its.
-unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
+pub unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
     let placed = |id, piece: u32| {
         // SAFETY: zero is a value of every member; a living scene and room for info and shape.
         unsafe {

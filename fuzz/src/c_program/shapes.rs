@@ -26,7 +26,7 @@ impl Program {
     }
 
     /// Keeps a shape that was made; on failure there is none.
-    fn keep(&mut self, status: StatusCode, shape: *mut Shape) -> StatusCode {
+    pub fn keep(&mut self, status: StatusCode, shape: *mut Shape) -> StatusCode {
         assert_eq!(status == StatusCode::Ok, !shape.is_null(), "{}", last_message());
         if !shape.is_null() {
             self.shapes.push(shape);

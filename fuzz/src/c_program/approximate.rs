@@ -1,0 +1,156 @@
+//! Calls that answer approximately and through levels, levels that a caller gives, and the log.
+
+use std::ffi::{CStr, c_char, c_void};
+use std::ptr::null_mut;
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::level::*;
+use swiftprox::ffi::library::*;
+use swiftprox::ffi::pair::*;
+use swiftprox::ffi::query::*;
+use swiftprox::pair::{Bounds, Levels, Outcome, PairAnswer, PairConfig, Refinement, Start};
+use swiftprox::scene::PairResult;
+
+use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
+use super::{Program, check_verified, last_message};
+use crate::geometry::any_number;
+
+const ERRORS: [f64; 5] = [0.0, 1e-9, 1e-2, 1.0, f64::INFINITY];
+const BUDGETS: [u32; 6] = [1, 2, 3, 7, 20, u32::MAX];
+const STARTS: [Start; 4] = [Start::Automatic, Start::Cache, Start::Table, Start::Cold];
+const LEVELS: [Levels; 3] = [Levels::Automatic, Levels::None, Levels::All];
+const REFINEMENTS: [Refinement; 4] =
+    [Refinement::Adaptive, Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble];
+
+/// A config with every member set; now and then one is out of range, or the struct of another size.
+fn any_config(u: &mut Unstructured) -> Result<Option<Block>> {
+    let mut last = 1.0;
+    let config = PairConfig {
+        distance_tolerance: if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() },
+        bounds: *u.choose(&[Bounds::Tight, Bounds::Verdict])?,
+        start: *u.choose(&STARTS)?,
+        absolute_error: *u.choose(&ERRORS)?,
+        relative_error: *u.choose(&ERRORS)?,
+        step_budget: *u.choose(&BUDGETS)?,
+        levels: *u.choose(&LEVELS)?,
+        refinement: *u.choose(&REFINEMENTS)?,
+        ..PairConfig::default()
+    };
+    if !u.ratio(1, 8)? {
+        return Ok(Some(Block::of(std::slice::from_ref(&config))));
+    }
+    let error = any_number(u, &mut last)?.to_ne_bytes();
+    let enumerator = u.int_in_range(-1..=4_i32)?.to_ne_bytes();
+    let changes = [
+        (std::mem::offset_of!(PairConfig, absolute_error), &error[..]),
+        (std::mem::offset_of!(PairConfig, relative_error), &error[..]),
+        (std::mem::offset_of!(PairConfig, step_budget), &[0; 4]),
+        (std::mem::offset_of!(PairConfig, start), &enumerator[..]),
+        (std::mem::offset_of!(PairConfig, levels), &enumerator[..]),
+        (std::mem::offset_of!(PairConfig, refinement), &enumerator[..]),
+    ];
+    options(u, &config, &changes)
+}
+
+/// What an answer without a verdict says: an interval from 0 on.
+fn check_undecided(answer: &PairAnswer) {
+    assert!(answer.lower == 0.0 && answer.distance >= 0.0 && answer.distance <= answer.upper, "{answer:?}");
+}
+
+/// Receives failures.
+extern "C" fn log(status: i32, message: *const c_char, user: *mut c_void) {
+    // SAFETY: a string, by the header.
+    let message = unsafe { CStr::from_ptr(message) };
+    assert!(status != StatusCode::Ok as i32 && !message.is_empty() && user.is_null(), "{status} {message:?}");
+}
+
+impl Program {
+    pub fn pair_query_through_levels(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let (shape1, shape2) = (self.shape(u)?, self.shape(u)?);
+        let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
+        let config = any_config(u)?;
+        let queries = [swift_pair_approximate, swift_pair_distance, swift_pair_contact, swift_pair_intersection];
+        let query = *u.choose(&queries)?;
+        let slot = u.choose_index(self.caches.len())?;
+        let answer = Block::new(size_of::<PairAnswer>());
+        // SAFETY: living shapes or null, blocks of the sizes that the header names.
+        unsafe {
+            let cache = &raw mut self.caches[slot];
+            let status = query(shape1, pose1.at(), shape2, pose2.at(), cache, start(&config), answer.at());
+            let said = answer.at::<PairAnswer>().read();
+            assert_eq!(status == StatusCode::Ok, said.outcome != Outcome::None, "{}", last_message());
+            match said.outcome {
+                Outcome::None => {}
+                Outcome::Undecided => check_undecided(&said),
+                _ => check_verified([shape1, shape2], [pose1.at(), pose2.at()], &said),
+            }
+            self.answer = Some(said);
+            Ok(status)
+        }
+    }
+
+    pub fn scene_query_through_levels(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let scene = &self.scenes[place];
+        // SAFETY: zero is a value of every member; then written by the library.
+        let mut query = unsafe { std::mem::zeroed::<CSceneQuery>() };
+        // SAFETY: room for the query.
+        assert_eq!(unsafe { swift_scene_query_init(&mut query) }, StatusCode::Ok);
+        query.early_exit = i32::from(u.ratio(1, 8)?);
+        query.absolute_error = *u.choose(&ERRORS)?;
+        query.relative_error = *u.choose(&ERRORS)?;
+        query.error_budget = *u.choose(&[f64::INFINITY, 0.0, 1.0, -1.0])?;
+        query.step_budget = *u.choose(&BUDGETS)?;
+        query.levels = *u.choose(&LEVELS)? as i32;
+        query.refinement = *u.choose(&REFINEMENTS)? as i32;
+        let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0 };
+        // SAFETY: a living scene, query and answer; the results are the scene's until its next change.
+        unsafe {
+            let status = swift_scene_query_approximate_distance(scene.handle, &query, &mut answer);
+            assert_eq!(status == StatusCode::Ok, query.error_budget >= 0.0, "{}", last_message());
+            let listed: &[PairResult] =
+                if answer.count == 0 { &[] } else { std::slice::from_raw_parts(answer.pairs, answer.count) };
+            if status == StatusCode::Ok && !(query.early_exit != 0 && answer.intersecting != 0) {
+                assert_eq!(listed.len(), scene.tested().len());
+            }
+            for result in listed {
+                match result.answer.outcome {
+                    Outcome::Undecided => check_undecided(&result.answer),
+                    _ => super::scenes::check_result(scene.handle, result),
+                }
+            }
+            Ok(status)
+        }
+    }
+
+    pub fn shape_from_levels(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let options = shape_options(u)?;
+        let mut arrays = Vec::new();
+        for _ in 0..u.int_in_range(0..=3)? {
+            arrays.push(mesh_arrays(u)?);
+        }
+        let levels: Vec<CMesh> = arrays
+            .iter()
+            .map(|level| CMesh {
+                vertices: level.vertices.at(),
+                vertex_count: level.vertex_count,
+                indices: level.indices.at(),
+                valences: if level.triangles { null_mut() } else { level.valences.at() },
+                face_count: level.face_count,
+            })
+            .collect();
+        let block = Block::of(&levels);
+        let (first, count) = array(u, block.at(), levels.len())?;
+        let mut shape = null_mut();
+        // SAFETY: what is not null has the room that it claims.
+        let status = unsafe { swift_shape_create_from_levels(first, count, start(&options), &mut shape) };
+        Ok(self.keep(status, shape))
+    }
+
+    pub fn set_log(&self, u: &mut Unstructured) -> Result<StatusCode> {
+        let callback: LogCallback = if u.arbitrary()? { Some(log) } else { None };
+        swift_library_set_log(callback, null_mut());
+        Ok(StatusCode::Ok)
+    }
+}
