@@ -78,8 +78,8 @@ pub struct Statistics {
     pub levels: [u16; 2],
 }
 
-/// The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a
-/// normal.
+/// The answer to a pair query. Numbers that it does not say are NaN, features [`FeatureKind::None`]; a separated answer always
+/// has a normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct PairAnswer {

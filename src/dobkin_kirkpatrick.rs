@@ -94,7 +94,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// Begins with a body of dimension 3.
     ///
     /// # Errors
-    /// None that a caller can cause.
+    /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface.
     pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
         let positions: Vec<Vector> = base.vertices.iter().map(|v| v.position).collect();
         let centre = base.mass.centre_of_mass - base.centre;

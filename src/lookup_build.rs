@@ -93,8 +93,9 @@ pub fn build_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<
     Ok(Lookup { table, reach })
 }
 
-/// 1.1 times the angle between neighbours among n vertices on a sphere, 3.8/√n: for poses that no branch predictor has seen, starting
-/// from the tables is quicker from about here on (at twice the angle it is for any).
+/// Over √n, how far (as an angle) a pair may have turned or moved before a query begins from the tables and no longer from the last
+/// features: 1.1 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. From about there on the
+/// tables were quicker on poses new to the branch predictor, from twice as far on on all.
 const REACH: f64 = 4.2;
 
 /// Cells along a side such that a shell has a few for every vertex.

@@ -12,7 +12,7 @@
 use crate::error::Result;
 use crate::math::{Pose, UNIT_ROUNDOFF, Vector, clamp};
 use crate::overlap::{self, Decision};
-use crate::polyhedron::{NONE, Polyhedron};
+use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::polyhedron_build::build;
 use crate::triangulation::{Triangulation, next};
 
@@ -55,8 +55,10 @@ enum Place {
 }
 
 impl<'a> PointDistance<'a> {
+    /// Prepares a polyhedron.
+    ///
     /// # Errors
-    /// None that a caller can cause.
+    /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface.
     pub fn new(polyhedron: &'a Polyhedron) -> Result<PointDistance<'a>> {
         let surface = if polyhedron.dimension >= 2 {
             let normal = |face: &u32| polyhedron.faces[*face as usize].normal;
@@ -129,8 +131,7 @@ impl<'a> PointDistance<'a> {
             row[3] = *x;
         }
         // Beyond these magnitudes the decision is left to integers.
-        const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
-        let usual = (1.0 / LARGEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
+        let usual = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
         let hint = corners.map(|v| [0, v]);
         let poses = [&pose, &Pose::IDENTITY];
         let (pairs, found, upper) = match overlap::decide([&self.probe, self.polyhedron], poses, usual, &hint, true).0 {
@@ -231,7 +232,7 @@ impl<'a> PointDistance<'a> {
         let square = normal.norm_squared();
         let s = from.cross(&aside).dot(&normal) / square;
         let t = along.cross(&from).dot(&normal) / square;
-        // A NaN is not inside.
+        // Nor is it inside a triangle without area, where both are NaN.
         if !(s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
             return None;
         }

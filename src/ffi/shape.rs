@@ -144,7 +144,8 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
 }
 
 /// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
-/// encoding (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file
+/// encoding (UTF-8 on Windows). Any machine can load it, with the levels that it has: built anew, those of a machine with other
+/// vector units may be slightly different ones. A version of this library that does not know the version of the file
 /// refuses it.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the

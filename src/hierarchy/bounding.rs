@@ -23,7 +23,7 @@ pub fn translated(points: &[Vector], by: &Vector) -> Vec<Vector> {
 /// that it does not do.
 ///
 /// # Errors
-/// None that a caller can cause.
+/// [`Error::Bug`](crate::error::Error::Bug) if the triangles of a polyhedron are no closed surface.
 pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Scaling) -> Result<Option<Polyhedron>> {
     let hull = build(points, None)?;
     let offset = hull.centre;

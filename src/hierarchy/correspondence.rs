@@ -21,7 +21,7 @@ pub struct Correspondence {
 /// their vertices; the parent of a face is the vertex above that is extreme along its normal, and its edges and vertices share it.
 ///
 /// # Errors
-/// None that a caller can cause.
+/// [`Error::Bug`](crate::error::Error::Bug) if the triangles of a polyhedron are no closed surface.
 pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspondence> {
     let polyhedron = below.polyhedron();
     let parent_of_face = extreme_vertices(polyhedron, above);

@@ -17,7 +17,7 @@ use crate::math::Vector;
 use crate::mesh::check_vertex;
 use crate::outer_cuts::outer_cuts;
 use crate::point_distance::PointDistance;
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::polyhedron_build::build;
 use crate::progress::Progress;
 use crate::quadric::simplify;
@@ -281,8 +281,7 @@ impl<'a> Builder<'a> {
 
     /// Whether planes and squares of this body neither over- nor underflow.
     fn is_of_usual_size(&self) -> bool {
-        const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
-        (1.0 / LARGEST..=LARGEST).contains(&self.base.radius)
+        (SMALLEST..=LARGEST).contains(&self.base.radius)
     }
 
     /// P_{i−1} for the next P_i.

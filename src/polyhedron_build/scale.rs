@@ -2,16 +2,13 @@
 
 use crate::mass::bounding_box;
 use crate::math::Vector;
-use crate::polyhedron::{MassProperties, PlaneBlock, Polyhedron};
+use crate::polyhedron::{LARGEST, MassProperties, PlaneBlock, Polyhedron, SMALLEST};
 
-/// Bodies beyond this size, or below its reciprocal, are laid out at another scale and scaled back; 2²⁰⁰. Within, squares of
-/// lengths and products of planes with points can do no harm by overflow, nor by underflow next to u·ρ.
-const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
-
-/// 1, or the power of two that brings a very large or very small body to a size near 1.
+/// 1, or the power of two that brings a very large or very small body to a size near 1. In between squares of lengths and
+/// products of planes with points can do no harm by overflow, nor by underflow next to u·ρ.
 pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
     let size = points.iter().map(|p| p.amax()).fold(0.0, f64::max);
-    if size == 0.0 || (1.0 / LARGEST..=LARGEST).contains(&size) {
+    if size == 0.0 || (SMALLEST..=LARGEST).contains(&size) {
         return 1.0;
     }
     2.0_f64.powi(-(size.log2() as i32).clamp(-1000, 1000))
