@@ -63,27 +63,19 @@ impl Activation {
 mod tests {
     use super::*;
     use crate::object::{ObjectOptions, ObjectTable};
-
-    /// SplitMix64 (Steele, Lea & Flood 2014).
-    fn random(state: &mut u64, below: usize) -> usize {
-        *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = *state;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % below as u64) as usize
-    }
+    use swiftprox::random::Random;
 
     /// Against the plain model, one flag for each pair, set by whatever is said: random words, objects that come and go.
     #[test]
     fn the_latest_word_holds() {
-        let mut state = 1;
+        let mut random = Random::new(1);
         let mut table = ObjectTable::new();
         let mut activation = Activation::default();
         let mut model: HashMap<[ObjectId; 2], bool> = HashMap::new();
         let mut ids: Vec<ObjectId> = Vec::new();
         for _ in 0..5_000 {
-            let active = random(&mut state, 2) == 1;
-            match random(&mut state, 16) {
+            let active = random.below(2) == 1;
+            match random.below(16) {
                 0 => {
                     activation.set_all(active);
                     model.values_mut().for_each(|flag| *flag = active);
@@ -95,18 +87,18 @@ mod tests {
                     ids.push(id);
                 }
                 3 if ids.len() > 2 => {
-                    let id = ids.remove(random(&mut state, ids.len()));
+                    let id = ids.remove(random.below(ids.len()));
                     table.remove(id).unwrap();
                     model.retain(|pair, _| !pair.contains(&id));
                 }
                 4..8 if !ids.is_empty() => {
-                    let id = ids[random(&mut state, ids.len())];
+                    let id = ids[random.below(ids.len())];
                     activation.set_object(table.get_mut(id).unwrap(), active);
                     model.iter_mut().filter(|(pair, _)| pair.contains(&id)).for_each(|(_, flag)| *flag = active);
                 }
                 8.. if ids.len() > 1 => {
-                    let second = 1 + random(&mut state, ids.len() - 1);
-                    let pair = [ids[random(&mut state, second)], ids[second]];
+                    let second = 1 + random.below(ids.len() - 1);
+                    let pair = [ids[random.below(second)], ids[second]];
                     activation.set_pair(pair, active, |id| table.get(id).is_ok());
                     model.insert(pair, active);
                 }

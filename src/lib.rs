@@ -97,3 +97,10 @@ mod activation;
 pub mod scene;
 #[doc(hidden)]
 pub mod ffi;
+
+// Unit tests draw from the generator of the benchmarks, which knows this crate by its name.
+#[cfg(test)]
+extern crate self as swiftprox;
+#[cfg(test)]
+#[path = "../benches/common/random.rs"]
+mod random;

@@ -310,28 +310,7 @@ fn times_power_of_two(x: f64, exponent: i32) -> f64 {
 mod tests {
     use super::*;
     use dashu_ratio::RBig;
-
-    /// S. Vigna's SplitMix64.
-    struct Random(u64);
-
-    impl Random {
-        fn next(&mut self) -> u64 {
-            self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-            let mut z = self.0;
-            z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-            z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-            z ^ (z >> 31)
-        }
-
-        /// Uniform in [-1, 1).
-        fn signed(&mut self) -> f64 {
-            (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-        }
-
-        fn point(&mut self) -> Vector {
-            Vector::new(self.signed(), self.signed(), self.signed())
-        }
-    }
+    use swiftprox::random::Random;
 
     fn exact_determinant(points: &[Vector; 4]) -> RBig {
         let [a, b, c, d] = points.map(|p| [p.x, p.y, p.z].map(|x| RBig::try_from(x).unwrap()));
@@ -360,10 +339,10 @@ mod tests {
     /// Four points, the last in the plane of the others up to a few roundings, or a little more, or
     /// equal to one of them.
     fn nearly_coplanar(random: &mut Random) -> [Vector; 4] {
-        let [a, b, c] = [random.point(), random.point(), random.point()];
+        let [a, b, c] = [random.vector(), random.vector(), random.vector()];
         let (s, t) = (random.signed(), random.signed());
         let mut d = a + (b - a) * s + (c - a) * t;
-        match random.next() % 4 {
+        match random.next_u64() % 4 {
             0 => d = b,
             1 => d.x = d.x.next_up(),
             2 => d.z += 1e-12,
@@ -386,7 +365,7 @@ mod tests {
 
     #[test]
     fn orientation_and_height_have_the_exact_sign() {
-        let mut random = Random(11);
+        let mut random = Random::new(11);
         // The last two are out of reach of expansions.
         let frames = [
             [1.0, 1.0, 1.0],
@@ -409,11 +388,11 @@ mod tests {
     /// Small integers times one odd factor: coplanar and collinear ones among them are so exactly.
     #[test]
     fn exact_zeros_are_found() {
-        let mut random = Random(12);
+        let mut random = Random::new(12);
         let mut zeros = 0;
         for round in 0..20_000 {
             let factor = [1.0, 3.7e-5, 1e-305][round % 3];
-            let points = [(); 4].map(|()| random.point().map(|x| (3.0 * x).round() * 8.0 * factor));
+            let points = [(); 4].map(|()| random.vector().map(|x| (3.0 * x).round() * 8.0 * factor));
             let truth = sign(&exact_determinant(&points));
             assert_eq!(sign_of(ExactPoints::new(&points).orientation([0, 1, 2], 3)), truth);
             zeros += usize::from(truth == 0.0);
@@ -423,10 +402,10 @@ mod tests {
 
     #[test]
     fn projections_have_the_exact_sign() {
-        let mut random = Random(13);
+        let mut random = Random::new(13);
         for round in 0..5000 {
             let scale = [1.0, 1e-200, 1e-310][round % 3];
-            let (a, b) = (random.point(), random.point());
+            let (a, b) = (random.vector(), random.vector());
             let c = a + (b - a) * random.signed();
             let points = [a, b, c].map(|p| Vector::new(p.x, p.y * scale, p.z));
             let exact = ExactPoints::new(&points);
@@ -446,7 +425,7 @@ mod tests {
 
     #[test]
     fn the_double_double_bound_holds() {
-        let mut random = Random(14);
+        let mut random = Random::new(14);
         let mut worst = 0.0_f64;
         for _ in 0..20_000 {
             let points = nearly_coplanar(&mut random);

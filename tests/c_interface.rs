@@ -3,11 +3,15 @@
 
 #![allow(unsafe_code, reason = "the C functions are unsafe to call")]
 
+#[path = "../benches/common/random.rs"]
+mod random;
+
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
+use random::Random;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
@@ -68,13 +72,12 @@ fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const PairConf
 #[test]
 fn a_pair_is_answered_whatever_is_in_the_cache_and_the_answer() {
     let shape = tetrahedron();
-    let mut state = 1_u64;
+    let mut random = Random::new(1);
     for round in 0..2000 {
         let mut cache = CPairCache::default();
         for word in &mut cache.words {
-            // Knuth's multiplier; small words now and then, which look like indices.
-            state = state.wrapping_mul(6364136223846793005).wrapping_add(1442695040888963407);
-            *word = (state >> 33) as u32 >> (round % 32);
+            // Small words now and then, which look like indices.
+            *word = random.next_u64() as u32 >> (round % 32);
         }
         let (status, answer) = distance(shape, &mut cache, null());
         assert_eq!(status, StatusCode::Ok, "{}", last_message());

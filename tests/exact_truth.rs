@@ -1,6 +1,8 @@
 //! The exact tier against the oracle, which is another algorithm: the same verdict, and an interval around the true distance
 //! that no doubles could narrow, on every case of every family, from any start.
 
+#[path = "../benches/common/mod.rs"]
+mod common;
 #[path = "oracle/cases.rs"]
 mod cases;
 #[path = "oracle/certificate.rs"]
@@ -21,7 +23,7 @@ const CASES_PER_FAMILY: usize = 1_000;
 fn exact_tier_equals_the_oracle() {
     let mut violations = 0;
     for (index, (family, generate)) in FAMILIES.iter().enumerate() {
-        let mut random = Random(index as u64);
+        let mut random = Random::new(index as u64);
         let mut intersecting = 0;
         for number in 0..CASES_PER_FAMILY {
             let case = generate(&mut random);
@@ -56,7 +58,7 @@ fn check(case: &Case, truth: &Truth, random: &mut Random) -> Result<(), String> 
         return Err(format!("started at its own answer {cold:?} it says {warm:?}"));
     }
     // Repeated and out-of-range pairs, too.
-    let mut index = |body: &Polyhedron| random.below(body.vertices.len() as u64 + 1) as u32;
+    let mut index = |body: &Polyhedron| random.below(body.vertices.len() + 1) as u32;
     let hints = [(); 5].map(|()| [index(a), index(b)]);
     let misled = from(&hints);
     if (misled.intersecting, misled.lower, misled.upper) != (cold.intersecting, cold.lower, cold.upper) {

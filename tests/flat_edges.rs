@@ -1,21 +1,19 @@
 //! Edges with next to no dihedral angle: in double precision the normal cone of such an edge is a line, and a direction into the
 //! body must not pass for one out of it.
 
-use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
-use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
-
+#[path = "../benches/common/mod.rs"]
+mod common;
 #[path = "oracle/cases.rs"]
 #[allow(dead_code)]
 mod cases;
 #[allow(dead_code)]
 mod oracle;
+mod shapes;
 
 use cases::Random;
-
-fn hull(points: &[Vector]) -> Shape {
-    Shape::from_points(points, &ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() }).unwrap()
-}
+use shapes::hull;
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
 
 /// The cache of an edge-edge pair.
 fn edge_edge(edges: [u32; 2]) -> PairCache {
@@ -32,7 +30,7 @@ fn edge_edge(edges: [u32; 2]) -> PairCache {
 /// edges' nearest points is perpendicular to both, but points the wrong way for A.
 #[test]
 fn an_edge_under_a_flat_ridge_is_inside() {
-    let mut random = Random(0x1f1a7);
+    let mut random = Random::new(0x1f1a7);
     let mut wrong = Vec::new();
     for round in 0..400 {
         let drop = 2f64.powi(-20 - round % 36);

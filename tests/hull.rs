@@ -1,44 +1,16 @@
 //! The exact hull against brute force with exact predicates, on the inputs where hull builders
 //! fail.
 
+#[path = "../benches/common/random.rs"]
+mod random;
+
 use std::collections::BTreeSet;
 
+use random::Random;
 use swiftprox::hull_build::{Hull, convex_hull};
 use swiftprox::hull_check::check_hull;
 use swiftprox::math::Vector;
 use swiftprox::predicates::ExactPoints;
-
-/// S. Vigna's SplitMix64.
-struct Random(u64);
-
-impl Random {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.next() % n
-    }
-
-    /// Uniform in [-1, 1).
-    fn signed(&mut self) -> f64 {
-        (self.next() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn on_sphere(&mut self) -> Vector {
-        loop {
-            let v = Vector::new(self.signed(), self.signed(), self.signed());
-            let n = v.norm();
-            if n > 0.1 && n < 1.0 {
-                return v / n;
-            }
-        }
-    }
-}
 
 /// The corners of the hull of a set that spans a plane or space, by definition, O(n⁴): the corners of
 /// the polygon in every supporting plane. Exact duplicates once, by their lowest index.
@@ -120,7 +92,7 @@ fn cube_grid(n: u32) -> Vec<Vector> {
 
 #[test]
 fn small_integer_sets_match_brute_force() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let mut dimensions = [0; 4];
     for round in 0..1000 {
         let n = 1 + random.below(13);
@@ -143,7 +115,7 @@ fn small_integer_sets_match_brute_force() {
 /// The same sets turned off the axes: what was coplanar or collinear is so up to rounding only.
 #[test]
 fn nearly_degenerate_sets_match_brute_force() {
-    let mut random = Random(7);
+    let mut random = Random::new(7);
     for round in 0..300 {
         let n = 5 + random.below(8);
         let points: Vec<Vector> = (0..n)
@@ -161,8 +133,8 @@ fn nearly_degenerate_sets_match_brute_force() {
 
 #[test]
 fn spheres_and_slivers_keep_every_vertex() {
-    let mut random = Random(2);
-    let sphere: Vec<Vector> = (0..1002).map(|_| random.on_sphere()).collect();
+    let mut random = Random::new(2);
+    let sphere: Vec<Vector> = (0..1002).map(|_| random.direction()).collect();
     for (y, z) in [(1.0, 1.0), (1.0, 1e-4), (1.0, 1e-8), (1.0, 1e-12), (1e-8, 1e-12), (1e-4, 1e-4)] {
         let points: Vec<Vector> = sphere.iter().map(|v| Vector::new(v.x, v.y * y, v.z * z)).collect();
         let hull = proved_hull(&points);
@@ -172,8 +144,8 @@ fn spheres_and_slivers_keep_every_vertex() {
 
 #[test]
 fn extreme_scales_and_scale_mixtures_are_exact() {
-    let mut random = Random(3);
-    let sphere: Vec<Vector> = (0..60).map(|_| random.on_sphere()).collect();
+    let mut random = Random::new(3);
+    let sphere: Vec<Vector> = (0..60).map(|_| random.direction()).collect();
     let reference = proved_hull(&sphere).vertices;
     for scale in [1e-300, 1e-150, 1e150, 1e300] {
         // Uniform scaling by a number that is no power of two: every point stays a vertex (nothing
@@ -236,10 +208,10 @@ fn prisms_and_cones_over_a_thousand_corners() {
 
 #[test]
 fn permuting_the_input_keeps_the_vertices() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let mut sets: Vec<Vec<Vector>> = vec![
-        (0..200).map(|_| random.on_sphere()).collect(),
-        (0..200).map(|_| turned(&random.on_sphere()).component_mul(&Vector::new(1.0, 1.0, 1e-9))).collect(),
+        (0..200).map(|_| random.direction()).collect(),
+        (0..200).map(|_| turned(&random.direction()).component_mul(&Vector::new(1.0, 1.0, 1e-9))).collect(),
         cube_grid(3).iter().map(|v| turned(v) / 7.0).collect(),
         cube_grid(3),
     ];
@@ -253,7 +225,7 @@ fn permuting_the_input_keeps_the_vertices() {
         let reference = corners(points);
         for _ in 0..5 {
             for i in (1..points.len()).rev() {
-                points.swap(i, random.below(i as u64 + 1) as usize);
+                points.swap(i, random.below(i + 1));
             }
             assert_eq!(corners(points), reference);
         }
@@ -262,8 +234,8 @@ fn permuting_the_input_keeps_the_vertices() {
 
 #[test]
 fn duplicates_count_once_and_the_first_stays() {
-    let mut random = Random(5);
-    let base: Vec<Vector> = (0..30).map(|_| random.on_sphere()).collect();
+    let mut random = Random::new(5);
+    let base: Vec<Vector> = (0..30).map(|_| random.direction()).collect();
     let points: Vec<Vector> = (0..300).map(|i| base[i * 7 % 30]).collect();
     assert_eq!(proved_hull(&points).vertices, (0..30).collect::<Vec<u32>>());
     // Zeros of either sign are the same coordinate.
@@ -302,8 +274,8 @@ fn bad_points_are_named() {
 /// The proof is worth something only if it fails on what is no hull.
 #[test]
 fn the_proof_refuses_what_is_no_hull() {
-    let mut random = Random(6);
-    let points: Vec<Vector> = (0..40).map(|_| random.on_sphere()).collect();
+    let mut random = Random::new(6);
+    let points: Vec<Vector> = (0..40).map(|_| random.direction()).collect();
     let hull = proved_hull(&points);
     let refused = |change: &dyn Fn(&mut Hull)| {
         let mut wrong = hull.clone();

@@ -11,23 +11,19 @@ mod retold;
 
 use cases::{Case, FAMILIES, Random};
 use retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly, shuffled};
+use shapes::hull;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
-use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::shape::{Shape, ShapeOptions};
 
 #[path = "../benches/common/mod.rs"]
 mod common;
+mod shapes;
 
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 
 const CASES_PER_FAMILY: usize = 2_000;
-
-const OPTIONS: fn() -> ShapeOptions = || ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
-
-fn hull(points: &[Vector]) -> Shape {
-    Shape::from_points(points, &OPTIONS()).expect("finite points")
-}
 
 /// The answer to [`distance`] from a cold cache.
 fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
@@ -54,7 +50,7 @@ fn assert_same_truth(what: &str, case: &Case, one: &PairAnswer, other: &PairAnsw
 /// Every case of every family with its answer and what tells it another way.
 fn for_every_case(seed: u64, mut check: impl FnMut(&Case, &PairAnswer, &mut Random)) {
     for (index, (family, generate)) in FAMILIES.iter().enumerate() {
-        let mut random = Random(seed + index as u64);
+        let mut random = Random::new(seed + index as u64);
         let mut intersecting = 0;
         for _ in 0..CASES_PER_FAMILY {
             let case = generate(&mut random);
@@ -156,7 +152,7 @@ fn extent_of(case: &Case) -> (f64, f64) {
 
 #[test]
 fn numbering_of_faces_changes_nothing() {
-    let mut random = Random(0x5000);
+    let mut random = Random::new(0x5000);
     for _ in 0..2_000 {
         let meshes = [any_mesh(&mut random), any_mesh(&mut random)];
         let renumbered = meshes.each_ref().map(|mesh| renumbered(mesh, &mut random));
@@ -177,7 +173,7 @@ fn any_mesh(random: &mut Random) -> PolygonMesh {
     let mesh = match random.below(3) {
         0 => cuboid([1.0, 0.75, 0.5]),
         1 => prism(3 + random.below(9) as u32, 0.5),
-        _ => random_hull(4 + random.below(20) as usize, random.bits()),
+        _ => random_hull(4 + random.below(20), random.next_u64()),
     };
     mesh.expect("a convex mesh")
 }
@@ -189,12 +185,12 @@ fn threads_do_not_matter() {
     let shapes: Vec<Shape> = [(); 6]
         .iter()
         .zip(1..)
-        .map(|((), seed)| any_mesh(&mut Random(seed)))
+        .map(|((), seed)| any_mesh(&mut Random::new(seed)))
         .chain([[1.0, 0.1, 0.1], [1.0, 1.0, 0.1]].map(|half_axes| ellipsoid(half_axes, 102).expect("an ellipsoid")))
         .map(|mesh| Shape::from_mesh(&mesh, &ShapeOptions::default()).expect("a convex mesh"))
         .collect();
     let all_answers = || {
-        let mut random = Random(0x6000);
+        let mut random = Random::new(0x6000);
         let mut answers = Vec::new();
         for (i, shape1) in shapes.iter().enumerate() {
             for shape2 in &shapes[i..] {

@@ -1,7 +1,11 @@
 //! The mesh readers on files as the world has them: every liberty of the formats, truncated files, garbage.
 
+#[path = "../benches/common/random.rs"]
+mod random;
+
 use std::path::{Path, PathBuf};
 
+use random::Random;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
@@ -255,30 +259,14 @@ fn truncated_files_are_refused() {
     }
 }
 
-/// Steele, Lea & Flood 2014.
-struct SplitMix64(u64);
-
-impl SplitMix64 {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let z = (self.0 ^ (self.0 >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        let z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: usize) -> usize {
-        (self.next() % n as u64) as usize
-    }
-}
-
 /// One random damage: a byte changed, a piece removed, repeated or overwritten with something that parsers dislike.
-fn damage(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
+fn damage(bytes: &mut Vec<u8>, random: &mut Random) {
     const WORDS: [&[u8]; 12] =
         [b"-1", b"0", b"4294967295", b"1e999", b"nan", b"\0", b"\\\n", b"#", b"\n", b"/", b"\xff\xfe", b" "];
     let at = random.below(bytes.len() + 1);
     let end = (at + random.below(20)).min(bytes.len());
     match random.below(5) {
-        0 if at < bytes.len() => bytes[at] = random.next() as u8,
+        0 if at < bytes.len() => bytes[at] = random.next_u64() as u8,
         1 => drop(bytes.drain(at..end)),
         2 => {
             let piece = bytes[at..end].to_vec();
@@ -292,7 +280,7 @@ fn damage(bytes: &mut Vec<u8>, random: &mut SplitMix64) {
 /// Whatever the bytes, a reader returns a mesh that is safe to index, or an error that names the file.
 #[test]
 fn damaged_files_never_panic() {
-    let mut random = SplitMix64(1);
+    let mut random = Random::new(1);
     let mut files: Vec<Vec<u8>> = FIXTURES.iter().map(|name| bytes_of(name)).collect();
     files.push(binary_stl(&cube(), "solid"));
     let formats = [None, Some(Format::TriPoly), Some(Format::Off), Some(Format::Obj), Some(Format::Stl)];

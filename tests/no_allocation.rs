@@ -4,13 +4,16 @@
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
 
+#[path = "../benches/common/random.rs"]
+mod random;
 mod random_scene;
+mod shapes;
 
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::Arc;
 
-use random_scene::{Random, cuboid, ellipsoid};
+use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
@@ -75,14 +78,14 @@ fn the_counter_counts() {
 
 #[test]
 fn pair_queries_allocate_nothing() {
-    let mut random = Random(5);
+    let mut random = Random::new(5);
     let shapes = shapes(&mut random);
     let queries = [pair::distance, pair::intersection, pair::contact, pair::approximate];
     let mut without_exact_tier = 0;
     for k in 0..4_000 {
         let shape1 = &shapes[random.below(shapes.len())];
         let shape2 = &shapes[random.below(shapes.len())];
-        let (pose1, pose2) = (random.pose(0.5), random.pose(0.5));
+        let (pose1, pose2) = (random_pose(&mut random, 0.5), random_pose(&mut random, 0.5));
         let bounds = if k % 2 == 0 { Bounds::Tight } else { Bounds::Verdict };
         let config = PairConfig {
             bounds,
@@ -107,14 +110,14 @@ fn pair_queries_allocate_nothing() {
 
 #[test]
 fn scene_queries_allocate_nothing_after_the_first() {
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
     let shapes = shapes(&mut random);
     let add = |k: usize| {
         // Every third object of two pieces.
         let pieces =
             (0..1 + usize::from(k.is_multiple_of(3))).map(|p| shapes[(k + p) % shapes.len()].clone()).collect();
-        let options = ObjectOptions { pose: random.pose(1.5), ..Default::default() };
+        let options = ObjectOptions { pose: random_pose(&mut random, 1.5), ..Default::default() };
         scene.add_object(pieces, &options).unwrap()
     };
     let ids: Vec<ObjectId> = (0..12).map(add).collect();
@@ -126,11 +129,11 @@ fn scene_queries_allocate_nothing_after_the_first() {
         for &id in &ids {
             let pose = *scene.object(id).unwrap().pose();
             let moved = if step % 50 == 0 {
-                random.pose(1.5)
+                random_pose(&mut random, 1.5)
             } else {
                 let turn = Matrix::new(0.6, -0.8, 0.0, 0.8, 0.6, 0.0, 0.0, 0.0, 1.0);
                 let rotation = if step % 10 == 0 { turn * pose.rotation() } else { pose.rotation() };
-                Pose::new(&rotation, &(pose.translation() + random.vector(0.01)))
+                Pose::new(&rotation, &(pose.translation() + (random.vector() * 0.01)))
             };
             scene.set_pose(id, &moved).unwrap();
         }

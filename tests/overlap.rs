@@ -1,70 +1,27 @@
 //! Pairs that intersect: deep ones are proved without integers however symmetric they lie, the filter accepts nothing that is
 //! not so, touching ones get the normal of a plane that separates them, and what a cache holds never changes a verdict.
 
+#[path = "../benches/common/random.rs"]
+mod random;
+mod shapes;
+
+use random::Random;
+use shapes::{cuboid, hull};
 use swiftprox::enclosure::encloses_origin;
 use swiftprox::exact;
 use swiftprox::frame::Frame;
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
-use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::shape::Shape;
 use swiftprox::simd::Portable;
 
-/// SplitMix64 (Steele, Lea & Flood 2014).
-struct Random(u64);
-
-impl Random {
-    fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    /// Uniform in [-1, 1).
-    fn signed(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    fn vector(&mut self) -> Vector {
-        Vector::new(self.signed(), self.signed(), self.signed())
-    }
-
-    /// An integer vector with components in -n..=n.
-    fn lattice(&mut self, n: i64) -> Vector {
-        let mut component = || (self.below(2 * n as u64 + 1) as i64 - n) as f64;
-        Vector::new(component(), component(), component())
-    }
-
-    fn rotation(&mut self) -> Matrix {
-        let axis = nalgebra::Unit::new_normalize(self.vector());
-        nalgebra::Rotation3::from_axis_angle(&axis, 3.0 * self.signed()).into_inner()
-    }
-}
-
-fn hull(points: &[Vector]) -> Shape {
-    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
-    Shape::from_points(points, &options).unwrap()
-}
-
-/// A box about the origin.
-fn cuboid(half: Vector) -> Shape {
-    let sign = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
-    let corner = |k| half.component_mul(&Vector::new(sign(k, 0), sign(k, 1), sign(k, 2)));
-    hull(&(0..8).map(corner).collect::<Vec<_>>())
+fn moved(translation: Vector) -> Pose {
+    Pose::new(&Matrix::identity(), &translation)
 }
 
 fn octahedron() -> Shape {
     let axes = [Vector::x(), Vector::y(), Vector::z()];
     hull(&axes.iter().flat_map(|axis| [*axis, -axis]).collect::<Vec<_>>())
-}
-
-fn at(translation: Vector) -> Pose {
-    Pose::new(&Matrix::identity(), &translation)
 }
 
 fn query(shapes: [&Shape; 2], poses: [&Pose; 2]) -> PairAnswer {
@@ -76,11 +33,10 @@ fn query(shapes: [&Shape; 2], poses: [&Pose; 2]) -> PairAnswer {
 
 #[test]
 fn coincident_bodies_are_proved_without_integers() {
-    let mut random = Random(1);
+    let mut random = Random::new(1);
     let simplex = [Vector::zeros(), Vector::x(), Vector::y(), Vector::z()];
     let round: Vec<Vector> = (0..60).map(|_| random.vector().normalize()).collect();
-    let shapes =
-        [cuboid(Vector::new(1.0, 1.0, 1.0)), cuboid(Vector::new(1.0, 2.0, 0.01)), octahedron(), hull(&simplex)];
+    let shapes = [cuboid([1.0, 1.0, 1.0]), cuboid([1.0, 2.0, 0.01]), octahedron(), hull(&simplex)];
     for shape in shapes.iter().chain([&hull(&round)]) {
         for turn in 0..20 {
             let rotation = if turn == 0 { Matrix::identity() } else { random.rotation() };
@@ -94,14 +50,14 @@ fn coincident_bodies_are_proved_without_integers() {
 
 #[test]
 fn stacked_boxes_are_proved_without_integers_down_to_a_shallow_overlap() {
-    let (lower, upper) = (cuboid(Vector::new(1.0, 1.0, 1.0)), cuboid(Vector::new(0.5, 0.75, 0.25)));
-    let mut random = Random(2);
+    let (lower, upper) = (cuboid([1.0, 1.0, 1.0]), cuboid([0.5, 0.75, 0.25]));
+    let mut random = Random::new(2);
     for exponent in 1..=12 {
         let depth = 10f64.powi(-exponent);
         for centred in [true, false] {
             let aside = if centred { Vector::zeros() } else { random.vector() * 0.5 };
             let [x, y, _] = aside.into();
-            let poses = [at(Vector::zeros()), at(Vector::new(x, y, 1.25 - depth))];
+            let poses = [moved(Vector::zeros()), moved(Vector::new(x, y, 1.25 - depth))];
             let answer = query([&lower, &upper], [&poses[0], &poses[1]]);
             assert_eq!(answer.outcome, Outcome::Intersecting);
             assert_eq!(answer.statistics.exact_iterations, 0, "depth {depth}, {answer:?}");
@@ -113,13 +69,13 @@ fn stacked_boxes_are_proved_without_integers_down_to_a_shallow_overlap() {
 #[test]
 fn the_filter_accepts_only_what_integers_confirm() {
     let origin = hull(&[Vector::zeros()]);
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let (mut accepted, mut refused_inside) = (0, 0);
     for number in 0..4000 {
         // A tetrahedron with the origin near a face, an edge or a corner, some of them slivers.
         let flatten = if number % 4 == 0 { 1e-9 } else { 1.0 };
         let corners = [(); 4].map(|()| random.vector().component_mul(&Vector::new(1.0, 1.0, flatten)));
-        let on = 1 + random.below(3) as usize;
+        let on = 1 + random.below(3);
         let weights = [(); 4].map(|()| 1.0 + random.signed());
         let sum: f64 = weights[..on].iter().sum();
         let near: Vector = (0..on).map(|k| corners[k] * (weights[k] / sum)).sum();
@@ -151,7 +107,7 @@ fn the_filter_accepts_only_what_integers_confirm() {
 /// sides of a plane, and a point of one in the plane is moved onto a point of the other.
 #[test]
 fn normals_of_touching_bodies_separate_them() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let mut tested = 0;
     while tested < 3000 {
         let points: [Vec<Vector>; 2] = std::array::from_fn(|_| {
@@ -167,11 +123,11 @@ fn normals_of_touching_bodies_separate_them() {
             let highest = points[i].iter().map(|p| p.dot(&towards)).fold(f64::NEG_INFINITY, f64::max);
             let ends: Vec<&Vector> = points[i].iter().filter(|p| p.dot(&towards) == highest).collect();
             // The middle of any two, possibly the same.
-            let mut end = || ends[random.below(ends.len() as u64) as usize];
+            let mut end = || ends[random.below(ends.len())];
             (end() + end()) * 0.5
         });
         let shapes = [hull(&points[0]), hull(&points[1])];
-        let poses = [at(Vector::zeros()), at(touching[0] - touching[1])];
+        let poses = [moved(Vector::zeros()), moved(touching[0] - touching[1])];
         let answer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]]);
         assert_eq!(answer.outcome, Outcome::Intersecting);
         let found = Vector::from(answer.normal);
@@ -192,7 +148,7 @@ fn a_vertex_inside_a_face_has_the_normal_of_the_face() {
     let tip = Vector::new(0.5, 0.5, 1.0);
     let lean = [[9.0, 0.0, 0.5], [9.0, 1.0, 0.25], [8.0, 0.5, 3.0]];
     let above: Vec<Vector> = lean.iter().map(|p| tip + Vector::from(*p)).chain([tip]).collect();
-    for turn in [Matrix::identity(), Random(7).rotation()] {
+    for turn in [Matrix::identity(), Random::new(7).rotation()] {
         let pose = Pose::new(&turn, &Vector::zeros());
         let answer = query([&hull(&points), &hull(&above)], [&pose, &pose]);
         assert_eq!(answer.outcome, Outcome::Intersecting);
@@ -205,8 +161,8 @@ fn a_vertex_inside_a_face_has_the_normal_of_the_face() {
 
 #[test]
 fn crossing_edges_at_any_rotation_have_the_normal_of_both() {
-    let shape = cuboid(Vector::new(1.0, 1.0, 1.0));
-    let mut random = Random(5);
+    let shape = cuboid([1.0, 1.0, 1.0]);
+    let mut random = Random::new(5);
     let half = std::f64::consts::FRAC_1_SQRT_2;
     for _ in 0..200 {
         let turn = random.rotation();
@@ -227,9 +183,9 @@ fn crossing_edges_at_any_rotation_have_the_normal_of_both() {
 
 #[test]
 fn a_cache_never_changes_a_verdict() {
-    let mut random = Random(6);
+    let mut random = Random::new(6);
     let config = PairConfig::default();
-    let shapes = [cuboid(Vector::new(1.0, 0.5, 0.25)), octahedron(), hull(&[Vector::x(), Vector::y(), Vector::z()])];
+    let shapes = [cuboid([1.0, 0.5, 0.25]), octahedron(), hull(&[Vector::x(), Vector::y(), Vector::z()])];
     let mut intersecting = 0;
     for first in &shapes {
         for second in &shapes {
@@ -238,7 +194,7 @@ fn a_cache_never_changes_a_verdict() {
                 // Half of them touch or overlap exactly on the lattice.
                 let mut pose = |exact: bool| {
                     if exact {
-                        at(random.lattice(4) * 0.25)
+                        moved(random.lattice(4) * 0.25)
                     } else {
                         Pose::new(&random.rotation(), &(random.vector() * 0.8))
                     }

@@ -1,6 +1,8 @@
 //! Pair queries against the oracle: the right verdict, the true distance inside the interval, the interval as narrow as
 //! promised for hard cases, on every case of every family, with a cold cache and with one that another pair has filled.
 
+#[path = "../benches/common/mod.rs"]
+mod common;
 #[path = "oracle/cases.rs"]
 mod cases;
 mod oracle;
@@ -18,7 +20,7 @@ const CASES_PER_FAMILY: usize = 1_000;
 fn pair_queries_equal_the_oracle() {
     let mut violations = 0;
     for (index, (family, generate)) in FAMILIES.iter().enumerate() {
-        let mut random = Random(0x1000 + index as u64);
+        let mut random = Random::new(0x1000 + index as u64);
         let (mut in_integers, mut dirty) = (0, PairCache::default());
         for number in 0..CASES_PER_FAMILY {
             let case = generate(&mut random);

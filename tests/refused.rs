@@ -3,8 +3,10 @@
 
 #[path = "../benches/common/mod.rs"]
 mod common;
+mod shapes;
 
 use common::models::ellipsoid;
+use shapes::at;
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
@@ -15,10 +17,6 @@ type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut 
 
 const QUERIES: [Query; 4] = [pair::distance, pair::intersection, pair::contact, pair::approximate];
 const STARTS: [Start; 4] = [Start::Automatic, Start::Cache, Start::Table, Start::Cold];
-
-fn at(x: f64) -> Pose {
-    Pose::new(&Matrix::identity(), &Vector::new(x, 0.0, 0.0))
-}
 
 /// A body with levels, on which the caches of all queries are of the kinds that there are.
 fn body() -> Shape {
@@ -50,11 +48,11 @@ fn a_pose_beyond_the_callers_own_limit_is_refused_whatever_the_cache_says() {
     for (query, config) in configurations() {
         for x in [0.1, 5.0] {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            query(&body, &at(0.0), &body, &at(x), &mut cache, &config, &mut answer).unwrap();
-            query(&body, &at(0.0), &body, &stretched(x), &mut cache, &config, &mut answer).unwrap();
+            query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
+            query(&body, &at(0.0, 0.0, 0.0), &body, &stretched(x), &mut cache, &config, &mut answer).unwrap();
             let (cache_before, answer_before) = (cache, answer);
             let strict = PairConfig { rotation_limit: 1e-3, ..config };
-            for poses in [[at(0.0), stretched(x)], [stretched(x), at(0.0)]] {
+            for poses in [[at(0.0, 0.0, 0.0), stretched(x)], [stretched(x), at(0.0, 0.0, 0.0)]] {
                 let result = query(&body, &poses[0], &body, &poses[1], &mut cache, &strict, &mut answer);
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {strict:?} at {x}");
                 assert_eq!(cache, cache_before, "{strict:?} at {x}");
@@ -72,13 +70,13 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
         for x in [0.1, 5.0] {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
             for _ in 0..2 {
-                query(&body, &at(0.0), &body, &at(x), &mut cache, &config, &mut answer).unwrap();
+                query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
             }
             coherent += usize::from(answer.status == Status::Coherent);
             let (cache_before, answer_before) = (cache, answer);
             let mirrored = Pose::new(&Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)), &Vector::zeros());
-            for pose in [at(f64::NAN), at(f64::INFINITY), mirrored] {
-                let result = query(&body, &pose, &body, &at(x), &mut cache, &config, &mut answer);
+            for pose in [at(f64::NAN, 0.0, 0.0), at(f64::INFINITY, 0.0, 0.0), mirrored] {
+                let result = query(&body, &pose, &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer);
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {config:?} at {pose:?}");
             }
             for refused in [
@@ -86,7 +84,8 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
                 PairConfig { distance_tolerance: -1.0, ..config },
                 PairConfig { rotation_limit: f64::NAN, ..config },
             ] {
-                let result = query(&body, &at(0.0), &body, &at(x), &mut cache, &refused, &mut answer);
+                let result =
+                    query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &refused, &mut answer);
                 assert!(matches!(result, Err(Error::Argument(_))), "{result:?} of {refused:?}");
             }
             assert_eq!(cache, cache_before, "{config:?} at {x}");

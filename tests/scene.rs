@@ -1,10 +1,14 @@
 //! Scenes through the public interface: what is listed, in which order, and what changes nothing.
 
+#[path = "../benches/common/random.rs"]
+mod random;
 mod random_scene;
+mod shapes;
 
 use std::sync::Arc;
 
-use random_scene::{Random, cuboid, ellipsoid};
+use random_scene::{Random, cuboid, ellipsoid, random_pose};
+use shapes::at;
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
@@ -17,10 +21,6 @@ use swiftprox::verify::verify;
 
 fn scene() -> Scene {
     Scene::new(&SceneOptions::default()).unwrap()
-}
-
-fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose::new(&Matrix::identity(), &Vector::new(x, y, z))
 }
 
 /// Unit cubes with their centres at the given places on the x axis; user data 100, 101, …
@@ -332,7 +332,7 @@ fn steps(scene: &mut Scene) -> u32 {
 
 #[test]
 fn a_pair_that_stays_remembers_and_a_deactivated_one_forgets() {
-    let mut random = Random(4);
+    let mut random = Random::new(4);
     let shape = ellipsoid(&mut random, 500, [1.0, 0.8, 0.6], Vector::zeros());
     let mut scene = scene();
     let add = |pose: Pose| {
@@ -419,7 +419,7 @@ fn verified(scene: &Scene, pairs: &[PairResult]) {
 /// as the pair layer does without one.
 #[test]
 fn answers_do_not_depend_on_the_past() {
-    let mut random = Random(3);
+    let mut random = Random::new(3);
     let mut shapes = vec![cuboid([0.5, 0.3, 0.2]), cuboid([0.1, 0.1, 0.8])];
     shapes.push(ellipsoid(&mut random, 40, [0.6, 0.4, 0.2], Vector::zeros()));
     shapes.push(ellipsoid(&mut random, 12, [0.3, 0.3, 0.3], Vector::new(0.4, 0.0, 0.0)));
@@ -430,7 +430,8 @@ fn answers_do_not_depend_on_the_past() {
         match random.below(10) {
             0..3 if ids.len() < 9 => {
                 let pieces = (0..1 + random.below(3)).map(|_| shapes[random.below(4)].clone()).collect();
-                let options = ObjectOptions { pose: random.pose(1.5), fixed: random.below(3) == 0, user_data: step };
+                let options =
+                    ObjectOptions { pose: random_pose(&mut random, 1.5), fixed: random.below(3) == 0, user_data: step };
                 ids.push(scene.add_object(pieces, &options).unwrap());
             }
             3 if ids.len() > 4 => scene.remove_object(ids.swap_remove(random.below(ids.len()))).unwrap(),
@@ -441,10 +442,12 @@ fn answers_do_not_depend_on_the_past() {
             }
             5 if step % 3 == 0 => scene.set_all_active(random.below(4) > 0),
             5 if !ids.is_empty() => scene.set_object_active(ids[random.below(ids.len())], true).unwrap(),
-            6 if !ids.is_empty() => scene.set_pose(ids[random.below(ids.len())], &random.pose(1.5)).unwrap(),
+            6 if !ids.is_empty() => {
+                scene.set_pose(ids[random.below(ids.len())], &random_pose(&mut random, 1.5)).unwrap()
+            }
             _ => {
                 // A small step for everything that moves: here the caches are of use.
-                let drift = random.vector(0.02);
+                let drift = random.vector() * 0.02;
                 let moving = scene.objects().filter(|object| !object.fixed());
                 let step = |pose: &Pose| Pose::new(&pose.rotation(), &(pose.translation() + drift));
                 let poses: Vec<Pose> = moving.map(|object| step(object.pose())).collect();
@@ -485,13 +488,13 @@ fn answers_do_not_depend_on_the_past() {
 /// Each pair within its error, all pairs within the budget, and what levels answered in the statistics.
 #[test]
 fn approximate_distances_and_a_budget_for_all() {
-    let mut random = Random(77);
+    let mut random = Random::new(77);
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
     let options = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
     let plain = ellipsoid(&mut random, 500, [0.6, 0.6, 0.1], Vector::zeros());
     let shape = Arc::new((*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap());
     for _ in 0..12 {
-        let options = ObjectOptions { pose: random.pose(3.0), ..Default::default() };
+        let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
         scene.add_object(vec![shape.clone()], &options).unwrap();
     }
     let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();

@@ -1,36 +1,27 @@
 //! What threads may do at once: const calls on one scene, pair queries on shapes that all share, scenes of their own. Under the
 //! thread sanitizer (`make tsan`) a race is an error; `c_tests/threads.c` is the same through C, for helgrind.
 
+mod shapes;
+
 use std::sync::{Arc, Barrier};
 
-use swiftprox::math::{Pose, Vector};
+use shapes::{at, cuboid};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{PairAnswer, PairCache, PairConfig, contact};
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
-use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
 const THREADS: usize = 4;
 const ROUNDS: usize = 20;
 
-fn at(x: f64, y: f64) -> Pose {
-    Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, 0.0]] }
-}
-
-fn cuboid(half: [f64; 3]) -> Arc<Shape> {
-    let corner = |k: usize| Vector::from_fn(|axis, _| if k >> axis & 1 == 0 { -half[axis] } else { half[axis] });
-    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
-    Arc::new(Shape::from_points(&(0..8).map(corner).collect::<Vec<_>>(), &options).unwrap())
-}
-
 #[test]
 fn threads_share_shapes_and_a_scene() {
-    let shapes = [cuboid([0.5; 3]), cuboid([0.5, 1.0, 0.25]), cuboid([0.125, 0.5, 0.5])];
+    let shapes = [[0.5; 3], [0.5, 1.0, 0.25], [0.125, 0.5, 0.5]].map(|half| Arc::new(cuboid(half)));
     let mut shared = Scene::new(&SceneOptions::default()).unwrap();
     let ids: Vec<_> = (0..)
         .zip(&shapes)
         .map(|(i, shape)| {
-            let options = ObjectOptions { pose: at(3.0 * f64::from(i), 0.0), ..ObjectOptions::default() };
+            let options = ObjectOptions { pose: at(3.0 * f64::from(i), 0.0, 0.0), ..ObjectOptions::default() };
             shared.add_object(vec![shape.clone()], &options).unwrap()
         })
         .collect();
@@ -43,7 +34,7 @@ fn threads_share_shapes_and_a_scene() {
             let mut cache = PairCache::default();
             for i in 0..16 {
                 let (a, b) = (shapes[i % 3].clone(), &shapes[(i + 1) % 3]);
-                let poses = [at(0.0, 0.0), at(0.375 * i as f64, 0.25 * i as f64)];
+                let poses = [at(0.0, 0.0, 0.0), at(0.375 * i as f64, 0.25 * i as f64, 0.0)];
                 let mut answer = PairAnswer::default();
                 contact(&a, &poses[0], b, &poses[1], &mut cache, &PairConfig::default(), &mut answer).unwrap();
                 verify(&a, &poses[0], b, &poses[1], &answer).unwrap();

@@ -1,28 +1,16 @@
 //! The check of answers: right ones pass however odd the bodies, wrong ones do not.
 
+#[path = "../benches/common/random.rs"]
+mod random;
+mod shapes;
+
+use random::Random;
+use shapes::{at, hull};
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{self, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
-
-/// SplitMix64 (Steele, Lea & Flood 2014), from 0 to 1.
-fn random(state: &mut u64) -> f64 {
-    *state = state.wrapping_add(0x9e37_79b9_7f4a_7c15);
-    let mut z = *state;
-    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    (z ^ (z >> 31)) as f64 / 2.0_f64.powi(64)
-}
-
-fn hull(points: &[Vector]) -> Shape {
-    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
-    Shape::from_points(points, &options).unwrap()
-}
-
-fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]] }
-}
 
 fn distance(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
@@ -75,12 +63,12 @@ fn a_witness_point_on_a_sliver_is_in_its_body() {
 #[test]
 fn answers_for_bodies_of_subnormal_size_verify() {
     let least = f64::from_bits(1);
-    let mut state = 2;
+    let mut random = Random::new(2);
     for case in 0..300 {
-        let mut coordinate = || least * (2000.0 * random(&mut state)).floor();
+        let mut coordinate = || least * (2000.0 * random.uniform(0.0, 1.0)).floor();
         let mut body = || hull(&(0..6).map(|_| Vector::from_fn(|_, _| coordinate())).collect::<Vec<_>>());
         let (a, b) = (body(), body());
-        let away = at(least * (4000.0 * random(&mut state)).floor(), 0.0, 0.0);
+        let away = at(least * (4000.0 * random.uniform(0.0, 1.0)).floor(), 0.0, 0.0);
         let answer = distance(&a, &at(0.0, 0.0, 0.0), &b, &away);
         let checked = verify(&a, &at(0.0, 0.0, 0.0), &b, &away, &answer);
         assert!(checked.is_ok(), "case {case}: {checked:?}, {answer:?}");

@@ -1,7 +1,8 @@
 //! Small pairs, each about one promise: which feature holds a witness point, that a contact's point is common to both, answers
 //! about the smallest bodies.
 
-use swiftprox::math::{Matrix, Pose, Vector};
+use shapes::at;
+use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -9,6 +10,7 @@ use swiftprox::verify::verify;
 
 #[path = "../benches/common/mod.rs"]
 mod common;
+mod shapes;
 
 use common::models::random_hull;
 use common::random::Random;
@@ -18,10 +20,6 @@ const OPTIONS: fn() -> ShapeOptions = || ShapeOptions { input: InputPolicy::Hull
 fn hull(points: &[[f64; 3]]) -> Shape {
     let points: Vec<Vector> = points.iter().map(|&p| p.into()).collect();
     Shape::from_points(&points, &OPTIONS()).unwrap()
-}
-
-fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose::new(&Matrix::identity(), &Vector::new(x, y, z))
 }
 
 /// The answer to [`distance`] from a cold cache.

@@ -1,5 +1,7 @@
 //! SplitMix64 (Steele, Lea & Flood 2014, "Fast splittable pseudorandom number generators") and what is drawn from it.
 
+#![allow(dead_code)] // every program that includes this uses a part of it
+
 use swiftprox::math::{Matrix, Vector};
 
 /// A generator; equal seeds give equal sequences everywhere, up to the rounding of the machine's `ln`, `cos` and `sin`.
@@ -48,6 +50,11 @@ impl Random {
     pub fn lattice(&mut self, n: usize) -> Vector {
         let mut component = || self.below(2 * n + 1) as f64 - n as f64;
         Vector::new(component(), component(), component())
+    }
+
+    /// A power of two between 2^from and 2^to.
+    pub fn power(&mut self, from: i32, to: i32) -> f64 {
+        2f64.powi(from + self.below((to - from + 1) as usize) as i32)
     }
 
     /// One of the 24 rotations of the cube: exact in doubles.

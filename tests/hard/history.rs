@@ -48,7 +48,7 @@ pub fn check(flight: &mut Flight) {
     .expect("accepted poses");
     let foreign = foreign_caches(flight);
     let [other1, other2] = flight.sequence.bodies.each_ref().map(|body| {
-        let lookup = LookupOptions { kind: TABLES[random.below(3) as usize], ..LookupOptions::default() };
+        let lookup = LookupOptions { kind: TABLES[random.below(3)], ..LookupOptions::default() };
         let options = ShapeOptions { input: InputPolicy::Hull, lookup, ..ShapeOptions::default() };
         Shape::from_mesh(body, &options).expect("bodies that the library admits")
     });
@@ -58,7 +58,7 @@ pub fn check(flight: &mut Flight) {
         if let Some(what) = contradiction(&cold, &flown_answers[number]) {
             flight.violated(number, format!("the cache carried on: {what}"));
         }
-        let any = |random: &mut Random, caches: &[PairCache]| caches[random.below(caches.len() as u64) as usize];
+        let any = |random: &mut Random, caches: &[PairCache]| caches[random.below(caches.len())];
         let starts = [
             ("right", flown[number]),
             ("of another pose", any(&mut random, &flown)),
@@ -68,11 +68,11 @@ pub fn check(flight: &mut Flight) {
             ("of the farthest vertices", farthest(shapes, placed, &mut random)),
         ];
         for (start, cache) in starts {
-            let (name, query, bounds) = QUERIES[random.below(4) as usize];
+            let (name, query, bounds) = QUERIES[random.below(4)];
             // Without a limit to the distance, or with one that is as near to it as can be.
             let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
-            let distance_tolerance = limits[random.below(12).saturating_sub(6) as usize];
-            let start_at = STARTS[random.below(5) as usize];
+            let distance_tolerance = limits[random.below(12).saturating_sub(6)];
+            let start_at = STARTS[random.below(5)];
             let config = PairConfig { bounds, distance_tolerance, start: start_at, ..PairConfig::default() };
             let shapes = if random.below(2) == 0 { shapes } else { [&other1, &other2] };
             let (mut used, mut answer) = (cache, PairAnswer::default());
@@ -131,16 +131,16 @@ fn foreign_caches(flight: &Flight) -> Vec<PairCache> {
 /// Features that exist, in every combination of kinds, with directions that need not be numbers.
 fn random_features(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
     let mut words = [0; WORDS];
-    words[0] = KINDS[random.below(KINDS.len() as u64) as usize];
+    words[0] = KINDS[random.below(KINDS.len())];
     let counts = shapes.map(|shape| {
         let hull = shape.polyhedron();
-        [hull.vertices.len(), hull.edges.len(), hull.faces.len()][random.below(3) as usize].max(1) as u64
+        [hull.vertices.len(), hull.edges.len(), hull.faces.len()][random.below(3)].max(1)
     });
     for (k, word) in words[1..11].iter_mut().enumerate() {
         *word = random.below(counts[k % 2]) as u32;
     }
     for word in &mut words[11..] {
-        *word = [f32::NAN, f32::INFINITY, 0.0, -1e30, random.signed() as f32][random.below(5) as usize].to_bits();
+        *word = [f32::NAN, f32::INFINITY, 0.0, -1e30, random.signed() as f32][random.below(5)].to_bits();
     }
     cache_of_words(words)
 }
@@ -157,14 +157,14 @@ fn farthest(shapes: [&Shape; 2], poses: &[Pose; 2], random: &mut Random) -> Pair
         heights.enumerate().max_by(|(_, one), (_, other)| one.total_cmp(other)).map_or(0, |(v, _)| v as u32)
     };
     let mut words = [0; WORDS];
-    words[0] = KINDS[[0, 6, 9][random.below(3) as usize]];
+    words[0] = KINDS[[0, 6, 9][random.below(3)]];
     words[1..11].chunks_mut(2).for_each(|pair| pair.copy_from_slice(&[support(0, &away), support(1, &-away)]));
     cache_of_words(words)
 }
 
 /// Random bits, as many as a cache has.
 pub fn words_of_a_cache(random: &mut Random) -> [u32; WORDS] {
-    [(); WORDS].map(|()| random.bits() as u32)
+    [(); WORDS].map(|()| random.next_u64() as u32)
 }
 
 pub fn cache_of_words(words: [u32; WORDS]) -> PairCache {

@@ -36,9 +36,9 @@ pub fn check(flight: &mut Flight) -> usize {
     let bodies = &flight.sequence.bodies;
     let [first, second] = bodies.each_ref().map(|body| {
         let hierarchy = HierarchyOptions {
-            kind: KINDS[random.below(3) as usize],
-            decimation: [0.25, 0.5, 0.7][random.below(3) as usize],
-            minimum_triangles: [4, 12, 50][random.below(3) as usize],
+            kind: KINDS[random.below(3)],
+            decimation: [0.25, 0.5, 0.7][random.below(3)],
+            minimum_triangles: [4, 12, 50][random.below(3)],
             ..HierarchyOptions::default()
         };
         let options = ShapeOptions { input: InputPolicy::Hull, hierarchy, ..ShapeOptions::default() };
@@ -52,7 +52,7 @@ pub fn check(flight: &mut Flight) -> usize {
         let points = [bodies[0].vertices.as_slice(), bodies[1].vertices.as_slice()];
         let (size, reach) = extent(points, placed.each_ref());
         for _ in 0..4 {
-            let (name, query) = QUERIES[random.below(6) as usize];
+            let (name, query) = QUERIES[random.below(6)];
             let config = any_config(&mut random, size);
             let mut cache = if random.below(6) == 0 { random_places(&mut random, flight.shapes) } else { warm };
             let before = cache;
@@ -79,22 +79,22 @@ pub fn check(flight: &mut Flight) -> usize {
 }
 
 fn any_config(random: &mut Random, size: f64) -> PairConfig {
-    let mut error = || [0.0, 0.0, 1e-15, 1e-9, 1e-3, 0.1, 1.0][random.below(7) as usize];
+    let mut error = || [0.0, 0.0, 1e-15, 1e-9, 1e-3, 0.1, 1.0][random.below(7)];
     let (absolute_error, relative_error, tolerance) = (size * error(), error(), size * error());
     PairConfig {
         absolute_error,
         relative_error,
         distance_tolerance: if random.below(4) == 0 { tolerance } else { f64::INFINITY },
         step_budget: if random.below(6) == 0 { 1 + random.below(12) as u32 } else { u32::MAX },
-        levels: [Levels::Automatic, Levels::None, Levels::All, Levels::All][random.below(4) as usize],
-        refinement: REFINEMENTS[random.below(4) as usize],
+        levels: [Levels::Automatic, Levels::None, Levels::All, Levels::All][random.below(4)],
+        refinement: REFINEMENTS[random.below(4)],
         ..PairConfig::default()
     }
 }
 
 /// Features of levels, of which few exist.
 fn random_places(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
-    let most = shapes.map(|shape| shape.polyhedron().edges.len().max(1) as u64);
+    let most = shapes.map(|shape| shape.polyhedron().edges.len().max(1));
     let mut words = words_of_a_cache(random);
     words[0] = random.below(26) as u32;
     words[1] = random.below(most[0]) as u32;

@@ -80,6 +80,6 @@ fn mapped(mesh: &PolygonMesh, by: &Matrix) -> PolygonMesh {
 /// A translation that often rounds nothing: a few units in one of the last places of the coordinates.
 fn exact_step(poses: &[Pose; 2], random: &mut Random) -> Vector {
     let largest = poses.iter().map(|pose| pose.translation().amax()).fold(f64::MIN_POSITIVE, f64::max);
-    let unit = 2f64.powi(largest.log2().floor() as i32 - [50, 20, 1][random.below(3) as usize]);
+    let unit = 2f64.powi(largest.log2().floor() as i32 - [50, 20, 1][random.below(3)]);
     unit * random.lattice(3)
 }

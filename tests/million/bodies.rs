@@ -87,14 +87,14 @@ pub fn any(random: &mut Random) -> Body {
         mesh.vertices.iter_mut().for_each(|v| *v *= size);
         Body::from_mesh(mesh)
     };
-    let hull = |random: &mut Random, n: usize| random_hull(n, random.bits()).expect("random points");
+    let hull = |random: &mut Random, n: usize| random_hull(n, random.next_u64()).expect("random points");
     match random.below(10) {
         0 => any_box(random),
         1 => of_mesh(triangulated(&cuboid([1.0, 0.75, 0.5]).expect("a box"))),
         2 => of_mesh(hull(random, 4)),
         3 => of_mesh(prism(3 + random.below(15) as u32, 0.5 + 0.4 * random.signed()).expect("a prism")),
         4 => {
-            let n = 5 + random.below(26) as usize;
+            let n = 5 + random.below(26);
             of_mesh(hull(random, n))
         }
         5 => {
@@ -104,15 +104,15 @@ pub fn any(random: &mut Random) -> Body {
         6 => Body::from_points(polygon(random).iter().map(|p| p * size).collect()),
         7 => {
             // Slivers, needles and plates.
-            let thin = |random: &mut Random| [1.0, random.power(-45, -1), 1e-6][random.below(3) as usize];
+            let thin = |random: &mut Random| [1.0, random.power(-45, -1), 1e-6][random.below(3)];
             let axes = Vector::new(1.0, thin(random), thin(random)) * size;
-            let n = 4 + random.below(9) as usize;
+            let n = 4 + random.below(9);
             Body::from_points(hull(random, n).vertices.iter().map(|p| p.component_mul(&axes)).collect())
         }
         8 => {
             // Far from its own origin.
             let offset = size * 10f64.powi(random.below(10) as i32) * random.vector();
-            let n = 4 + random.below(12) as usize;
+            let n = 4 + random.below(12);
             Body::from_points(hull(random, n).vertices.iter().map(|p| p * size + offset).collect())
         }
         _ => {

@@ -142,7 +142,7 @@ fn orbits_of_small_bodies() {
         let [a, b] = [(); 2].map(|()| any(&mut session.random));
         let orbit = ORBITS[index % ORBITS.len()];
         let size = 0.5 * (a.reach() + b.reach());
-        for pair in poses(orbit, STEPS[session.random.below(5) as usize], 60) {
+        for pair in poses(orbit, STEPS[session.random.below(5)], 60) {
             let pose = |k: usize| {
                 let pose = Pose::from_row_major(&std::array::from_fn(|i| pair[12 * k + i]));
                 Pose::new(&pose.rotation(), &Vector::from(pose.translation() * size))

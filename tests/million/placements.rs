@@ -4,7 +4,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::Outcome;
 
 use crate::bodies::Body;
-use crate::cases::Random;
+use crate::cases::{Random, gap};
 use crate::common::random::rotation;
 use crate::properties::{Placed, Session};
 
@@ -70,23 +70,23 @@ pub fn touching(bodies: [&Body; 2], random: &mut Random) -> [Pose; 2] {
     let turn2 = tilt * spin * half_turn;
     let size = bodies[0].radius().min(bodies[1].radius());
     let pose1 = Pose::new(&turn1, &Vector::zeros());
-    let meeting = pose1.transform(&point1) + out * (size * random.gap());
+    let meeting = pose1.transform(&point1) + out * (size * gap(random));
     moved_far([pose1, Pose::new(&turn2, &(meeting - turn2 * point2))], random)
 }
 
 /// 0, or 10⁻¹² to 10⁻³ radians.
 fn tiny_angle(random: &mut Random) -> f64 {
-    [0.0, 10f64.powi(-3 - random.below(10) as i32) * random.signed()][random.below(2) as usize]
+    [0.0, 10f64.powi(-3 - random.below(10) as i32) * random.signed()][random.below(2)]
 }
 
 /// A vertex, a point of an edge or of a face, and an outward normal there.
 fn surface_point(body: &Body, random: &mut Random) -> (Vector, Vector) {
     let hull = body.shape.polyhedron();
-    let Some(face) = hull.faces.get(random.below(hull.faces.len().max(1) as u64) as usize) else {
+    let Some(face) = hull.faces.get(random.below(hull.faces.len().max(1))) else {
         return (body.points[0], random.vector().normalize());
     };
     let normal = Vector::new(face.planes.x[0], face.planes.y[0], face.planes.z[0]);
-    let side = random.below(u64::from(face.side_count)) as u32;
+    let side = random.below(face.side_count as usize) as u32;
     let edge = &hull.edges[hull.sides[(face.first_side + side) as usize] as usize];
     let [tail, head] = [edge.tail, edge.head].map(|v| hull.local_position(v));
     let on_edge = tail + (head - tail) * (0.5 + 0.5 * random.signed());

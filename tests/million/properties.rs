@@ -102,7 +102,7 @@ pub struct Session {
 impl Session {
     pub fn new(seed: u64) -> Session {
         Session {
-            random: Random(seed),
+            random: Random::new(seed),
             own: PairCache::default(),
             foreign: PairCache::default(),
             tally: Tally::default(),
@@ -127,7 +127,7 @@ impl Session {
     /// One of the other queries, every eighth time all: each agrees with the answer from a cold cache.
     fn check_other_queries(&mut self, placed: &Placed, cold: &PairAnswer) {
         let all = self.random.below(8) == 0;
-        let one = self.random.below(OTHER_QUERIES.len() as u64) as usize;
+        let one = self.random.below(OTHER_QUERIES.len());
         for (property, question, origin) in if all { OTHER_QUERIES } else { &OTHER_QUERIES[one..=one] } {
             let mut cache = match origin {
                 Origin::Swapped => PairCache::default(),
@@ -238,12 +238,12 @@ const CACHE_WORDS: usize = size_of::<PairCache>() / 4;
 
 /// Any bytes, or bytes that look like a cache's: small kinds and indices near the pair's own counts.
 fn garbage_cache(random: &mut Random, placed: &Placed) -> PairCache {
-    let mut words = [(); CACHE_WORDS].map(|()| random.bits() as u32);
+    let mut words = [(); CACHE_WORDS].map(|()| random.next_u64() as u32);
     if random.below(4) != 0 {
         words[0] = random.below(14) as u32;
-        let most = placed.bodies.map(|body| body.points.len() as u64);
+        let most = placed.bodies.map(|body| body.points.len());
         for word in &mut words[1..11] {
-            let body = random.below(2) as usize;
+            let body = random.below(2);
             *word = random.below(most[body] + 2) as u32;
         }
     }

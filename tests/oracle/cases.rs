@@ -1,74 +1,10 @@
 //! Small pairs of polytopes that are hard in every way known to us, from fixed seeds.
 
+pub use crate::common::random::Random;
 use swiftprox::double_double::{wide_dot, widen};
 use swiftprox::math::{Matrix, Pose, Vector};
 
 use crate::oracle::{Matrix3x4, Polytope, Truth, truth};
-
-/// SplitMix64 (Steele, Lea & Flood 2014).
-pub struct Random(pub u64);
-
-impl Random {
-    pub fn bits(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    /// Uniform in 0..n.
-    pub fn below(&mut self, n: u64) -> u64 {
-        self.bits() % n
-    }
-
-    /// Uniform in [-1, 1).
-    pub fn signed(&mut self) -> f64 {
-        (self.bits() >> 11) as f64 / (1u64 << 52) as f64 - 1.0
-    }
-
-    pub fn vector(&mut self) -> Vector {
-        Vector::new(self.signed(), self.signed(), self.signed())
-    }
-
-    /// An integer vector with components in -n..=n.
-    pub fn lattice(&mut self, n: i64) -> Vector {
-        let mut component = || (self.below(2 * n as u64 + 1) as i64 - n) as f64;
-        Vector::new(component(), component(), component())
-    }
-
-    /// A power of two between 2^from and 2^to.
-    pub fn power(&mut self, from: i32, to: i32) -> f64 {
-        2f64.powi(from + self.below((to - from + 1) as u64) as i32)
-    }
-
-    /// A distance that is nothing, tiny or small, of either sign.
-    pub fn gap(&mut self) -> f64 {
-        [0.0, 1.0, -1.0][self.below(3) as usize] * self.power(-60, -10)
-    }
-
-    /// A rotation in doubles: orthonormal up to rounding.
-    pub fn rotation(&mut self) -> Matrix {
-        loop {
-            let (w, v) = (self.signed(), self.vector());
-            let q = nalgebra::Quaternion::from_parts(w, v);
-            if q.norm() > 0.1 && q.norm() <= 1.0 {
-                return nalgebra::UnitQuaternion::new_normalize(q).to_rotation_matrix().into_inner();
-            }
-        }
-    }
-
-    /// One of the 24 rotations of the cube: exact in doubles.
-    pub fn quarter_turns(&mut self) -> Matrix {
-        let x = Matrix::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
-        let y = Matrix::new(0.0, 0.0, 1.0, 0.0, 1.0, 0.0, -1.0, 0.0, 0.0);
-        let mut turn = Matrix::identity();
-        for _ in 0..self.below(6) {
-            turn *= if self.below(2) == 0 { x } else { y };
-        }
-        turn
-    }
-}
 
 /// Two point sets, each standing for its convex hull, at their poses.
 pub struct Case {
@@ -135,12 +71,17 @@ fn box_points(half: Vector) -> Vec<Vector> {
     (0..8).map(|k| half.component_mul(&Vector::new(sign(k, 0), sign(k, 1), sign(k, 2)))).collect()
 }
 
-fn lattice_points(random: &mut Random, n: i64) -> Vec<Vector> {
+/// A distance that is nothing, tiny or small, of either sign.
+pub fn gap(random: &mut Random) -> f64 {
+    random.pick(&[0.0, 1.0, -1.0]) * random.power(-60, -10)
+}
+
+fn lattice_points(random: &mut Random, n: usize) -> Vec<Vector> {
     let count = 4 + random.below(5);
     (0..count).map(|_| random.lattice(n)).collect()
 }
 
-fn random_points(random: &mut Random, count: u64) -> Vec<Vector> {
+fn random_points(random: &mut Random, count: usize) -> Vec<Vector> {
     (0..count).map(|_| random.vector()).collect()
 }
 
@@ -193,7 +134,7 @@ fn slivers(random: &mut Random) -> Case {
         } else {
             box_points(random.vector() + Vector::repeat(1.5))
         };
-        let thin = Vector::new(1.0, [1.0, random.power(-45, -5)][random.below(2) as usize], random.power(-45, -5));
+        let thin = Vector::new(1.0, [1.0, random.power(-45, -5)][random.below(2)], random.power(-45, -5));
         points.iter_mut().for_each(|p| *p = p.component_mul(&thin));
         points
     };
@@ -223,7 +164,7 @@ fn vertex_near_face(random: &mut Random) -> Case {
     let mut points_b = random_points(random, 5);
     points_b.iter_mut().for_each(|p| p.z = p.z.abs() + 0.125);
     points_b.push(Vector::zeros());
-    let shift = Vector::new(random.signed(), random.signed(), 0.5 + random.gap());
+    let shift = Vector::new(random.signed(), random.signed(), 0.5 + gap(random));
     side_by_side(random, points_a, points_b, shift)
 }
 
@@ -234,7 +175,7 @@ fn crossing_edges(random: &mut Random) -> Case {
         vec![ridge, -ridge, Vector::new(0.25, 1.0, down), Vector::new(-0.25, -1.0, down)]
     };
     let slope = random.power(-40, 0);
-    let shift = Vector::new(0.25 * random.signed(), 0.0, random.gap());
+    let shift = Vector::new(0.25 * random.signed(), 0.0, gap(random));
     side_by_side(random, roof(-0.5, 0.0), roof(0.75, slope), shift)
 }
 
@@ -242,8 +183,8 @@ fn crossing_edges(random: &mut Random) -> Case {
 fn parallel_faces(random: &mut Random) -> Case {
     let (half_a, half_b) = (Vector::new(1.0, 0.75, 0.5), Vector::new(0.5, 1.0, 0.25));
     let mut shift = random.vector();
-    for axis in 0..=random.below(3) as usize {
-        shift[axis] = half_a[axis] + half_b[axis] + random.gap();
+    for axis in 0..=random.below(3) {
+        shift[axis] = half_a[axis] + half_b[axis] + gap(random);
     }
     side_by_side(random, box_points(half_a), box_points(half_b), shift)
 }
@@ -282,8 +223,8 @@ fn flat_vertices(random: &mut Random) -> Case {
     }
     points.push(Vector::new(1.0, 0.0, 0.5));
     let mut shift = random.lattice(1);
-    let axis = random.below(3) as usize;
-    shift[axis] = 2.0 * half[axis] + [random.gap(), 0.5, 0.0][random.below(3) as usize];
+    let axis = random.below(3);
+    shift[axis] = 2.0 * half[axis] + [gap(random), 0.5, 0.0][random.below(3)];
     side_by_side(random, points.clone(), points, shift)
 }
 
@@ -329,7 +270,7 @@ fn far_local_origin(random: &mut Random) -> Case {
     };
     let size = random.power(-60, -20);
     let points_b = random_points(random, 6).iter().map(|p| size * p).collect();
-    let apart = size * [0.0, 0.5, 3.0][random.below(3) as usize];
+    let apart = size * [0.0, 0.5, 3.0][random.below(3)];
     let pose_b = Pose::new(&random.rotation(), &(Vector::new(rest(0), rest(1), rest(2)) + apart * random.vector()));
     Case { points_a, pose_a: Pose::new(&rotation, &-turned), points_b, pose_b }
 }
@@ -337,7 +278,7 @@ fn far_local_origin(random: &mut Random) -> Case {
 /// One of the other cases, from subnormal to near overflow, or the two bodies of very different size.
 fn scales(random: &mut Random) -> Case {
     let generators: [Generator; 4] = [lattice, boxes, tetrahedra, vertex_near_face];
-    let mut case = generators[random.below(4) as usize](random);
+    let mut case = generators[random.below(4)](random);
     let scale_a = random.power(-1040, 1000);
     let scale_b = if random.below(2) == 0 { scale_a } else { scale_a * random.power(-20, 20) };
     case.points_a.iter_mut().for_each(|p| *p *= scale_a);

@@ -9,7 +9,7 @@ use crate::cases::Random;
 pub fn shuffled<T: Clone>(items: &[T], random: &mut Random) -> Vec<T> {
     let mut items = items.to_vec();
     for last in (1..items.len()).rev() {
-        items.swap(last, random.below(last as u64 + 1) as usize);
+        items.swap(last, random.below(last + 1));
     }
     items
 }
@@ -25,7 +25,7 @@ pub fn renumbered(mesh: &PolygonMesh, random: &mut Random) -> PolygonMesh {
     let (mut indices, mut valences) = (Vec::new(), Vec::new());
     for face in shuffled(&(0..mesh.face_count()).collect::<Vec<_>>(), random) {
         let mut corners: Vec<u32> = mesh.face(face).iter().map(|&v| new_index[v as usize]).collect();
-        let first = random.below(corners.len() as u64) as usize;
+        let first = random.below(corners.len());
         corners.rotate_left(first);
         valences.push(corners.len() as u32);
         indices.extend(corners);

@@ -7,7 +7,8 @@ mod solids;
 mod validate;
 
 use common::models;
-use random::SplitMix64;
+use common::random::Random;
+use random::{ellipsoid, turned};
 use swiftprox::math::{UNIT_ROUNDOFF, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;
@@ -36,10 +37,10 @@ fn boxes_have_six_faces() {
 
 #[test]
 fn rotated_boxes_have_six_faces() {
-    let mut random = SplitMix64(1);
+    let mut random = Random::new(1);
     for size in [[1.0, 1.0, 1.0], [1e3, 1.0, 1.0], [1e3, 1e3, 1.0], [3.0, 2.0, 1.0]] {
         for _ in 0..100 {
-            let p = hull(&random.rotate(&solids::cuboid(size)));
+            let p = hull(&turned(&mut random, &solids::cuboid(size)));
             assert_eq!(counts(&p), (8, 12, 6), "{size:?}");
         }
     }
@@ -47,13 +48,13 @@ fn rotated_boxes_have_six_faces() {
 
 #[test]
 fn subdivided_cubes_have_six_faces() {
-    let mut random = SplitMix64(2);
+    let mut random = Random::new(2);
     let grid = solids::grid_on_cube(7);
     let p = hull(&grid);
     assert_eq!((p.edges.len(), p.faces.len()), (12, 6));
     let mut whole = 0;
     for _ in 0..20 {
-        let p = hull(&random.rotate(&grid));
+        let p = hull(&turned(&mut random, &grid));
         whole += usize::from((p.edges.len(), p.faces.len()) == (12, 6));
     }
     assert_eq!(whole, 20, "rounding keeps faces apart");
@@ -61,9 +62,9 @@ fn subdivided_cubes_have_six_faces() {
 
 #[test]
 fn prisms_have_one_cap_each() {
-    let mut random = SplitMix64(3);
+    let mut random = Random::new(3);
     let prism = solids::prism(1000, 1.0);
-    for points in [prism.clone(), random.rotate(&prism), random.rotate(&solids::prism(1000, 1e-6))] {
+    for points in [prism.clone(), turned(&mut random, &prism), turned(&mut random, &solids::prism(1000, 1e-6))] {
         let p = hull(&points);
         assert_eq!(counts(&p), (2000, 3000, 1002));
         assert_eq!(p.faces.iter().map(|f| f.side_count).max(), Some(1000));
@@ -81,7 +82,7 @@ fn a_cone_keeps_its_fan() {
 /// Around a vertex with more neighbours than a flood may look at, slacks come from the planes beside an edge: as exact.
 #[test]
 fn slacks_at_a_vertex_of_many_neighbours_stay_small() {
-    let mut random = SplitMix64(5);
+    let mut random = Random::new(5);
     let meshes = [
         models::cone(1500, 1.0),
         models::cone(1500, 1e-3),
@@ -90,7 +91,7 @@ fn slacks_at_a_vertex_of_many_neighbours_stay_small() {
         models::moment_curve(1000),
     ];
     for mesh in meshes {
-        let p = hull(&random.rotate(&mesh.unwrap().vertices));
+        let p = hull(&turned(&mut random, &mesh.unwrap().vertices));
         let worst = p.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
         assert!(worst > 0.0 && worst <= 12.0 * UNIT_ROUNDOFF * p.radius, "{:e} of {:e}", worst, p.radius);
     }
@@ -98,7 +99,7 @@ fn slacks_at_a_vertex_of_many_neighbours_stay_small() {
 
 #[test]
 fn ellipsoids() {
-    let mut random = SplitMix64(4);
+    let mut random = Random::new(4);
     for (count, semi_axes) in [
         (10, [1.0, 1.0, 1.0]),
         (102, [1.0, 0.9, 0.8]),
@@ -106,7 +107,7 @@ fn ellipsoids() {
         (1002, [1.0, 1e-3, 1e-3]),
         (10_002, [1.0, 1.0, 0.5]),
     ] {
-        let p = hull(&random.ellipsoid(count, semi_axes));
+        let p = hull(&ellipsoid(&mut random, count, semi_axes));
         assert_eq!(counts(&p), (count, 3 * count - 6, 2 * count - 4));
         assert!(p.faces.iter().all(|f| f.slack < 8.0 * f64::EPSILON));
     }
@@ -127,7 +128,7 @@ fn slivers_stay_apart() {
 #[test]
 fn caps_flatter_than_rounding() {
     // A patch of a sphere so large that its triangles are coplanar one with the next but not all together, on an apex below.
-    let mut random = SplitMix64(12);
+    let mut random = Random::new(12);
     for curvature in [1e-8, 1e-10, 1e-12, 1e-13, 1e-14, 1e-15, 1e-16] {
         let mut points: Vec<Vector> = (0..300)
             .map(|_| {
@@ -137,13 +138,13 @@ fn caps_flatter_than_rounding() {
             .collect();
         points.push(Vector::new(0.0, 0.0, -1.0));
         hull(&points);
-        hull(&random.rotate(&points));
+        hull(&turned(&mut random, &points));
     }
 }
 
 #[test]
 fn flat_bodies_have_two_faces() {
-    let mut random = SplitMix64(5);
+    let mut random = Random::new(5);
     let square = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [1.0, 1.0, 0.0], [0.0, 1.0, 0.0], [0.5, 0.0, 0.0], [0.5, 0.5, 0.0]];
     let p = hull(&square.map(Vector::from));
     assert_eq!((p.dimension, counts(&p), p.bevels.len()), (2, (4, 4, 2), 4));
@@ -169,9 +170,9 @@ fn segments_and_points() {
 
 #[test]
 fn far_from_the_origin_nothing_is_lost() {
-    let mut random = SplitMix64(6);
+    let mut random = Random::new(6);
     let offset = Vector::new(1e9, -1e9, 1e9);
-    let points: Vec<Vector> = random.ellipsoid(102, [1.0, 0.5, 0.25]).iter().map(|p| p + offset).collect();
+    let points: Vec<Vector> = ellipsoid(&mut random, 102, [1.0, 0.5, 0.25]).iter().map(|p| p + offset).collect();
     let p = hull(&points);
     assert!(p.radius < 1.1);
     assert!(p.faces.iter().all(|f| f.slack < 8.0 * f64::EPSILON));
@@ -179,7 +180,7 @@ fn far_from_the_origin_nothing_is_lost() {
 
 #[test]
 fn any_scale() {
-    let points = SplitMix64(7).ellipsoid(52, [1.0, 0.7, 0.4]);
+    let points = ellipsoid(&mut Random::new(7), 52, [1.0, 0.7, 0.4]);
     let p = hull(&points);
     for exponent in [-1000, -180, -30, 30, 180, 1020] {
         let scale = 2.0_f64.powi(exponent);
@@ -213,9 +214,9 @@ fn any_scale() {
 
 #[test]
 fn thin_bodies_random_and_degenerate() {
-    let mut random = SplitMix64(8);
+    let mut random = Random::new(8);
     for round in 0..200 {
-        let count = 4 + random.below(30) as usize;
+        let count = 4 + random.below(30);
         let digits = 2.0_f64.powi(random.below(50) as i32);
         let thin = 2.0_f64.powi(-(random.below(60) as i32));
         // Coordinates on a grid: many exact and many nearly exact ties.
@@ -225,14 +226,14 @@ fn thin_bodies_random_and_degenerate() {
                 Vector::new((p.x * digits).round() / digits, (p.y * digits).round() / digits, p.z * thin)
             })
             .collect();
-        let points = if round % 2 == 0 { random.rotate(&points) } else { points };
+        let points = if round % 2 == 0 { turned(&mut random, &points) } else { points };
         hull(&points);
     }
 }
 
 #[test]
 fn the_same_input_gives_the_same_arrays() {
-    let points = SplitMix64(9).ellipsoid(302, [1.0, 0.9, 0.3]);
+    let points = ellipsoid(&mut Random::new(9), 302, [1.0, 0.9, 0.3]);
     assert_eq!(build(&points, None).unwrap(), build(&points, None).unwrap());
 }
 
@@ -269,11 +270,11 @@ fn labels_are_the_callers_polygons() {
         2, 6, 3,  3, 6, 7,  8, 4, 2,  2, 4, 6,  1, 3, 5,  3, 7, 5,
     ];
     let mesh = PolygonMesh::new(vertices, triangles.to_vec(), None).unwrap();
-    let mut random = SplitMix64(10);
+    let mut random = Random::new(10);
     for round in 0..50 {
         let mut mesh = mesh.clone();
         if round > 0 {
-            mesh.vertices = random.rotate(&mesh.vertices);
+            mesh.vertices = turned(&mut random, &mesh.vertices);
         }
         let p = from_polygons(&mesh);
         assert_eq!((p.edges.len(), p.faces.len()), (12, 6));
@@ -287,7 +288,7 @@ fn labels_are_the_callers_polygons() {
 #[test]
 fn a_fan_of_a_thousand_triangles_is_one_face() {
     let n = 1000;
-    let mut random = SplitMix64(11);
+    let mut random = Random::new(11);
     let mut vertices = solids::prism(n as usize, 1.0);
     vertices.push(Vector::new(0.0, 0.0, 1.0));
     let mut indices: Vec<u32> = (0..n).rev().collect();
@@ -299,7 +300,7 @@ fn a_fan_of_a_thousand_triangles_is_one_face() {
         valences.extend([4, 3]);
     }
     for _ in 0..3 {
-        let mesh = PolygonMesh::new(random.rotate(&vertices), indices.clone(), Some(&valences)).unwrap();
+        let mesh = PolygonMesh::new(turned(&mut random, &vertices), indices.clone(), Some(&valences)).unwrap();
         let p = from_polygons(&mesh);
         assert_eq!((p.edges.len(), p.faces.len()), (3000, 1002));
         assert_eq!((0..1002).map(|f| p.labels_of_face(f).len()).max(), Some(1000));

@@ -6,7 +6,7 @@ use dashu_ratio::RBig;
 use swiftprox::math::Vector;
 use swiftprox::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
 
-use super::random::SplitMix64;
+use super::common::random::Random;
 
 const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 
@@ -128,12 +128,12 @@ fn distance_to_edge(p: &Polyhedron, edge: &Edge, v: u32) -> f64 {
 
 /// In random directions and along normals: the climb ends at the maximum over all vertices, up to rounding.
 fn supports(p: &Polyhedron) {
-    let mut random = SplitMix64(17);
+    let mut random = Random::new(17);
     let mut directions: Vec<Vector> = (0..20).map(|_| random.direction()).collect();
     directions.extend((0..3).flat_map(|k| [Vector::ith(k, 1.0), Vector::ith(k, -1.0)]));
     directions.extend(p.faces.iter().take(20).map(|f| normal(&f.planes, 0)));
     for direction in directions {
-        let start = random.below(p.vertices.len() as u64) as u32;
+        let start = random.below(p.vertices.len()) as u32;
         let (v, steps) = p.support(&direction, start);
         assert!((steps as usize) < p.vertices.len().max(1));
         let height = |v: usize| direction.dot(&p.vertices[v].position);
