@@ -49,6 +49,8 @@ lint:
 	@scripts/require.sh $(CC_PACKAGES)
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
+	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' --exclude-dir=target \
+	    --exclude-dir=build | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
 
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:

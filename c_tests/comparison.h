@@ -1,5 +1,5 @@
-/* Compares the library with its peers on all scenes. Every peer runs in a child process, so that it may crash or never end; the next
- * child goes on behind the pose that did it. Where a peer and the library differ, the exact oracle decides. */
+/* Compares the library with its peers on all scenes. Every peer runs in a child process, so that it may crash or never end; the
+ * next child goes on behind the pose that did it. Where a peer and the library differ, the exact oracle decides. */
 #ifndef COMPARISON_H
 #define COMPARISON_H
 

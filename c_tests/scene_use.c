@@ -148,8 +148,8 @@ static void activation(void)
     CHECK_OK(swift_scene_destroy(scene));
 }
 
-/* Round bodies with levels of detail, four radii apart: what was built and what it takes, which levels answered, and how much of the
- * error was spent. */
+/* Round bodies with levels of detail, four radii apart: what was built and what it takes, which levels answered, and how much of
+ * the error was spent. */
 static void levels(void)
 {
     enum { COUNT = 500 };

@@ -9,10 +9,10 @@
 //!   lo hi  ax ay az  bx by bz  depth_lo depth_hi  nx ny nz
 //!
 //! The distance lies in [lo, hi], both 0 when the closed bodies meet. Disjoint: a and b are nearest points, n runs from A to B.
-//! Intersecting: the depth, which is the least translation that leaves the interiors disjoint, lies in [depth_lo, depth_hi]; 0 means
-//! touching. Moving B by depth·n separates; a and b are a deepest pair, a − b = depth·n, or a common point when touching, or `nan`
-//! where the bodies have too many vertices for the depth to be followed to the end. The bodies are the hulls of R·v + T exactly as
-//! the doubles say. Every verdict and distance is computed in integers and rationals with nothing of the library
+//! Intersecting: the depth, which is the least translation that leaves the interiors disjoint, lies in [depth_lo, depth_hi]; 0
+//! means touching. Moving B by depth·n separates; a and b are a deepest pair, a − b = depth·n, or a common point when touching,
+//! or `nan` where the bodies have too many vertices for the depth to be followed to the end. The bodies are the hulls of R·v +
+//! T exactly as the doubles say. Every verdict and distance is computed in integers and rationals with nothing of the library
 //! (`tests/oracle/any_size`): the nearest points prove one bound, a supporting plane over all vertices the other.
 //!
 //! DIR/counts.csv tells what became of the poses when the library was asked for their distances, in order and with the cache

@@ -19,9 +19,11 @@
  * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, a
  * count of scenes, by which their ids differ, and which vector units the processor has; and a last message for each thread.
  *
- * Structs. Those that come in begin with struct_size: fill them with their _init function, then change members. A struct of an
- * older header is accepted, one of a newer header as long as what this library does not know is zero. Enumerators travel as
- * int32_t; unknown ones are refused.
+ * Structs. Options, configs, queries and infos begin with struct_size and may grow at their end: fill the first three with their
+ * _init function and change members, set an info's struct_size to its size. A struct of an older header is accepted, one of a newer
+ * header as long as what this library does not know is zero. All others (answers, results, features, statistics, meshes, caches)
+ * stay as they are within a major version, while that is 0 within a minor one. Enumerators travel as int32_t; unknown ones are
+ * refused.
  *
  * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]: an
  * object is R*v + T over its vertices v, exactly as the doubles give it. R is accepted when every entry of R^T R - I is at most
@@ -427,8 +429,8 @@ typedef struct swift_statistics {
 } swift_statistics;
 
 /**
- * The answer to a pair query. Points and features of what is not said are NaN and none; a separated answer always has a
- * normal.
+ * The answer to a pair query. Numbers that it does not say are NaN, features SWIFT_FEATURE_KIND_NONE; a separated answer always
+ * has a normal.
  */
 typedef struct swift_pair_answer {
   /** Disjoint, beyond the tolerance, or intersecting. */
@@ -700,7 +702,8 @@ swift_status swift_shape_create_from_file(const char *path,
 
 /**
  * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
- * encoding (UTF-8 on Windows). Any machine can load it; a version of this library that does not know the version of the file
+ * encoding (UTF-8 on Windows). Any machine can load it, with the levels that it has: built anew, those of a machine with other
+ * vector units may be slightly different ones. A version of this library that does not know the version of the file
  * refuses it.
  *
  * SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the

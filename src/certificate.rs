@@ -93,9 +93,9 @@ impl<L: Lanes> Minimum<L> {
         Gap { distance: self.distance, interval: interval(self.distance, self.reach, error, beyond, outside) }
     }
 
-    /// The same minimum with a direction in the planes of the normals at its edges, if it has edges. The direction across an edge is
-    /// not quite in the plane of the normals of its faces where these were merged: an edge much shorter than its faces leans out
-    /// of their planes by up to 16uρ over its length, and a direction perpendicular to it misses the cone by as much.
+    /// The same minimum with a direction in the planes of the normals at its edges, if it has edges. The direction across an
+    /// edge is not quite in the plane of the normals of its faces where these were merged: an edge much shorter than its faces
+    /// leans out of their planes by up to 16uρ over its length, and a direction perpendicular to it misses the cone by as much.
     #[inline(always)]
     fn between_planes(&self, frame: &Frame<L>, state: State) -> Option<Minimum<L>> {
         let [body1, body2] = &frame.bodies;
@@ -135,8 +135,8 @@ pub trait Certify<L: Lanes> {
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>);
 }
 
-/// A closer look at every minimum; the last one is kept. Along the direction that marching found, or `BETWEEN_PLANES` along another,
-/// see [`Minimum::between_planes`].
+/// A closer look at every minimum; the last one is kept. Along the direction that marching found, or `BETWEEN_PLANES` along
+/// another, see [`Minimum::between_planes`].
 pub struct CloserLook<L, const BETWEEN_PLANES: bool> {
     /// The minimum and what follows from it.
     pub found: Option<(Minimum<L>, Gap)>,
@@ -205,8 +205,8 @@ pub fn face_rounding(polyhedron: &Polyhedron, height: f64) -> f64 {
     16.0 * U * (polyhedron.radius + height)
 }
 
-/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which it was
-/// measured, 5.4u for the product; and 12u for what the planes and directions of a feature miss each other by.
+/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which
+/// it was measured, 5.4u for the product; and 12u for what the planes and directions of a feature miss each other by.
 pub const RIGID_MISFIT: f64 = 56.0 * U;
 
 /// A rigorous interval and |D| beside it.

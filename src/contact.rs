@@ -197,8 +197,8 @@ fn face_holding(
     best
 }
 
-/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose plane is
-/// nearest: the foot on it lies in the body, so in the face. Where rounding leaves several planes, the distances tell.
+/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose
+/// plane is nearest: the foot on it lies in the body, so in the face. Where rounding leaves several planes, the distances tell.
 fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Option<u32> {
     let height = |face: &Face| face.planes.value(0, point);
     let highest = polyhedron.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);

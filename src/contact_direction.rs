@@ -14,12 +14,12 @@ use crate::polyhedron::{NONE, Polyhedron};
 /// Pairs of vertices whose candidates are looked at: at a touching point one is enough.
 const ROUND_LIMIT: u32 = 8;
 
-/// Neighbours of a vertex beyond which not all are looked at, to bound the work at the apex of a cone: each candidate takes a look at
-/// all of them.
+/// Neighbours of a vertex beyond which not all are looked at, to bound the work at the apex of a cone: each candidate takes a
+/// look at all of them.
 const MOST_NEIGHBOURS: usize = 64;
 
-/// How many are looked at then: those along which the direction found so far runs steepest. Where it is in the normal cone these are
-/// the nearest to the cone's boundary, and on it the extreme rays are.
+/// How many are looked at then: those along which the direction found so far runs steepest. Where it is in the normal cone
+/// these are the nearest to the cone's boundary, and on it the extreme rays are.
 const STEEPEST_NEIGHBOURS: usize = 12;
 
 /// How far, as a sine, a cross product of edges may miss a normal cone to be looked at; the overlap itself then decides.

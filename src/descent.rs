@@ -1,8 +1,10 @@
-//! Marching across levels of detail: from coarse levels to ever finer ones, as far as the query needs (Ehmann & Lin 2000, §3 and §5.2).
+//! Marching across levels of detail: from coarse levels to ever finer ones, as far as the query needs (Ehmann & Lin 2000, §3
+//! and §5.2).
 //!
-//! A level contains its body and stands off by at most its deviation. So bodies are at least as far apart as any two levels of theirs, and
-//! at most by the deviations farther: a pair of levels that is disjoint already bounds the distance from both sides, for sure. The level
-//! pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a start.
+//! A level contains its body and stands off by at most its deviation. So bodies are at least as far apart as any two levels of
+//! theirs, and at most by the deviations farther: a pair of levels that is disjoint already bounds the distance from both
+//! sides, for sure. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a
+//! start.
 
 use crate::certificate::{Certify, CloserLook, Minimum};
 use crate::frame::Frame;
@@ -113,8 +115,9 @@ impl<'a> Leveled<'a> {
         Place { levels, state: State::of_features(features).unwrap_or_else(vertices) }
     }
 
-    /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap` of the levels
-    /// being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by no more than `most`.
+    /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap`
+    /// of the levels being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by
+    /// no more than `most`.
     pub fn climbed(&self, from: Place, gap: f64, most: f64) -> Place {
         let coarsest = self.coarsest();
         let Place { mut levels, state } = from;

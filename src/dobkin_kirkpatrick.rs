@@ -1,16 +1,16 @@
-//! Levels after D. P. Dobkin and D. G. Kirkpatrick ("Determining the Separation of Preprocessed Polyhedra: A Unified Approach", ICALP
-//! 1990), as Ehmann & Lin 2000, §4.4, make bounding volumes of them.
+//! Levels after D. P. Dobkin and D. G. Kirkpatrick ("Determining the Separation of Preprocessed Polyhedra: A Unified Approach",
+//! ICALP 1990), as Ehmann & Lin 2000, §4.4, make bounding volumes of them.
 //!
-//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the vertices around
-//! it: what is left is the exact hull of a part of the body's vertices, and the next removal begins there. For its bounding volume the
-//! vertices move outward along rays from the body's centre of mass c, all by one factor at first (scaling), and then back one by one as
-//! far as the volume stays convex and bounds the body (relaxation).
+//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the
+//! vertices around it: what is left is the exact hull of a part of the body's vertices, and the next removal begins there. For
+//! its bounding volume the vertices move outward along rays from the body's centre of mass c, all by one factor at first
+//! (scaling), and then back one by one as far as the volume stays convex and bounds the body (relaxation).
 //!
-//! On those rays both conditions are *linear*. Let r = p − c for each vertex, and let the level have its vertices at r/x. A point q of
-//! the body lies in the cone of one triangle, its centre-of-mass region: r_q = α·r_a + β·r_b + γ·r_c with α, β, γ ≥ 0. It is below the
-//! plane through the moved corners exactly if α·x_a + β·x_b + γ·x_c ≤ 1. The vertex d beyond the edge of a triangle (a, b, c) is below its
-//! plane exactly if α·x_a + β·x_b + γ·x_c ≤ x_d, with r_d = α·r_a + β·r_b + γ·r_c. Neither the cones nor their coefficients
-//! change while vertices slide.
+//! On those rays both conditions are *linear*. Let r = p − c for each vertex, and let the level have its vertices at r/x. A
+//! point q of the body lies in the cone of one triangle, its centre-of-mass region: r_q = α·r_a + β·r_b + γ·r_c with α, β, γ
+//! ≥ 0. It is below the plane through the moved corners exactly if α·x_a + β·x_b + γ·x_c ≤ 1. The vertex d beyond the edge of a
+//! triangle (a, b, c) is below its plane exactly if α·x_a + β·x_b + γ·x_c ≤ x_d, with r_d = α·r_a + β·r_b + γ·r_c. Neither the
+//! cones nor their coefficients change while vertices slide.
 //!
 //! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
 //! (see `hierarchy`).
@@ -26,16 +26,16 @@ use crate::predicates::ExactPoints;
 use crate::progress::Progress;
 use crate::triangulation::Triangulation;
 
-/// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin 2000, §4.4).
-/// A corner of a box has importance 3, so a box gets no level.
+/// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin
+/// 2000, §4.4). A corner of a box has importance 3, so a box gets no level.
 const MOST_IMPORTANT: f64 = 1.0;
 
-/// Vertices of more neighbours stay: filling their holes takes time in proportion to the square. No level would be without the tip of a
-/// cone anyway.
+/// Vertices of more neighbours stay: filling their holes takes time in proportion to the square. No level would be without the
+/// tip of a cone anyway.
 const LARGEST_VALENCE: usize = 100;
 
-/// A level that saves less than one triangle in sixteen is not worth its memory; without such a limit a body of which only a vertex at
-/// a time can go would fill it.
+/// A level that saves less than one triangle in sixteen is not worth its memory; without such a limit a body of which only a
+/// vertex at a time can go would fill it.
 const LEAST_SAVING: usize = 16;
 
 /// Sliding ends where no vertex gains more than this fraction of what scaling has moved the farthest one by.
@@ -125,8 +125,8 @@ impl<'a> DobkinKirkpatrick<'a> {
         self.triangle_count
     }
 
-    /// The next level, of at least `minimum` triangles. `None` where the construction ends: a tetrahedron or the minimum is reached,
-    /// hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
+    /// The next level, of at least `minimum` triangles. `None` where the construction ends: a tetrahedron or the minimum is
+    /// reached, hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
     ///
     /// # Errors
     /// [`crate::error::Error::Cancelled`].
@@ -163,8 +163,8 @@ impl<'a> DobkinKirkpatrick<'a> {
         Ok(Some(Removal { vertices, points, filled }))
     }
 
-    /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ this is the
-    /// paper's Σ (1 + cos θ). 0 where the surface is flat, 3 at the corner of a box.
+    /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ
+    /// this is the paper's Σ (1 + cos θ). 0 where the surface is flat, 3 at the corner of a box.
     fn importance(&self, v: u32, star: &[u32]) -> f64 {
         debug_assert!(star.iter().all(|t| self.triangles[*t as usize].corners.contains(&v)));
         let normal = |k: usize| &self.triangles[star[k % star.len()] as usize].normal;
@@ -255,12 +255,13 @@ impl<'a> DobkinKirkpatrick<'a> {
         is_inside
     }
 
-    /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from `ring[k]`), wrapping
-    /// each part of the ring like a gift: over the chord from its first to its last vertex the one above which no other lies. Returns the
-    /// new triangles. Time in proportion to the square of the ring at worst.
+    /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from
+    /// `ring[k]`), wrapping each part of the ring like a gift: over the chord from its first to its last vertex the one above
+    /// which no other lies. Returns the new triangles. Time in proportion to the square of the ring at worst.
     fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Vec<u32> {
         let mut filling = Vec::with_capacity(ring.len() - 2);
-        // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is outer.
+        // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is
+        // outer.
         let last = ring.len() - 1;
         let mut parts = vec![(0, last, outer[last], NONE)];
         while let Some((i, j, beyond, side)) = parts.pop() {
@@ -352,14 +353,16 @@ impl<'a> DobkinKirkpatrick<'a> {
         self.triangles.iter().enumerate().map(of_triangle).collect()
     }
 
-    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertex that can slide
-    /// farthest does. The factor is the one about the centre of mass that makes the hull of the vertices that are left bound the body.
+    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertex that
+    /// can slide farthest does. The factor is the one about the centre of mass that makes the hull of the vertices that are
+    /// left bound the body.
     fn relaxed(&self, conditions: &[Conditions]) -> Vec<f64> {
         let sums = conditions.iter().flat_map(|of| &of.bounds).map(|cone| cone.iter().sum());
         let factor = sums.fold(1.0, f64::max);
         let mut x = vec![1.0 / factor; self.rays.len()];
         let least = LEAST_SLIDE * (factor - 1.0) * self.base.mass.radius;
-        // For each vertex how far it can slide, and to which x; in the heap, too, where all but the latest of a vertex are out of date.
+        // For each vertex how far it can slide, and to which x; in the heap, too, where all but the latest of a vertex are out
+        // of date.
         let mut slides = vec![(0.0, 0.0); self.rays.len()];
         let mut heap = BinaryHeap::new();
         let mut star = Vec::new();

@@ -169,8 +169,8 @@ impl FacesAround<'_> {
         self.starts[vertex as usize] as usize..self.starts[vertex as usize + 1] as usize
     }
 
-    /// The faces around a vertex; if there are many, those at the angle of a point. Seen along an axis into the body the faces around
-    /// a vertex do not overlap.
+    /// The faces around a vertex; if there are many, those at the angle of a point. Seen along an axis into the body the faces
+    /// around a vertex do not overlap.
     fn towards(&self, vertex: u32, point: &Vector) -> impl Iterator<Item = u32> {
         let range = self.range(vertex);
         let (faces, count) = (&self.faces[range.clone()], range.len());

@@ -116,8 +116,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         Frame::assemble(polyhedra, &placed, &origins, usual, skewed)
     }
 
-    /// [`Frame::new`] for [ordinary](Polyhedron::ordinary) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only `usual` if both
-    /// poses are rigid and of ordinary magnitude, without a closer look.
+    /// [`Frame::new`] for [ordinary](Polyhedron::ordinary) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only
+    /// `usual` if both poses are rigid and of ordinary magnitude, without a closer look.
     #[inline(always)]
     pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
         let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
@@ -215,8 +215,8 @@ impl<L: Lanes> Placed<L> {
         }
     }
 
-    /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both. The squares
-    /// of four entries at a time are summed, one of each kind of each pose: a NaN passes no comparison.
+    /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both. The
+    /// squares of four entries at a time are summed, one of each kind of each pose: a NaN passes no comparison.
     #[inline(always)]
     fn are_rigid(placed: &[Placed<L>; 2]) -> bool {
         let [first, second] = placed;

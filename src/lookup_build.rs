@@ -172,8 +172,8 @@ impl Search<'_> {
     }
 
     /// A vertex that no neighbour of it is nearer than, by walking from the best of some vertices to nearer and nearer ones. Mostly
-    /// it is the nearest of all; the nearest of all everywhere would save 0.1 steps of marching from 4 and take twenty times as long.
-    /// Where a vertex has very many neighbours the nearest of all is searched.
+    /// it is the nearest of all; the nearest of all everywhere would save 0.1 steps of marching from 4 and take twenty times as
+    /// long. Where a vertex has very many neighbours the nearest of all is searched.
     fn near(&self, point: &Vector, from: [u32; 3]) -> u32 {
         let square = |v: u32| (self.positions[v as usize] - point).norm_squared();
         let (mut vertex, mut least) = (from[0], square(from[0]));

@@ -290,9 +290,10 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
 /// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as inside for sure.
 ///
 /// Over a triangle: its foot is inside by [`is_inside_sides`], which asks for 64u·ρ; the foot's values differ from the point's by a
-/// few u of the height and of both points' magnitudes. By an edge: with x seen from the far body as p = Rᵀx and U = x − R·foot, RᵀU = p
-/// − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what they would say of RᵀU + foot by 37u·ρ for E, 8u(|p| + ρ) for
-/// planes and their values, 6u|p| for the product and 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p| for x: at most 70u·(ρ₁ + ρ₂ + |Δ|) in all.
+/// few u of the height and of both points' magnitudes. By an edge: with x seen from the far body as p = Rᵀx and U = x − R·foot,
+/// RᵀU = p − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what they would say of RᵀU + foot by 37u·ρ for
+/// E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p| for x: at most 70u·(ρ₁ +
+/// ρ₂ + |Δ|) in all.
 const MARGIN: f64 = 3.0;
 
 /// An upper bound of the length of a vector that is unit up to 1 %.
@@ -392,9 +393,9 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
             walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
         };
     }
-    // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it the slopes,
-    // found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a feature miss each
-    // other by.
+    // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
+    // the slopes, found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a
+    // feature miss each other by.
     let inverse = reciprocal_length(sine_squared);
     let misfit = UNIT_ROUNDOFF * (28.0 + 3.0 * inverse);
     let is_plain = L::splat(0.0).greater(across) == 0;
@@ -414,7 +415,8 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
         points,
         rotated,
         difference,
-        // R·tail are the products that the frame's bound is for; R·ê, the length of x − y between the tails and two sums come on top.
+        // R·tail are the products that the frame's bound is for; R·ê, the length of x − y between the tails and two sums come
+        // on top.
         error: 10.0 * UNIT_ROUNDOFF * (s + t + distance),
         direction: normal,
         inverse,

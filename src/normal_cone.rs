@@ -1,11 +1,11 @@
-//! A direction in the normal cones of two bodies where they touch, in a few scans of the neighbours of two vertices, however many these
-//! are.
+//! A direction in the normal cones of two bodies where they touch, in a few scans of the neighbours of two vertices, however
+//! many these are.
 //!
-//! Of a pair of vertices that touch, d (from body 2 to body 1) is in both cones if d·k ≤ 0 for all k: the directions of body 2's edges at
-//! its vertex, and the reverse of body 1's. That is to separate the origin from the hull of the k, which
-//! Gilbert-Johnson-Keerthi does with a scan as support. Where the origin lies in that hull's boundary, as with edges or faces that
-//! are flush, d is perpendicular to the part it lies in, and the search goes on across it. Likewise d is perpendicular to the difference
-//! of two vertices whose weights with others give a common point.
+//! Of a pair of vertices that touch, d (from body 2 to body 1) is in both cones if d·k ≤ 0 for all k: the directions of body
+//! 2's edges at its vertex, and the reverse of body 1's. That is to separate the origin from the hull of the k, which
+//! Gilbert-Johnson-Keerthi does with a scan as support. Where the origin lies in that hull's boundary, as with edges or faces
+//! that are flush, d is perpendicular to the part it lies in, and the search goes on across it. Likewise d is perpendicular to
+//! the difference of two vertices whose weights with others give a common point.
 //!
 //! All of it proposes; how far the bodies overlap along d is for the caller to see.
 
@@ -20,8 +20,8 @@ const MOST_SCANS: u32 = 32;
 /// Sines below this are taken for 0.
 const PARALLEL: f64 = 1e-9;
 
-/// A world direction, of either sense, that separates two bodies which only touch; `pairs` are vertex pairs whose differences hold the
-/// origin in their hull. `None` where the bodies overlap, or rounding leaves nothing.
+/// A world direction, of either sense, that separates two bodies which only touch; `pairs` are vertex pairs whose differences
+/// hold the origin in their hull. `None` where the bodies overlap, or rounding leaves nothing.
 pub fn separating_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: &[VertexPair]) -> Option<Vector> {
     let &pair = pairs.first()?;
     let between = poses[0].translation() - poses[1].translation();

@@ -1,10 +1,11 @@
 //! How far a point lies from a polyhedron: a walk over its surface, and where that leads to the far side the pair machinery.
 //!
-//! Let the surface have no way down from p in distance to a point w. If p is on an edge or a vertex, the directions of the edges and
-//! faces there span the whole cone in which the convex body lies, seen from p; all lead away from w to first order, so no point of
-//! the body is nearer. If p is inside a face, it is nearest if w is on the outer side of that face. So it is enough to go from vertex to
-//! nearer neighbour, then from triangle to nearer triangle across an edge or around a vertex. Only inside a face that looks the
-//! other way it has gone wrong: that of a thin body seen from its other side, or of any body seen from inside.
+//! Let the surface have no way down from p in distance to a point w. If p is on an edge or a vertex, the directions of the
+//! edges and faces there span the whole cone in which the convex body lies, seen from p; all lead away from w to first order,
+//! so no point of the body is nearer. If p is inside a face, it is nearest if w is on the outer side of that face. So it is
+//! enough to go from vertex to nearer neighbour, then from triangle to nearer triangle across an edge or around a vertex. Only
+//! inside a face that looks the other way it has gone wrong: that of a thin body seen from its other side, or of any body seen
+//! from inside.
 //!
 //! What is found is a convex combination of vertices, so that its distance bounds that of the body from above, rounding included,
 //! wherever the search ends.
@@ -75,8 +76,8 @@ impl<'a> PointDistance<'a> {
         self.polyhedron
     }
 
-    /// The point of the polyhedron nearest to a `point`, which is itself, at distance 0, if it is inside. `hint` is a vertex from which to
-    /// walk, best one near by.
+    /// The point of the polyhedron nearest to a `point`, which is itself, at distance 0, if it is inside. `hint` is a vertex
+    /// from which to walk, best one near by.
     pub fn nearest(&self, point: &Vector, hint: u32) -> NearestPoint {
         let ends = [0, self.polyhedron.vertices.len() as u32 - 1];
         let Some(surface) = &self.surface else {
@@ -107,15 +108,16 @@ impl<'a> PointDistance<'a> {
         vertices.iter().copied().min_by(|v, w| square(*v).total_cmp(&square(*w))).unwrap_or(0)
     }
 
-    /// A combination a + s·e + t·f of points within ρ, with |e|, |f| ≤ 2ρ, errs by u each for e and f, for the products and the two sums,
-    /// and its weights sum to 1 + 2u at most: together less than 16uρ. The difference from the point and the norm err by 4u of themselves.
+    /// A combination a + s·e + t·f of points within ρ, with |e|, |f| ≤ 2ρ, errs by u each for e and f, for the products and the
+    /// two sums, and its weights sum to 1 + 2u at most: together less than 16uρ. The difference from the point and the norm err
+    /// by 4u of themselves.
     fn rounded_up(&self, distance: f64) -> f64 {
         let rounding = 16.0 * UNIT_ROUNDOFF * self.polyhedron.radius;
         (distance * (1.0 + 8.0 * UNIT_ROUNDOFF) + rounding) * (1.0 + 4.0 * UNIT_ROUNDOFF)
     }
 
-    /// Whether a point with its projection inside a triangle is on the body's side of it. At a `distance` of rounding it does not matter,
-    /// and a flat body looks both ways.
+    /// Whether a point with its projection inside a triangle is on the body's side of it. At a `distance` of rounding it does
+    /// not matter, and a flat body looks both ways.
     fn looks_away(&self, triangle: u32, point: &Vector, distance: f64) -> bool {
         let face = &self.polyhedron.faces[self.polyhedron.face_of_triangle[triangle as usize] as usize];
         self.polyhedron.dimension == 3
@@ -210,8 +212,8 @@ impl<'a> PointDistance<'a> {
         Candidate { point: place, square: (place - point).norm_squared(), place: Place::Edge(half_edge) }
     }
 
-    /// The nearest point of a triangle: its projection or one of a side. All are tried: for a sliver the test whether the projection is
-    /// inside is noise, but then its sides are as near.
+    /// The nearest point of a triangle: its projection or one of a side. All are tried: for a sliver the test whether the
+    /// projection is inside is noise, but then its sides are as near.
     fn on_triangle(&self, surface: &Triangulation, point: &Vector, triangle: u32) -> Candidate {
         let corners = surface.triangles[triangle as usize];
         let mut best = self.inside_triangle(point, corners, triangle);

@@ -205,8 +205,8 @@ impl ExactPoints {
         if height.abs() > plane.error { height } else { self.small_height(plane, p, height) }
     }
 
-    /// An upper bound of the distance of point `p` from the plane, in the units of [`ExactPoints::approximate`]; +∞ for a triangle so
-    /// thin that double precision does not see its plane.
+    /// An upper bound of the distance of point `p` from the plane, in the units of [`ExactPoints::approximate`]; +∞ for a
+    /// triangle so thin that double precision does not see its plane.
     pub fn distance_bound(&self, plane: &FilteredPlane, p: u32) -> f64 {
         if plane.corners.contains(&p) {
             return 0.0;

@@ -43,7 +43,8 @@ const REPORT_INTERVAL: usize = 1 << 14;
 /// Time O(n log n) as long as valences are bounded.
 ///
 /// # Errors
-/// [`Error::Cancelled`](crate::error::Error::Cancelled); [`Error::Bug`](crate::error::Error::Bug) if the triangles are no closed surface.
+/// [`Error::Cancelled`](crate::error::Error::Cancelled); [`Error::Bug`](crate::error::Error::Bug) if the triangles are no
+/// closed surface.
 pub fn simplify(
     positions: &[Vector],
     triangles: &[[u32; 3]],

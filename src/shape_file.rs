@@ -2,9 +2,9 @@
 //!
 //! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
 //! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels) or takes long to find
-//! (the levels' vertices). A checksum finds damage, not intent, so nothing that an answer's certainty rests on is believed: the hulls are
-//! proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and measured.
-//! A file of any content gives a sound shape or an error.
+//! (the levels' vertices). A checksum finds damage, not intent, so nothing that an answer's certainty rests on is believed: the
+//! hulls are proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and
+//! measured. A file of any content gives a sound shape or an error.
 
 use std::fs;
 use std::path::Path;

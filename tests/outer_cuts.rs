@@ -1,5 +1,5 @@
-//! Levels cut out of a box: how far they stand off for their size, that they contain the body and each other, degenerate bodies, the
-//! work they take, cancelling. What holds for levels of every kind is in `tests/hierarchy`.
+//! Levels cut out of a box: how far they stand off for their size, that they contain the body and each other, degenerate
+//! bodies, the work they take, cancelling. What holds for levels of every kind is in `tests/hierarchy`.
 
 #[path = "../benches/common/mod.rs"]
 mod common;

@@ -1,5 +1,5 @@
-//! What the shared library exports: functions of our nouns, and nothing that the runtime of the Swift language, which may live in the
-//! same process, exports under the same prefix. Needs `nm`, which `make test` installs.
+//! What the shared library exports: functions of our nouns, and nothing that the runtime of the Swift language, which may live
+//! in the same process, exports under the same prefix. Needs `nm`, which `make test` installs.
 
 use std::path::PathBuf;
 use std::process::Command;

@@ -180,8 +180,8 @@ fn a_limit_below_rounding_is_kept() {
     assert!(ask(&at(0.0, 0.0, 3.0)).is_ok());
 }
 
-/// Bars 10¹⁴ times as long as they are thick, crossing: each round that refines the weights of the enclosing tetrahedron gains but two
-/// digits. Found by fuzzing.
+/// Bars 10¹⁴ times as long as they are thick, crossing: each round that refines the weights of the enclosing tetrahedron gains
+/// but two digits. Found by fuzzing.
 #[test]
 fn crossing_bars_of_extreme_length_have_one_common_point() {
     let far = [-1_970_324_836_974_585.0, 1_970_324_836_974_599.0];
@@ -208,8 +208,8 @@ fn crossing_bars_of_extreme_length_have_one_common_point() {
     verify(&bar, &pose1, &bar, &pose2, &answer).unwrap();
 }
 
-/// Marching measures in the bodies' frames with transposed matrices; what it finds is put right where these are not the inverse, so that
-/// matrices off by 1e-4 need the fallback hardly more often than orthonormal ones.
+/// Marching measures in the bodies' frames with transposed matrices; what it finds is put right where these are not the
+/// inverse, so that matrices off by 1e-4 need the fallback hardly more often than orthonormal ones.
 #[test]
 fn matrices_off_orthonormal_are_marched() {
     let mut random = Random::new(5);

@@ -1,5 +1,5 @@
-//! Notes the compiler, and compiles the shims of those peers in C and C++ that pkg-config finds (Debian: libfcl-dev, libccd-dev); without
-//! them the comparison leaves them out.
+//! Notes the compiler, and compiles the shims of those peers in C and C++ that pkg-config finds (Debian: libfcl-dev,
+//! libccd-dev); without them the comparison leaves them out.
 
 use std::process::Command;
 

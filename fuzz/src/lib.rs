@@ -1,4 +1,5 @@
-//! What the fuzz targets share: numbers, points and poses from arbitrary bytes, a C program made of them, and the checks of the tests.
+//! What the fuzz targets share: numbers, points and poses from arbitrary bytes, a C program made of them, and the checks of the
+//! tests.
 
 pub mod c_program;
 pub mod geometry;

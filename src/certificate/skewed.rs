@@ -68,7 +68,8 @@ impl<L: Lanes> Minimum<L> {
         Some(moved.measured(direction))
     }
 
-    /// The point in a face of body `i` moved to where the difference is along the direction, which is the face's normal in the world.
+    /// The point in a face of body `i` moved to where the difference is along the direction, which is the face's normal in the
+    /// world.
     fn over(&self, frame: &Frame<L>, i: usize, face: u32) -> Minimum<L> {
         let (body, other) = (&frame.bodies[i], &frame.bodies[1 - i]);
         let normal = L::from_vector(&body.polyhedron.faces[face as usize].normal);

@@ -6,7 +6,8 @@
 //! the difference body in direction −P either proves that P is nearest (P·w ≥ P·P) or makes |P| fall strictly. So no
 //! simplex comes back, there are finitely many, and the descent ends, without tolerance and without a cap on iterations (which
 //! could only turn a proof into a guess): at P = 0, a common point of the closed sets, or at a plane that separates them.
-//! Typically (1,002 vertices, 2026-11, a shared AMD EPYC core) 30–70 µs from a cold start, 7–17 µs from the right pairs. It allocates.
+//! Typically (1,002 vertices, 2026-11, a shared AMD EPYC core) 30–70 µs from a cold start, 7–17 µs from the right pairs. It
+//! allocates.
 
 mod body;
 mod dyadic;

@@ -15,12 +15,12 @@ pub fn translated(points: &[Vector], by: &Vector) -> Vec<Vector> {
 }
 
 /// The hull of the points if it contains `base` as it is, else scaled about `centre` so that it barely does; decided exactly
-/// ([`contains`]). All in the centred coordinates of `base`, whose `centre` is 0. `None` if the hull has no interior or `centre` lies too
-/// near its surface, or outside. The vertex labels of the result are indices of `points`.
+/// ([`contains`]). All in the centred coordinates of `base`, whose `centre` is 0. `None` if the hull has no interior or
+/// `centre` lies too near its surface, or outside. The vertex labels of the result are indices of `points`.
 ///
-/// The factor is the largest over the faces of the height of the body's extreme vertex over that of the face, both above `centre`, and a
-/// margin for the rounding of planes and vertices: each of a few u·ρ, so 64uρ over the least height, and four times as much each time
-/// that it does not do.
+/// The factor is the largest over the faces of the height of the body's extreme vertex over that of the face, both above
+/// `centre`, and a margin for the rounding of planes and vertices: each of a few u·ρ, so 64uρ over the least height, and four
+/// times as much each time that it does not do.
 ///
 /// # Errors
 /// [`Error::Bug`](crate::error::Error::Bug) if the triangles of a polyhedron are no closed surface.

@@ -1,5 +1,5 @@
-//! Which features of two neighbouring levels belong together (Ehmann & Lin 2000, §4.3): from where to march on after a step from one
-//! level to the other. A heuristic for speed; nothing rests on it.
+//! Which features of two neighbouring levels belong together (Ehmann & Lin 2000, §4.3): from where to march on after a step
+//! from one level to the other. A heuristic for speed; nothing rests on it.
 
 use super::Links;
 use super::bounding::faces_in_order;
@@ -17,8 +17,9 @@ pub struct Correspondence {
     pub parents: Links,
 }
 
-/// The general scheme: the child of a vertex is the nearest vertex of the nearest feature below, and edges and faces share it with one of
-/// their vertices; the parent of a face is the vertex above that is extreme along its normal, and its edges and vertices share it.
+/// The general scheme: the child of a vertex is the nearest vertex of the nearest feature below, and edges and faces share it
+/// with one of their vertices; the parent of a face is the vertex above that is extreme along its normal, and its edges and
+/// vertices share it.
 ///
 /// # Errors
 /// [`Error::Bug`](crate::error::Error::Bug) if the triangles of a polyhedron are no closed surface.
@@ -54,12 +55,12 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
     Ok(Correspondence { children, parents })
 }
 
-/// The scheme of a hierarchy whose levels have vertices of the body, moved: what is kept corresponds to itself, a new edge or face to the
-/// vertex that was removed there, and that to what replaces it, by position. `ids` gives for the vertices of `below` and of `above`
-/// which of the body they are, `filled` for the new triangles the removed vertex.
+/// The scheme of a hierarchy whose levels have vertices of the body, moved: what is kept corresponds to itself, a new edge or
+/// face to the vertex that was removed there, and that to what replaces it, by position. `ids` gives for the vertices of
+/// `below` and of `above` which of the body they are, `filled` for the new triangles the removed vertex.
 ///
-/// The paper says so for children; its parents "are different", no more. What is removed gets a neighbour that is kept, the faces around
-/// it the vertex that is extreme along their normals.
+/// The paper says so for children; its parents "are different", no more. What is removed gets a neighbour that is kept, the
+/// faces around it the vertex that is extreme along their normals.
 pub fn by_identity(
     [below, above]: [&Polyhedron; 2],
     ids: [&[u32]; 2],

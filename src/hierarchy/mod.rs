@@ -135,8 +135,8 @@ impl Links {
 pub struct Level {
     /// Contains P₀, exactly as the doubles of both give them. Its `centre` is that of P₀, its vertex labels mean nothing.
     pub polyhedron: Polyhedron,
-    /// An upper bound, rounding included, of the largest distance of a point of this level from P₀, in P₀'s frame. A pose that is not
-    /// quite orthonormal stretches it by at most ‖R‖₂.
+    /// An upper bound, rounding included, of the largest distance of a point of this level from P₀, in P₀'s frame. A pose that
+    /// is not quite orthonormal stretches it by at most ‖R‖₂.
     pub deviation: f64,
     /// The child of each feature of this level: a feature of the next finer one (P₀ for the finest level).
     pub children: Links,
@@ -162,9 +162,10 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Builds levels. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large (2^±200),
-    /// and where each would be no simpler than the next finer one: a box or a tetrahedron gets none. Otherwise so many until one
-    /// more would fall below the minimum of triangles, would have no interior, or be so thin that no rounding makes it contain P₀.
+    /// Builds levels. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large
+    /// (2^±200), and where each would be no simpler than the next finer one: a box or a tetrahedron gets none. Otherwise so
+    /// many until one more would fall below the minimum of triangles, would have no interior, or be so thin that no rounding
+    /// makes it contain P₀.
     ///
     /// # Errors
     /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].
@@ -184,12 +185,13 @@ impl Hierarchy {
         Ok(builder.finish(base))
     }
 
-    /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is moved so that
-    /// its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains P₀.
+    /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is
+    /// moved so that its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains
+    /// P₀.
     ///
     /// # Errors
-    /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it contain
-    /// P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`].
+    /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
+    /// contain P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`].
     pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
         let centred = centred(base);
         let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
@@ -214,8 +216,9 @@ impl Hierarchy {
         Ok(builder.finish(base))
     }
 
-    /// From levels that were built before, the finest first: each polyhedron in the centred coordinates of `base`, with its children and
-    /// parents. What a query relies on is found out anew: that every level contains the body, exactly, and how far it stands off.
+    /// From levels that were built before, the finest first: each polyhedron in the centred coordinates of `base`, with its
+    /// children and parents. What a query relies on is found out anew: that every level contains the body, exactly, and how far
+    /// it stands off.
     ///
     /// # Errors
     /// [`Error::Argument`] for a level that does not contain the body, or links out of range.
@@ -357,8 +360,8 @@ impl<'a> Builder<'a> {
         Ok(())
     }
 
-    /// Adds the next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `false` if they cannot
-    /// be made to bound the body.
+    /// Adds the next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `false` if they
+    /// cannot be made to bound the body.
     fn add_in_general(&mut self, points: &[Vector], progress: &mut Progress) -> Result<bool> {
         let hull = build(points, None)?;
         let centre = self.below().mass.centre_of_mass;

@@ -1,15 +1,16 @@
 //! Levels of detail cut out of a block: planes that touch the body take off, again and again, the corner that stands off farthest.
 //!
 //! Scaling a simplified body until it bounds the original inflates thin bodies absurdly, because the factor that their narrow sides
-//! need applies to all of them. Cutting from outside has no such factor: each level is an intersection of supporting half-spaces, and
-//! how far it stands off is known at every moment.
+//! need applies to all of them. Cutting from outside has no such factor: each level is an intersection of supporting
+//! half-spaces, and how far it stands off is known at every moment.
 //!
-//! The level under construction is kept as its *polar dual*: the half-space q·y ≤ 1 is the point q, and the level's vertices are the
-//! triangles of the hull of those points. A cut adds a point to that hull (the step of an incremental hull, as in
+//! The level under construction is kept as its *polar dual*: the half-space q·y ≤ 1 is the point q, and the level's vertices
+//! are the triangles of the hull of those points. A cut adds a point to that hull (the step of an incremental hull, as in
 //! [`crate::hull_build`]), and the signs that decide which triangles it replaces are exact, so that the surface stays a surface
 //! however the planes lie. The coordinates y are those in which the body's covariance is the identity. There every convex body
-//! holds a ball and lies in one three times as large (R. Kannan, L. Lovász, M. Simonovits, "Isoperimetric Problems for Convex Bodies and
-//! a Localization Lemma", Discrete & Computational Geometry 13, 1995, theorem 4.1): needles and wafers are as good as balls.
+//! holds a ball and lies in one three times as large (R. Kannan, L. Lovász, M. Simonovits, "Isoperimetric Problems for Convex
+//! Bodies and a Localization Lemma", Discrete & Computational Geometry 13, 1995, theorem 4.1): needles and wafers are as good
+//! as balls.
 //!
 //! All that is floating point here only steers. What a level promises, that it contains the body, is checked exactly at the end.
 
@@ -22,21 +23,21 @@ use crate::polyhedron::Polyhedron;
 use crate::progress::Progress;
 use cuts::{Block, Cuts};
 
-/// Blocks to begin with: the planes of a box, an octahedron, a rhombic dodecahedron and a regular dodecahedron, each by one normal, of
-/// which the others have the same components in cyclic order and with any signs.
+/// Blocks to begin with: the planes of a box, an octahedron, a rhombic dodecahedron and a regular dodecahedron, each by one
+/// normal, of which the others have the same components in cyclic order and with any signs.
 const BLOCKS: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0], [0.0, 1.0, GOLDEN_RATIO]];
 
-/// Up to so many planes it matters where the first ones lie. On 28 bodies no block was better than the box in the geometric mean from 18
-/// planes on, but each was better by a third and more on some (2026-11).
+/// Up to so many planes it matters where the first ones lie. On 28 bodies no block was better than the box in the geometric
+/// mean from 18 planes on, but each was better by a third and more on some (2026-11).
 const FEW_PLANES: usize = 48;
 
 /// (1 + √5)/2.
 const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 
 /// Levels around `base` with the given numbers of planes, ascending: the coarsest first. A level of F planes has at most 2F − 4
-/// vertices and 3F − 6 edges (and more but tiny faces where several planes meet almost in a point). The last level has fewer planes, and
-/// no more follow, where those bound the body to within 10⁻⁹ of its radius; there are none for a body without interior. A level of at
-/// most 48 planes is the best of several; of those with more planes each lies in all with fewer.
+/// vertices and 3F − 6 edges (and more but tiny faces where several planes meet almost in a point). The last level has fewer
+/// planes, and no more follow, where those bound the body to within 10⁻⁹ of its radius; there are none for a body without
+/// interior. A level of at most 48 planes is the best of several; of those with more planes each lies in all with fewer.
 ///
 /// Every level contains `base` exactly, the vertices of both in the centred coordinates of `base`, whose `centre` is 0. The result
 /// depends on the arguments and the machine's vector units, which round differently.

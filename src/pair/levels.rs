@@ -1,5 +1,5 @@
-//! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves where that
-//! is needed, and where the next query is to start.
+//! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
+//! where that is needed, and where the next query is to start.
 
 use super::{
     Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
@@ -74,8 +74,8 @@ fn through_levels(
     PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
 
-/// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the tightest,
-/// may answer to within the error.
+/// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the
+/// tightest, may answer to within the error.
 #[inline(always)]
 fn pay([shape1, shape2]: [&Shape; 2], config: &PairConfig, error: f64) -> bool {
     let [levels1, levels2] = [&shape1.hierarchy().levels, &shape2.hierarchy().levels];
@@ -87,9 +87,9 @@ fn pay([shape1, shape2]: [&Shape; 2], config: &PairConfig, error: f64) -> bool {
         && finest(levels1) + finest(levels2) < error
 }
 
-/// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the radius
-/// up to 1.5 times slower at 0.1°, 10° and random poses, 1.5 times faster at 1°), 60,004 (up to 1.1 times slower at 0.1°, 1.2 to 2.5 times
-/// faster elsewhere) and 200,004 vertices (1.4 to 5 times faster).
+/// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the
+/// radius up to 1.5 times slower at 0.1°, 10° and random poses, 1.5 times faster at 1°), 60,004 (up to 1.1 times slower at
+/// 0.1°, 1.2 to 2.5 times faster elsewhere) and 200,004 vertices (1.4 to 5 times faster).
 const MANY_VERTICES: usize = 60_000;
 
 /// Refuses error tolerances and step budgets that are none.
@@ -193,8 +193,8 @@ impl PairQuery<'_> {
         }
     }
 
-    /// Where to start if not where the last search ended: at the levels that may be near enough above the vertices that the tables of
-    /// the bodies say, without tables at the coarsest levels.
+    /// Where to start if not where the last search ended: at the levels that may be near enough above the vertices that the
+    /// tables of the bodies say, without tables at the coarsest levels.
     fn place_anew(&self, bodies: &Leveled) -> Place {
         let no_levels = self.config.levels != Levels::All;
         let has_tables = self.polyhedra.iter().all(|polyhedron| !matches!(polyhedron.lookup.table, Table::None));

@@ -122,7 +122,8 @@ fn options_out_of_range_are_refused() {
     refused(HierarchyOptions { kind: HierarchyKind::Given, ..HierarchyOptions::default() });
 }
 
-/// By the general scheme all levels share the body's centre of mass, and so do given ones; Dobkin and Kirkpatrick's and cut ones need not.
+/// By the general scheme all levels share the body's centre of mass, and so do given ones; Dobkin and Kirkpatrick's and cut
+/// ones need not.
 #[test]
 fn levels_share_the_centre_of_mass() {
     let check = |name: &str, body: &Polyhedron, hierarchy: &Hierarchy| {

@@ -42,7 +42,8 @@ pub fn contains_by_brute_force(outer: &Polyhedron, inner: &Polyhedron) -> bool {
     })
 }
 
-/// The deviation is an upper bound of the exact distance of some vertices of the level, those that stand off most among them, and tight.
+/// The deviation is an upper bound of the exact distance of some vertices of the level, those that stand off most among them,
+/// and tight.
 fn check_deviation(name: &str, base: &Polyhedron, level: &Level) {
     let above = &level.polyhedron;
     let stands_off = |v: &u32| {
@@ -82,7 +83,8 @@ fn check_ranges(name: &str, from: &Polyhedron, to: &Polyhedron, links: &Links) {
     }
 }
 
-/// Children are near: the child of a vertex is at most as much farther than the nearest vertex as the triangles around it are large.
+/// Children are near: the child of a vertex is at most as much farther than the nearest vertex as the triangles around it are
+/// large.
 fn check_children(name: &str, above: &Polyhedron, below: &Polyhedron, children: &Links) {
     let mut sizes = vec![0.0_f64; below.vertices.len()];
     for corners in &below.triangles {
@@ -107,8 +109,8 @@ fn check_children(name: &str, above: &Polyhedron, below: &Polyhedron, children: 
     }
 }
 
-/// Dobkin and Kirkpatrick's vertices move along rays from the centre of mass: the child of a vertex is on its ray (up to rounding, and all
-/// but a few that rounding has put inside a face of the level below), what is kept has itself for a child.
+/// Dobkin and Kirkpatrick's vertices move along rays from the centre of mass: the child of a vertex is on its ray (up to
+/// rounding, and all but a few that rounding has put inside a face of the level below), what is kept has itself for a child.
 fn check_rays(name: &str, base: &Polyhedron, above: &Polyhedron, below: &Polyhedron, children: &Links) {
     let centre = base.mass.centre_of_mass - base.centre;
     let mut aside = 0;

@@ -263,8 +263,8 @@ fn require(holds: bool, property: &'static str, detail: impl FnOnce() -> String)
     if holds { Ok(()) } else { Err(violation(property, detail())) }
 }
 
-/// One step where the last query ended and sixteen from there, then 64 and one for each vertex of the larger body; 128 iterations of
-/// Gilbert-Johnson-Keerthi in floating point. Those in integers end by a proof, not by a count.
+/// One step where the last query ended and sixteen from there, then 64 and one for each vertex of the larger body; 128
+/// iterations of Gilbert-Johnson-Keerthi in floating point. Those in integers end by a proof, not by a count.
 fn check_work(placed: &Placed, answer: &PairAnswer) -> Result<(), Violation> {
     let larger = placed.bodies.map(|body| body.shape.polyhedron().vertices.len() as u32).into_iter().fold(0, u32::max);
     let Work([steps, iterations, _]) = Work::of(answer);

@@ -1,5 +1,5 @@
-/* libccd's MPR for ccd.rs, with a support function that climbs the hull from the last support vertex, its rings of neighbours stored
- * with their coordinates: libccd leaves the support function to its user. */
+/* libccd's MPR for ccd.rs, with a support function that climbs the hull from the last support vertex, its rings of neighbours
+ * stored with their coordinates: libccd leaves the support function to its user. */
 
 #include <ccd/ccd.h>
 #include <ccd/vec3.h>

@@ -1,5 +1,5 @@
-//! libccd's MPR (minkowski portal refinement) at its default tolerance of 1e-4, with a support function that climbs from the last support
-//! vertex. It says the verdict alone.
+//! libccd's MPR (minkowski portal refinement) at its default tolerance of 1e-4, with a support function that climbs from the
+//! last support vertex. It says the verdict alone.
 
 use swiftprox::mesh::PolygonMesh;
 

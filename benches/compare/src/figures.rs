@@ -1,6 +1,6 @@
-//! The figures of Ehmann & Lin (2000), section 6, measured anew: nanoseconds a query over the motion from one query to the next, for each
-//! pair of models, under the settings of each figure. Beside them what the paper did not measure: the automatic choice against every
-//! fixed one, the cost of an approximate distance over the error asked for, and larger models.
+//! The figures of Ehmann & Lin (2000), section 6, measured anew: nanoseconds a query over the motion from one query to the
+//! next, for each pair of models, under the settings of each figure. Beside them what the paper did not measure: the automatic
+//! choice against every fixed one, the cost of an approximate distance over the error asked for, and larger models.
 
 use std::fmt::Write;
 use std::rc::Rc;
@@ -154,7 +154,8 @@ fn cut_offs(mesh: &PolygonMesh, query: Query) -> Result<Vec<Series>> {
     Ok(all)
 }
 
-/// Figures 9 and 10: quadric levels, and cut ones. The fraction of triangles left and the number of levels, the body itself counted.
+/// Figures 9 and 10: quadric levels, and cut ones. The fraction of triangles left and the number of levels, the body itself
+/// counted.
 fn rates(mesh: &PolygonMesh, query: Query) -> Result<Vec<Series>> {
     let mut all = Vec::new();
     for (kind, word, decimations) in [
@@ -311,8 +312,8 @@ pub fn run(options: &Options, wanted: &[String]) -> std::result::Result<(), Stri
     }
 }
 
-/// Means over a pass: steps, the fraction of answers that came from levels, the fraction that marching did not come to, the width of the
-/// intervals of disjoint pairs.
+/// Means over a pass: steps, the fraction of answers that came from levels, the fraction that marching did not come to, the
+/// width of the intervals of disjoint pairs.
 fn tell(method: &mut dyn Method, poses: &[PosePair]) -> [f64; 4] {
     method.load(poses);
     let replies = replies(method, poses.len());

@@ -1,5 +1,5 @@
-//! Marching over one pair of bodies from the last features to the next, and nothing around it: no table, no levels, no second tier, no
-//! answer to fill. So the rule alone differs by which marching goes on where several planes are violated.
+//! Marching over one pair of bodies from the last features to the next, and nothing around it: no table, no levels, no second
+//! tier, no answer to fill. So the rule alone differs by which marching goes on where several planes are violated.
 
 use std::rc::Rc;
 

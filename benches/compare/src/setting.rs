@@ -1,5 +1,5 @@
-//! A query of this library under one setting, from the 24 numbers of the poses to the whole answer: what is asked, of which shape, by
-//! which configuration.
+//! A query of this library under one setting, from the 24 numbers of the poses to the whole answer: what is asked, of which
+//! shape, by which configuration.
 
 use std::rc::Rc;
 
