@@ -40,7 +40,9 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     let PairAnswer { lower, upper, distance, .. } = *answer;
     // A distance below the smallest double leaves `lower` at 0.
     if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper) {
-        return Err(bug(format!("not 0 ≤ lower ≤ distance ≤ upper, 0 < upper: {lower:e}, {distance:e}, {upper:e}")));
+        return Err(unverified(format!(
+            "not 0 ≤ lower ≤ distance ≤ upper, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
+        )));
     }
     let normal = Vector::from(answer.normal);
     check_unit(&normal)?;
@@ -55,14 +57,14 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     };
     let gap = normal.dot(&between) - reach(0, -normal) - reach(1, normal);
     if !(gap >= lower - allowed) {
-        return Err(bug(format!("along the normal the bodies are {gap:e} apart, not {lower:e}")));
+        return Err(unverified(format!("along the normal the bodies are {gap:e} apart, not {lower:e}")));
     }
     // All that can be said of an upper end without witness points.
     if !(gap <= upper + allowed) {
-        return Err(bug(format!("along the normal the bodies are {gap:e} apart, more than {upper:e}")));
+        return Err(unverified(format!("along the normal the bodies are {gap:e} apart, more than {upper:e}")));
     }
     if answer.proof_count != 0 {
-        return Err(bug("a proof of intersection of objects that are separated".into()));
+        return Err(unverified("a proof of intersection of objects that are separated".into()));
     }
     let witnesses = witnesses(polyhedra, poses, answer);
     if !are_said(&witnesses) {
@@ -76,7 +78,7 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
     let apart = length(&(between + first - second));
     if !(apart >= lower - allowed && apart <= upper + allowed) {
-        return Err(bug(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}]")));
+        return Err(unverified(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}]")));
     }
     Ok(())
 }
@@ -99,7 +101,7 @@ fn check_unit(normal: &Vector) -> Result<()> {
     if (normal.norm_squared() - 1.0).abs() <= 16.0 * U {
         return Ok(());
     }
-    Err(bug(format!("the normal is not a unit vector: {normal:?}")))
+    Err(unverified(format!("the normal is not a unit vector: {normal:?}")))
 }
 
 /// What the answer says of each object.
@@ -123,10 +125,10 @@ fn are_said(witnesses: &[Witness; 2]) -> bool {
 fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let count = answer.proof_count as usize;
     if !(1..=4).contains(&count) {
-        return Err(bug(format!("an intersection with {count} vertex pairs as proof")));
+        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
     }
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
-        return Err(bug("an intersection with a distance that is not 0".into()));
+        return Err(unverified("an intersection with a distance that is not 0".into()));
     }
     let mut pairs = [[0; 2]; 4];
     for (pair, labels) in pairs.iter_mut().zip(answer.proof).take(count) {
@@ -139,7 +141,7 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
         }
     }
     if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
-        return Err(bug("the proof's vertex differences do not hold the origin in their hull".into()));
+        return Err(unverified("the proof's vertex differences do not hold the origin in their hull".into()));
     }
     let witnesses = witnesses(polyhedra, poses, answer);
     let between = between_origins(polyhedra, poses);
@@ -155,7 +157,7 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
     let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
     let apart = length(&(between + first - second));
     if !(apart <= allowed) {
-        return Err(bug(format!("the witness points of a contact are {apart:e} apart")));
+        return Err(unverified(format!("the witness points of a contact are {apart:e} apart")));
     }
     Ok(())
 }
@@ -166,6 +168,6 @@ fn length(v: &Vector) -> f64 {
     if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
 }
 
-fn bug(what: String) -> Error {
+fn unverified(what: String) -> Error {
     Error::Unverified(format!("the answer does not hold: {what}"))
 }

@@ -1,6 +1,6 @@
 //! What an answer says of one object: its witness point, in both frames, and the feature that holds it.
 
-use super::{bug, length};
+use super::{length, unverified};
 use crate::answer::{Feature, FeatureKind};
 use crate::error::Result;
 use crate::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
@@ -32,11 +32,11 @@ impl Witness<'_> {
     pub fn check_point(&self, allowed: f64) -> Result<()> {
         let Witness { object, polyhedron, pose, local, world, .. } = self;
         if local.iter().any(|x| !x.is_finite()) {
-            return Err(bug(format!("witness point {object} is {local:?}")));
+            return Err(unverified(format!("witness point {object} is {local:?}")));
         }
         let outside = distance_outside(polyhedron, &self.centred());
         if !(outside <= allowed) {
-            return Err(bug(format!("witness point {object} lies {outside:e} out of its object")));
+            return Err(unverified(format!("witness point {object} lies {outside:e} out of its object")));
         }
         // An eighth of everything, so that terms which cancel cannot overflow.
         let [local, world, translation, centre] =
@@ -46,7 +46,7 @@ impl Witness<'_> {
         let rounding = 64.0 * U * (0.125 * polyhedron.radius + length(&centre) + length(&translation));
         if !(apart <= rounding + 64.0 * f64::from_bits(1)) {
             let apart = 8.0 * apart;
-            return Err(bug(format!("witness point {object} in the world is {apart:e} off the local one")));
+            return Err(unverified(format!("witness point {object} in the world is {apart:e} off the local one")));
         }
         Ok(())
     }
@@ -62,12 +62,12 @@ impl Witness<'_> {
         if distance <= allowed + 64.0 * U * self.polyhedron.radius {
             return Ok(());
         }
-        Err(bug(format!("witness point {} lies {distance:e} off {:?}", self.object, self.feature)))
+        Err(unverified(format!("witness point {} lies {distance:e} off {:?}", self.object, self.feature)))
     }
 
     /// How far the point is from the feature, which the object must have.
     fn distance_from_feature(&self) -> Result<f64> {
-        let none = || bug(format!("object {} has no {:?}", self.object, self.feature));
+        let none = || unverified(format!("object {} has no {:?}", self.object, self.feature));
         self.distance_if_there().ok_or_else(none)
     }
 
