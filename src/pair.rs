@@ -207,9 +207,9 @@ enum Query {
 /// not said (see [`contact()`]). Of a pair beyond `config.distance_tolerance` only `lower` is said.
 ///
 /// # Errors
-/// [`Error::Pose`] for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I above
-/// `config.rotation_limit`), [`Error::Argument`] for a tolerance or limit that is NaN or negative. Then `answer` and `cache`
-/// are as they were.
+/// [`Error::Pose`](crate::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
+/// above `config.rotation_limit`), [`Error::Argument`](crate::error::Error::Argument) for a tolerance or limit that is NaN or
+/// negative. Then `answer` and `cache` are as they were.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,
@@ -263,7 +263,8 @@ pub fn contact(
 /// `lower` is said.
 ///
 /// # Errors
-/// As [`distance`]; [`Error::Argument`] for an error tolerance that is NaN or negative and a step budget of 0.
+/// As [`distance`]; [`Error::Argument`](crate::error::Error::Argument) for an error tolerance that is NaN or negative and a
+/// step budget of 0.
 pub fn approximate(
     shape1: &Shape,
     pose1: &Pose,
