@@ -160,7 +160,7 @@ enum {
   SWIFT_PAIR_STATUS_NONE = 0,
   /** Voronoi marching ended and its certificate holds. */
   SWIFT_PAIR_STATUS_MARCHED = 1,
-  /** The vertex pairs of the last query still enclose the origin. */
+  /** What proved the last verdict proves this one, or nearly did: vertex pairs that enclose the origin, or a separating axis. */
   SWIFT_PAIR_STATUS_COHERENT = 2,
   /** Gilbert-Johnson-Keerthi decided. */
   SWIFT_PAIR_STATUS_FALLBACK = 3,

@@ -26,7 +26,7 @@ pub enum Status {
     None = 0,
     /// Voronoi marching ended and its certificate holds.
     Marched = 1,
-    /// The vertex pairs of the last query still enclose the origin.
+    /// What proved the last verdict proves this one, or nearly did: vertex pairs that enclose the origin, or a separating axis.
     Coherent = 2,
     /// Gilbert-Johnson-Keerthi decided.
     Fallback = 3,

@@ -68,6 +68,7 @@ pub mod start;
 pub mod frame;
 #[doc(hidden)]
 pub mod certificate;
+mod separating_axis;
 #[doc(hidden)]
 pub mod marching;
 #[doc(hidden)]

@@ -18,6 +18,7 @@ use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
+use crate::separating_axis::{Axis, NUDGE, Search, Trial};
 use crate::shape::Shape;
 use crate::simd::{self, Kernel, Lanes, Portable, Work};
 use crate::start::{self, Beginning, Guess};
@@ -33,7 +34,8 @@ pub struct PairCache {
     kind: u32,
     /// The indices of a feature pair.
     indices: [u32; 2],
-    /// Vertex pairs.
+    /// Vertex pairs. With a feature pair, after a query for the verdict alone: the vertices of a separating axis, its direction
+    /// as the bits of single-precision numbers, and [`AXIS`].
     pairs: [VertexPair; 4],
     /// With a feature pair: where body 1 saw a point of body 2 ([`Frame::marker`]), as the bits of single-precision numbers.
     marker: [u32; 3],
@@ -44,6 +46,9 @@ const PAIRS: u32 = 8;
 
 /// What `PairCache::kind` of a feature pair of levels has more.
 const LEVELS: u32 = 16;
+
+/// Marks a separating axis in `PairCache::pairs`. Where other pairs happen to look like one no harm is done.
+const AXIS: u32 = u32::from_ne_bytes(*b"axis");
 
 impl PairCache {
     /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
@@ -62,6 +67,23 @@ impl PairCache {
     fn remember_state(&mut self, state: State) {
         self.kind = state.kind as u32;
         self.indices = state.indices;
+    }
+
+    /// The separating axis of the last verdict, if the cache holds one of vertices that the polyhedra have.
+    #[inline(always)]
+    fn recall_axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
+        let [vertices @ [v, w], [x, y], [z, mark], _] = self.pairs;
+        let is_known = (mark == AXIS)
+            & ((1..=6).contains(&self.kind))
+            & ((v as usize) < polyhedra[0].vertices.len())
+            & ((w as usize) < polyhedra[1].vertices.len());
+        is_known.then_some(Axis { vertices, direction: [x, y, z].map(f32::from_bits) })
+    }
+
+    #[inline(always)]
+    fn remember_axis(&mut self, vertices: [u32; 2], direction: Vector) {
+        let [x, y, z] = bits(direction);
+        [self.pairs[0], self.pairs[1], self.pairs[2]] = [vertices, [x, y], [z, AXIS]];
     }
 
     fn remember_pairs(&mut self, pairs: &[VertexPair]) {
@@ -292,6 +314,12 @@ fn query(
     let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
+        if query == Query::Intersection
+            && pair.cache.recall_axis(polyhedra).is_some()
+            && simd::dispatch(&mut Separation { pair: &mut pair })
+        {
+            return Ok(());
+        }
         match simd::dispatch(&mut Coherent { pair: &mut pair }) {
             Attempt::Done => Ok(()),
             attempt => pair.go_on(attempt, shapes),
@@ -362,6 +390,49 @@ impl Kernel for Coherent<'_, '_> {
             }
         }
     }
+}
+
+/// The common case of the verdict alone: the axis of the last query separates, or nearly.
+struct Separation<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for Separation<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let &mut PairQuery { polyhedra, poses, ref mut cache, config, ref mut answer, .. } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let Some(axis) = cache.recall_axis(polyhedra) else { return false };
+        if !frame.usual {
+            return false;
+        }
+        let trial = Trial::of_axis(&frame, &axis);
+        if trial.separates() {
+            cache.pairs[0] = trial.vertices;
+            fill_trial(&trial, config, answer);
+            return true;
+        }
+        let mut search = Search { frame: &frame, trial };
+        L::out_of_line(&mut search);
+        let trial = &search.trial;
+        if trial.separates() {
+            let unit = trial.direction.mul(L::splat(trial.inverse));
+            cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
+            fill_trial(trial, config, answer);
+        }
+        trial.separates()
+    }
+}
+
+/// The answer of an axis that separates.
+#[inline(always)]
+fn fill_trial<L: Lanes>(trial: &Trial<L>, config: &PairConfig, answer: &mut PairAnswer) {
+    answer.status = Status::Coherent;
+    answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
+    set_interval(answer, &trial.interval, trial.distance, config);
+    contact::fill_normal(answer, trial.direction.mul(L::splat(trial.inverse)));
 }
 
 /// Marching from the cache is given up for a new start after this many steps: the pair has jumped without being noticed.
@@ -500,6 +571,11 @@ impl Acceptance<'_> {
             contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
         } else {
             contact::fill_normal(answer, normal);
+        }
+        if self.query == Query::Intersection {
+            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / frame.separation), normal);
+            let direction = frame.bodies[0].rotate_back(nudged).to_vector();
+            self.cache.remember_axis(state.vertices(frame.polyhedra()), direction);
         }
     }
 }

@@ -66,9 +66,12 @@ pub fn check(flight: &mut Flight) {
             ("of random bytes", cache_of_words(words_of_a_cache(&mut random))),
             ("of random features", random_features(&mut random, shapes)),
             ("of the farthest vertices", farthest(shapes, placed, &mut random)),
+            ("of an axis", random_axis(&mut random, shapes, placed, &cold)),
         ];
         for (start, cache) in starts {
-            let (name, query, bounds) = QUERIES[random.below(4)];
+            // Axes are for the verdict alone.
+            let asked = if start == "of an axis" { 2 } else { random.below(4) };
+            let (name, query, bounds) = QUERIES[asked];
             // Without a limit to the distance, or with one that is as near to it as can be.
             let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
             let distance_tolerance = limits[random.below(12).saturating_sub(6)];
@@ -142,6 +145,26 @@ fn random_features(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
     for word in &mut words[11..] {
         *word = [f32::NAN, f32::INFINITY, 0.0, -1e30, random.signed() as f32][random.below(5)].to_bits();
     }
+    cache_of_words(words)
+}
+
+/// Features that exist and beside them a separating axis: the one that the cold answer knows, tilted or not, or any.
+fn random_axis(random: &mut Random, shapes: [&Shape; 2], placed: &[Pose; 2], cold: &PairAnswer) -> PairCache {
+    let mut words = [0; WORDS];
+    words[0] = KINDS[random.below(6)];
+    for (k, word) in words[1..5].iter_mut().enumerate() {
+        *word = random.below(shapes[k % 2].polyhedron().vertices.len()) as u32;
+    }
+    let tilt = [0.0, 1e-12, 1e-7, 1e-3, 0.3][random.below(5)];
+    let tilted = Vector::from(cold.normal) + Vector::new(random.signed(), random.signed(), random.signed()) * tilt;
+    let local = placed[0].rotate_back(&tilted);
+    let any = [f32::NAN, f32::INFINITY, 0.0, -1e30, 1e-30, random.signed() as f32];
+    let is_known = cold.outcome == Outcome::Separated && random.below(4) > 0;
+    for k in 0..3 {
+        let component = if is_known { local[k] as f32 } else { any[random.below(6)] };
+        words[5 + k] = component.to_bits();
+    }
+    words[8] = u32::from_ne_bytes(*b"axis");
     cache_of_words(words)
 }
 
