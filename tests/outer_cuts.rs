@@ -176,3 +176,25 @@ fn it_can_be_cancelled() {
     let result = outer_cuts(&body, &[200], &mut Progress::new(&mut |_| false));
     assert!(matches!(result, Err(Error::Cancelled(_))));
 }
+
+/// One vertex 10¹⁶ times as far out as the others: the planes of the first block have the same directions, up to rounding, and bound
+/// nothing. Found by fuzzing.
+#[test]
+fn a_body_whose_first_block_rounding_opens_has_no_levels_or_sound_ones() {
+    let far = 4.683743612465316e17;
+    let points = [
+        [2.75, -3.125, -13.0],
+        [-12.999999999999998, -6979321855.999999, -0.25],
+        [-0.25, -0.25, -0.25],
+        [2.625, 0.0, 29.0],
+        [3.75, 15.0, 2.625],
+        [-2.625, 3.0, 29.0],
+        [far, far, -far],
+        [0.750000000000004, -32.0, -32.0],
+    ]
+    .map(Vector::from);
+    let body = hull(&points);
+    for counts in [&[6][..], &[4, 8, 12], &[60]] {
+        assert!(levels(&body, counts).iter().all(|level| swiftprox::containment::contains(level, &body)));
+    }
+}

@@ -94,8 +94,9 @@ pub struct Cuts<'a> {
 }
 
 impl<'a> Cuts<'a> {
-    /// Begins with the half-spaces in some directions y that surround the origin.
-    pub fn new(block: &'a Block<'a>, directions: &[Vector]) -> Result<Cuts<'a>> {
+    /// Begins with the half-spaces in some directions y that surround the origin. `None` where in doubles they surround nothing: a
+    /// vertex may be 10¹⁷ times as far out as the others.
+    pub fn new(block: &'a Block<'a>, directions: &[Vector]) -> Result<Option<Cuts<'a>>> {
         let mut cuts = Cuts {
             block,
             dual: Vec::new(),
@@ -109,6 +110,9 @@ impl<'a> Cuts<'a> {
         }
         // Some may be superfluous; they are left out.
         let hull = convex_hull(&cuts.dual)?;
+        if hull.dimension < 3 {
+            return Ok(None);
+        }
         cuts.dual = hull.vertices.iter().map(|&v| cuts.dual[v as usize]).collect();
         let renumbered = |v: u32| hull.vertices.partition_point(|w| *w < v) as u32;
         let triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(renumbered)).collect();
@@ -122,7 +126,7 @@ impl<'a> Cuts<'a> {
             let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
             cuts.add_corner(planes, neighbours, 0);
         }
-        Ok(cuts)
+        Ok(Some(cuts))
     }
 
     /// Cuts until there are `count` planes; `false` if the body needs no more than there are.

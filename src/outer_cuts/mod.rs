@@ -61,8 +61,11 @@ pub fn outer_cuts(base: &Polyhedron, plane_counts: &[usize], progress: &mut Prog
         let blocks = if count > FEW_PLANES { 1 } else { BLOCKS.len() };
         if started.is_empty() {
             for normal in &BLOCKS[..blocks] {
-                started.push(Cuts::new(&block, &directions(*normal))?);
+                started.extend(Cuts::new(&block, &directions(*normal))?);
             }
+        }
+        if started.is_empty() {
+            return Ok(levels);
         }
         started.truncate(blocks);
         let mut best = (f64::INFINITY, 0, true);
