@@ -177,8 +177,8 @@ fn it_can_be_cancelled() {
     assert!(matches!(result, Err(Error::Cancelled(_))));
 }
 
-/// One vertex 10¹⁶ times as far out as the others: the planes of the first block have the same directions, up to rounding, and bound
-/// nothing. Found by fuzzing.
+/// One vertex 10¹⁶ times as far out as the others: the planes of the first block have the same directions, up to rounding, and
+/// bound nothing. Found by fuzzing.
 #[test]
 fn a_body_whose_first_block_rounding_opens_has_no_levels_or_sound_ones() {
     let far = 4.683743612465316e17;
