@@ -120,7 +120,7 @@ figures:
 	$(COMPARE) --figures choice --count 1800 --passes 5 --csv $(FIGURES)-choice.csv
 	$(COMPARE) --figures error --count 1800 --passes 5 --csv $(FIGURES)-error.csv
 	$(COMPARE) --figures size --count 900 --passes 3 --csv $(FIGURES)-size.csv
-	$(COMPARE) --build --n 1002,10002,100002 --passes 3 --csv $(FIGURES)-build.csv
+	$(COMPARE) --build --n 1002,10002,100002 --passes 2 --csv $(FIGURES)-build.csv
 	$(COMPARE) --query intersection --n 1002,10002 --count 1800 --passes 5 --csv $(FIGURES)-verdict.csv
 	python3 benches/figures.py $(FIGURES)-*.csv
 

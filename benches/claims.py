@@ -85,7 +85,7 @@ def tables_on_fat(rows):
     factors = [max(t for n, t in own.items() if n.endswith(d)) / min(t for n, t in own.items() if n.endswith(d)) for d in ("5.625", "11.25")]
     resolution = mean([r for r in rows if r["figure"] == "6" and r["model"] == "fat"], series="2 11.25") / own["2 5.625"]
     return ("J6a", "of look-up tables on fat bodies the resolution counts, the radius factor does not",
-            verdict(max(factors) < resolution and max(factors) < 1.05),
+            HOLDS if max(factors) < min(1.05, resolution) else PARTLY if max(factors) < resolution else HOLDS_NOT,
             f"between factors {100 * (max(factors) - 1):.0f} %, between 5.625° and 11.25° {100 * (resolution - 1):.0f} %")
 
 
