@@ -164,7 +164,8 @@ def best_intersection(rows):
     gain = against_nothing(rows, "11", "quadric 0.03125")
     return ("J11", "hierarchies do well for intersection", verdict(gain["10°"] > 1.2 and gain["random"] > 1.2),
             f"times faster than nothing, quadric 0.03125: {gains(rows, '11', 'quadric 0.03125')}; DK 100: "
-            f"{gains(rows, '11', 'DK 100 Double-Double')}")
+            f"{gains(rows, '11', 'DK 100 Double-Double')}. Nothing tries the separating axis of the last query first, which the "
+            "paper did not have; without that levels were 2.0 times faster than nothing at 10° and 3.0 times at random")
 
 
 def best_distance(rows):

@@ -102,7 +102,7 @@ def grid(path, head, title, panels, ticks, note):
     low, high = limits(times)
     width_of_one, height, gap, left = 330, 250, 18, 66
     width = left + len(panels[0]) * (width_of_one + gap)
-    entries, used = legend(series, left, 50, width - left - 16)
+    entries, used = legend([plot.style(name, series) for name in series], left, 50, width - left - 16)
     top = 50 + used + 20
     parts = plot.title(head, title, width) + entries
     for i, row in enumerate(panels):
