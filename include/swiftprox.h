@@ -115,8 +115,8 @@ typedef int32_t swift_start;
 /** Which levels of detail a query goes through, of those that the shapes have. */
 enum {
   /**
-   * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for intersection
-   * (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
+   * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
+   * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
    */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */

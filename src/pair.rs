@@ -152,8 +152,8 @@ impl Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum Levels {
-    /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for intersection
-    /// (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
+    /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
+    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
     #[default]
     Automatic = 0,
     /// None.

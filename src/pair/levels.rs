@@ -92,8 +92,8 @@ fn pay([shape1, shape2]: [&Shape; 2], config: &PairConfig, error: f64, vertex_co
 /// 0.1°, 1.2 to 2.5 times faster elsewhere) and 200,004 vertices (1.4 to 5 times faster).
 const MANY_VERTICES: usize = 60_000;
 
-/// The same for intersection, which a separating axis answers well: measured at 20,004 (levels up to twice as slow) and 200,004 vertices
-/// (1.2 times slower at 0.1°, 1.6 to 2 times faster elsewhere).
+/// The same for intersection, which a separating axis answers well: measured at 20,004 (levels up to twice as slow) and 200,004
+/// vertices (1.2 times slower at 0.1°, 1.6 to 2 times faster elsewhere).
 const VERY_MANY_VERTICES: usize = 200_000;
 
 /// Refuses error tolerances and step budgets that are none.
