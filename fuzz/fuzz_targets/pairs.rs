@@ -36,7 +36,7 @@ fn run(u: &mut Unstructured) -> Result<()> {
     for _ in 0..MOST_STEPS {
         let poses = poses(u, [&bodies[0].points, &bodies[1].points])?;
         let placed = Placed { bodies: [&bodies[0], &bodies[1]], poses };
-        session.random = Random(u.arbitrary::<u16>()?.into());
+        session.random = Random::new(u.arbitrary::<u16>()?.into());
         if u.ratio(1, 4)? {
             session.own = any_cache(u)?;
         }
