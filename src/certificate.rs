@@ -254,7 +254,8 @@ const DIRECTION_ERROR: f64 = 6.2 * U;
 pub fn of_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
     let length = norm1_of(g);
     match polyhedron.steepest_closely(vertex, g, length) {
-        Some(steepest) if steepest.slope >= -STRICT * length => of_tied_vertex(polyhedron, vertex, g),
+        // A NaN proves nothing.
+        Some(steepest) if !(steepest.slope < -STRICT * length) => of_tied_vertex(polyhedron, vertex, g),
         _ => 0.0,
     }
 }

@@ -19,12 +19,12 @@ pub fn unit(v: &Vector) -> Vector {
     if largest == 0.0 {
         return v;
     }
-    // Keeps the squares in range; at most three rounds, all exact.
+    // Keeps the squares in range; at most three rounds, all exact. What is infinite stays so.
     const STEP: f64 = f64::from_bits((1023 + 400) << 52);
     while v.amax() < 1.0 / STEP {
         v *= STEP;
     }
-    while v.amax() > STEP {
+    while v.amax() > STEP && v.amax() <= f64::MAX {
         v /= STEP;
     }
     v / v.dot(&v).sqrt()

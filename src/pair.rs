@@ -409,7 +409,7 @@ impl Kernel for Separation<'_, '_> {
             return false;
         }
         let trial = Trial::of_axis(&frame, &axis);
-        if trial.separates() {
+        if trial.separates() && settles(&trial.interval, config) {
             cache.pairs[0] = trial.vertices;
             fill_trial(&trial, config, answer);
             return true;
@@ -417,13 +417,20 @@ impl Kernel for Separation<'_, '_> {
         let mut search = Search { frame: &frame, trial };
         L::out_of_line(&mut search);
         let trial = &search.trial;
-        if trial.separates() {
+        let is_answer = trial.separates() && settles(&trial.interval, config);
+        if is_answer {
             let unit = trial.direction.mul(L::splat(trial.inverse));
             cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
             fill_trial(trial, config, answer);
         }
-        trial.separates()
+        is_answer
     }
+}
+
+/// Whether an interval, however wide, is on one side of the distance tolerance: another start would not say otherwise.
+#[inline(always)]
+fn settles(interval: &Interval, config: &PairConfig) -> bool {
+    (interval.lower > config.distance_tolerance) | (interval.upper <= config.distance_tolerance)
 }
 
 /// The answer of an axis that separates.
@@ -554,7 +561,7 @@ impl Acceptance<'_> {
         interval.is_tight(size)
             || match self.query {
                 Query::Approximate => self.config.accuracy().is_met_by(interval.lower, interval.upper),
-                Query::Intersection => interval.lower > 0.0,
+                Query::Intersection => interval.lower > 0.0 && settles(interval, self.config),
                 Query::Distance | Query::Contact => self.config.bounds == Bounds::Verdict && interval.lower > 0.0,
             }
     }
@@ -743,7 +750,7 @@ impl PairQuery<'_> {
             }
         }
         // Cheap bounds or not, nearest points are to be nearest.
-        let tight = query != Query::Intersection;
+        let tight = query != Query::Intersection || config.distance_tolerance < f64::INFINITY;
         let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), tight);
         let overlap::Work { fallback_iterations, exact_iterations } = work;
         statistics.fallback_iterations = fallback_iterations;

@@ -256,7 +256,10 @@ impl Polyhedron {
     /// The unit vector from a vertex to another, each component right to 4u of the vector.
     #[inline]
     pub fn direction_to(&self, vertex: u32, head: u32) -> Vector {
-        unit(&(self.vertices[head as usize].position - self.vertices[vertex as usize].position))
+        let [from, to] = [vertex, head].map(|v| self.vertices[v as usize].position);
+        let difference = to - from;
+        // Between the ends of the range it overflows; halves of such numbers are exact.
+        if difference.amax() <= f64::MAX { unit(&difference) } else { unit(&(to * 0.5 - from * 0.5)) }
     }
 
     /// Lanes in the neighbour blocks of a vertex: an upper bound of the number of its neighbours, by less than eight.

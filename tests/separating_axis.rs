@@ -24,8 +24,10 @@ fn bodies() -> Vec<PolygonMesh> {
 fn fly(shape: &Shape, orbit: usize, step: &str) -> [usize; 2] {
     let mut counts = [0; 2];
     let (mut cache, mut answer, mut exact) = (PairCache::default(), PairAnswer::default(), PairAnswer::default());
-    let config = PairConfig::default();
-    for pose in poses(ORBITS[orbit], step.parse::<Step>().unwrap(), COUNT) {
+    for (number, pose) in poses(ORBITS[orbit], step.parse::<Step>().unwrap(), COUNT).into_iter().enumerate() {
+        // Now and then with a tolerance: the answer is on the side of it that the distance is.
+        let distance_tolerance = if number % 8 == 7 { 1.0 } else { f64::INFINITY };
+        let config = PairConfig { distance_tolerance, ..PairConfig::default() };
         let [pose1, pose2] = [&pose[..12], &pose[12..]].map(|m| Pose::from_row_major(m.try_into().unwrap()));
         intersection(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
         distance(shape, &pose1, shape, &pose2, &mut PairCache::default(), &config, &mut exact).unwrap();
@@ -33,6 +35,7 @@ fn fly(shape: &Shape, orbit: usize, step: &str) -> [usize; 2] {
         verify(shape, &pose1, shape, &pose2, &answer).unwrap();
         assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
         let is_disjoint = answer.outcome == Outcome::Separated;
+        let is_disjoint = is_disjoint && number % 8 != 7;
         counts[0] += usize::from(is_disjoint && answer.status == Status::Coherent);
         counts[1] += usize::from(is_disjoint);
     }

@@ -50,6 +50,23 @@ fn witness_points_of_the_largest_bodies_are_finite() {
     assert!(points.as_flattened().iter().all(|x| x.is_finite()), "{answer:?}");
 }
 
+/// Vertices are farther apart than any double; directions between them are looked at all the same.
+#[test]
+fn contacts_of_the_largest_bodies_end() {
+    let cube = |half: f64| {
+        let corner = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { half } else { -half });
+        hull(&[0, 1, 2, 3, 4, 5, 6, 7].map(corner))
+    };
+    let (largest, small) = (cube(1.7e308), cube(1.0));
+    for other in [&largest, &small] {
+        let mut answer = PairAnswer::default();
+        let (pose, config) = (&Pose::IDENTITY, PairConfig::default());
+        contact(&largest, pose, other, pose, &mut PairCache::default(), &config, &mut answer).unwrap();
+        assert_eq!(answer.outcome, Outcome::Intersecting);
+        assert!(answer.normal.iter().all(|x| x.is_finite()), "{answer:?}");
+    }
+}
+
 /// Two triangles make each side of this cube: either is found as such, by marching and by the fallback.
 #[test]
 fn the_face_is_the_callers_triangle_that_holds_the_point() {

@@ -129,6 +129,8 @@ impl PairQuery<'_> {
         let bodies = Leveled { shapes, poses };
         let beyond = config.distance_tolerance;
         let accuracy = match query {
+            // A tolerance is to be on one side of the interval.
+            Query::Intersection if beyond < f64::INFINITY => Accuracy { absolute: 0.0, relative: 0.0, beyond },
             Query::Intersection => Accuracy { absolute: f64::INFINITY, relative: 0.0, beyond },
             Query::Approximate => config.accuracy(),
             // Only the bodies themselves tell.

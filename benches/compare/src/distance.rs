@@ -71,23 +71,25 @@ fn of_intersection(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     ])
 }
 
+/// No two of the same code follow each other: the second would find the branch predictors trained on the very poses.
 fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let mut all: Vec<Box<dyn Method>> = Vec::new();
     let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
-    for (name, bounds) in [("swiftprox", Bounds::Tight), ("swiftprox-verdict", Bounds::Verdict)] {
-        let config = PairConfig { bounds, ..PairConfig::default() };
-        all.push(setting(name, Query::Distance, &shape, config));
-    }
     let rings = Rc::new(Rings::new(mesh));
-    for turning in [Turning::Quaternion, Turning::Matrix] {
+    let rounds = [
+        ("swiftprox", Bounds::Tight, Turning::Quaternion, 1e-6),
+        ("swiftprox-verdict", Bounds::Verdict, Turning::Matrix, 1e-10),
+    ];
+    for (name, bounds, turning, tolerance) in rounds {
+        all.push(setting(name, Query::Distance, &shape, PairConfig { bounds, ..PairConfig::default() }));
         all.push(Box::new(Parry::new([rings.clone(), rings.clone()], turning)));
-    }
-    #[cfg(fcl)]
-    for tolerance in [1e-6, 1e-10] {
+        #[cfg(fcl)]
         match crate::fcl::Fcl::new(mesh, tolerance) {
             Some(fcl) => all.push(Box::new(fcl)),
             None => eprintln!("FCL refuses this model: compared without it"),
         }
+        #[cfg(not(fcl))]
+        let _ = tolerance;
     }
     Ok(all)
 }
