@@ -1,18 +1,20 @@
 #!/usr/bin/env bash
 # Builds the fuzz targets and runs each for a while, two at a time, beginning with its corpus (fuzz/README.md says what they check):
 #
-#   fuzz.sh [--if-possible] SECONDS [TARGET ...]
+#   fuzz.sh SECONDS [TARGET ...]
+#   fuzz.sh --as-test [TARGET ...]
 #
-# With --if-possible a machine that cannot have what it takes, crates or a C++ compiler, says so, and that is no failure. What fails
+# As a test it runs up to a thousand inputs of one seed, the same every time; and a machine that cannot have what it takes, crates or
+# a C++ compiler, says so, and that is no failure. What fails
 # is kept in fuzz/artifacts, with the command that repeats it; what is new on the way in the build folder.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
-if_possible=false
-if [ "$1" = --if-possible ]; then
-    if_possible=true
-    shift
+as_test=false
+limits="-max_total_time=$1"
+if [ "$1" = --as-test ]; then
+    as_test=true
+    limits="-seed=1 -runs=1000"
 fi
-seconds=$1
 shift
 targets=("$@")
 ((${#targets[@]})) || targets=(mesh_readers shape_files hull pairs c_calls)
@@ -25,7 +27,7 @@ if [ "$(printf '%s\n' "$wanted" "${nightly:-0}" | sort -V | head -n 1)" = "$want
 else
     echo "fuzz: no nightly Rust $wanted or newer (rustup toolchain install nightly), so without the address sanitizer"
 fi
-if $if_possible; then
+if $as_test; then
     if ! command -v c++ >/dev/null; then
         echo "fuzz: skipped: no C++ compiler, which libFuzzer is built with"
         exit 0
@@ -40,14 +42,16 @@ RUSTC_WRAPPER="$PWD/rustc.sh" "${cargo[@]}" build --locked --release --bins
 temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
 export TMPDIR=$temporary
+# A test begins with the committed corpus alone.
+if $as_test; then export FOUND=$temporary/corpus; else export FOUND=$CARGO_TARGET_DIR/corpus; fi
 # Short stacks of allocations, and freed memory kept for 16 MB: several times as many executions a second.
 export ASAN_OPTIONS=malloc_context_size=4:detect_stack_use_after_return=0:quarantine_size_mb=16
 
 # One target; says how many executions there were, or all of it if it fails.
 run() {
-    local target=$1 seconds=$2 new="$CARGO_TARGET_DIR/corpus/$1" log="$TMPDIR/$1.log"
+    local target=$1 limits=$2 new="$FOUND/$1" log="$TMPDIR/$1.log"
     mkdir -p "$new" "artifacts/$target"
-    if "$CARGO_TARGET_DIR/release/$target" "$new" "corpus/$target" -max_total_time="$seconds" -max_len=512 -timeout=20 \
+    if "$CARGO_TARGET_DIR/release/$target" "$new" "corpus/$target" $limits -max_len=512 -timeout=20 \
         -rss_limit_mb=2048 -malloc_limit_mb=256 -artifact_prefix="artifacts/$target/" -print_final_stats=1 >"$log" 2>&1; then
         echo "fuzz: $target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions, $(
             sed -n 's/.*\(cov: [0-9]*\).*/\1/p' "$log" | tail -n 1) edges, no failure"
@@ -58,4 +62,4 @@ run() {
     fi
 }
 export -f run
-printf '%s\n' "${targets[@]}" | xargs -P 2 -I {} bash -c 'run {} '"$seconds"
+printf '%s\n' "${targets[@]}" | xargs -P 2 -I {} bash -c 'run {} "'"$limits"'"'

@@ -560,9 +560,14 @@ impl Acceptance<'_> {
     fn is_enough(&self, size: f64, interval: &Interval) -> bool {
         interval.is_tight(size)
             || match self.query {
-                Query::Approximate => self.config.accuracy().is_met_by(interval.lower, interval.upper),
+                // Without an upper bound a witness point may lie out of its body.
+                Query::Approximate => {
+                    interval.upper < f64::INFINITY && self.config.accuracy().is_met_by(interval.lower, interval.upper)
+                }
                 Query::Intersection => interval.lower > 0.0 && settles(interval, self.config),
-                Query::Distance | Query::Contact => self.config.bounds == Bounds::Verdict && interval.lower > 0.0,
+                Query::Distance | Query::Contact => {
+                    self.config.bounds == Bounds::Verdict && interval.lower > 0.0 && interval.upper < f64::INFINITY
+                }
             }
     }
 
