@@ -301,7 +301,7 @@ def size_table(rows):
     return table(["triangles, motion", *" | ".join(head).split(" | ")], lines)
 
 
-PARTS = ("body", "table", "quadric", "outer cuts", "Dobkin-Kirkpatrick")
+PARTS = {"swiftprox-mesh": "body", "table": "table", "quadric": "quadric", "outer cuts": "outer cuts", "Dobkin-Kirkpatrick": "Dobkin-Kirkpatrick"}
 
 
 def build_table(builds):
@@ -310,8 +310,8 @@ def build_table(builds):
     found = {(n, part): {key: geometric_mean([row[key] for row in builds if (row["n"], row["method"]) == (n, part)])
                          for key in ("best_ms", "bytes")} for n in sizes for part in PARTS}
     lines = []
-    for part in PARTS:
-        line = [part]
+    for part, name in PARTS.items():
+        line = [name]
         for n, before in zip(sizes, [None] + sizes):
             here = found[n, part]
             line.append(f'{here["best_ms"]:.1f}' if here["best_ms"] < 100 else f'{here["best_ms"]:.0f}')

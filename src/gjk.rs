@@ -8,6 +8,7 @@ use crate::certificate::{self, Interval};
 use crate::exact::VertexPair;
 use crate::frame::Frame;
 use crate::lookup::Table;
+use crate::lookup_build;
 use crate::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::simd::Lanes;
@@ -88,7 +89,7 @@ impl Supports {
     fn nearest_start(&self, polyhedra: [&Polyhedron; 2], towards: [&Vector; 2]) -> VertexPair {
         let mut start = [0; 2];
         for i in 0..2 {
-            if let Table::Shells(table) = &polyhedra[i].lookup.table {
+            if let Table::Shells(table) = lookup_build::table(polyhedra[i]) {
                 let direction = towards[i] * (1.0 / towards[i].amax());
                 start[i] = table.farthest([direction.x as f32, direction.y as f32, direction.z as f32]);
                 continue;

@@ -9,6 +9,7 @@
 //! poles, nearest to the points of one sphere; looked up once, in the direction of the other body's centre of mass.
 
 use std::f64::consts::PI;
+use std::sync::OnceLock;
 
 use crate::math::Vector;
 
@@ -233,42 +234,72 @@ fn around(x: f64, y: f64) -> f64 {
     }
 }
 
-/// The table of a body, and when it pays.
-#[derive(Debug, Clone, PartialEq)]
+/// The table of a body, made when a query first looks into it, and when it pays.
+#[derive(Debug, Clone)]
 pub struct Lookup {
-    /// The table.
-    pub table: Table,
+    /// Which table.
+    pub plan: Plan,
     /// How far, in radians, another body may turn around this one or either may turn on the spot before the table leads to the
     /// nearest features sooner than the last features do; +∞ without a table.
     pub reach: f64,
+    /// The table, once made.
+    pub made: OnceLock<Table>,
+}
+
+/// Which table a body has.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Plan {
+    /// None: the body is small, or none was asked for.
+    None,
+    /// Nearest vertices to points on several spheres.
+    Shells {
+        /// [`Shells::resolution`].
+        resolution: usize,
+    },
+    /// That of Ehmann & Lin (2000).
+    Spherical {
+        /// [`Spherical::resolution`].
+        resolution: usize,
+        /// [`Spherical::radius_factor`].
+        radius_factor: f64,
+    },
+}
+
+/// Of one body equal plans make equal tables, whether they are made yet or not.
+impl PartialEq for Lookup {
+    fn eq(&self, other: &Lookup) -> bool {
+        (self.plan, self.reach) == (other.plan, other.reach)
+    }
 }
 
 impl Lookup {
     /// No table.
-    pub const NONE: Lookup = Lookup { table: Table::None, reach: f64::INFINITY };
+    pub fn none() -> Lookup {
+        Lookup { plan: Plan::None, reach: f64::INFINITY, made: OnceLock::new() }
+    }
 
-    /// Memory that it holds beyond its own size.
+    /// Memory that it holds beyond its own size: none until the table is made.
     pub fn heap_bytes(&self) -> usize {
-        match &self.table {
-            Table::None => 0,
-            Table::Shells(shells) => {
+        match self.made.get() {
+            None | Some(Table::None) => 0,
+            Some(Table::Shells(shells)) => {
                 shells.cells.bytes() + size_of_val(&shells.positions[..]) + size_of_val(&shells.radii[..])
             }
-            Table::Spherical(table) => {
+            Some(Table::Spherical(table)) => {
                 table.cells.bytes() + size_of_val(&table.altitudes[..]) + size_of_val(&table.azimuths[..])
             }
         }
     }
 }
 
-/// The kinds of tables.
+/// A table as a [`Plan`] says.
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "one for a body, and a look-up should not begin with a further pointer")]
 pub enum Table {
-    /// None: the body is small, or none was asked for.
+    /// [`Plan::None`].
     None,
-    /// Nearest vertices to points on several spheres.
+    /// [`Plan::Shells`].
     Shells(Shells),
-    /// That of Ehmann & Lin (2000).
+    /// [`Plan::Spherical`].
     Spherical(Spherical),
 }

@@ -1,8 +1,8 @@
-//! Builds the look-up tables of vertices.
+//! Says which look-up table a body gets, and builds it.
 
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
-use crate::lookup::{Lookup, Shells, Spherical, Table};
+use crate::lookup::{Lookup, Plan, Shells, Spherical, Table};
 use crate::math::Vector;
 use crate::polyhedron::Polyhedron;
 
@@ -54,22 +54,22 @@ pub const LEAST_VERTICES: usize = 32;
 /// bounding sphere only where this body is thin.
 const RADII: [f64; 8] = [0.3, 0.5, 0.8, 1.15, 1.5, 2.0, 3.0, 6.0];
 
-/// The table of a body, by the options.
+/// Which table a body gets, by the options.
 ///
 /// # Errors
 /// [`Error::Argument`] for a resolution or radius factor out of range.
-pub fn build_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<Lookup> {
+pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<Lookup> {
     let LookupOptions { kind, resolution, radius_factor } = *options;
     if !(radius_factor >= 1.0 && radius_factor.is_finite()) {
         return Err(Error::Argument(format!("the look-up table's radius factor {radius_factor:e} is not at least 1")));
     }
     let vertex_count = polyhedron.vertices.len();
     let resolution = resolution as usize;
-    let table = match kind {
+    let plan = match kind {
         // Points have no radius to measure distances by.
-        _ if !(polyhedron.mass.radius > 0.0) => Table::None,
-        LookupKind::None => Table::None,
-        LookupKind::Automatic if vertex_count < LEAST_VERTICES => Table::None,
+        _ if !(polyhedron.mass.radius > 0.0) => Plan::None,
+        LookupKind::None => Plan::None,
+        LookupKind::Automatic if vertex_count < LEAST_VERTICES => Plan::None,
         LookupKind::Automatic | LookupKind::Shells => {
             let resolution = if resolution == 0 { resolution_for(vertex_count) } else { resolution };
             if !(4..=512).contains(&resolution) || !resolution.is_power_of_two() {
@@ -77,7 +77,7 @@ pub fn build_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<
                     "the look-up table's resolution {resolution} is not a power of two from 4 to 512"
                 )));
             }
-            Table::Shells(shells(polyhedron, resolution))
+            Plan::Shells { resolution }
         }
         LookupKind::Spherical => {
             let resolution = if resolution == 0 { 32 } else { resolution };
@@ -86,11 +86,37 @@ pub fn build_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<
                     "the look-up table's resolution {resolution} is not from 2 to 512"
                 )));
             }
-            Table::Spherical(spherical(polyhedron, resolution, radius_factor))
+            Plan::Spherical { resolution, radius_factor }
         }
     };
-    let reach = if table == Table::None { f64::INFINITY } else { REACH / (vertex_count as f64).sqrt() };
-    Ok(Lookup { table, reach })
+    let reach = if plan == Plan::None { f64::INFINITY } else { REACH / (vertex_count as f64).sqrt() };
+    Ok(Lookup { plan, reach, ..Lookup::none() })
+}
+
+/// The table of a body. The first to look makes it; others who come meanwhile wait.
+#[inline(always)]
+pub fn table(polyhedron: &Polyhedron) -> &Table {
+    match polyhedron.lookup.made.get() {
+        Some(table) => table,
+        None => make_table(polyhedron),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn make_table(polyhedron: &Polyhedron) -> &Table {
+    polyhedron.lookup.made.get_or_init(|| build_table(polyhedron))
+}
+
+/// The table of a body, made anew.
+pub fn build_table(polyhedron: &Polyhedron) -> Table {
+    match polyhedron.lookup.plan {
+        Plan::None => Table::None,
+        Plan::Shells { resolution } => Table::Shells(shells(polyhedron, resolution)),
+        Plan::Spherical { resolution, radius_factor } => {
+            Table::Spherical(spherical(polyhedron, resolution, radius_factor))
+        }
+    }
 }
 
 /// Over √n, how far (as an angle) a pair may have turned or moved before a query begins from the tables and no longer from the last

@@ -7,6 +7,7 @@
 use crate::certificate::{Interval, interval, reciprocal_length};
 use crate::frame::{Body, Frame};
 use crate::lookup::Table;
+use crate::lookup_build::table;
 use crate::math::Vector;
 use crate::simd::{Lanes, Work};
 use crate::voronoi::{Rule, VertexTest, test_vertex};
@@ -128,7 +129,7 @@ impl<L: Lanes> Work for Search<'_, L> {
 #[inline(always)]
 fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
     let [body1, body2] = &frame.bodies;
-    match (&body1.polyhedron.lookup.table, &body2.polyhedron.lookup.table) {
+    match (table(body1.polyhedron), table(body2.polyhedron)) {
         (Table::Shells(table1), Table::Shells(table2)) => {
             let [x, y, z] = body1.rotate_back(direction).negate().to_vector().into();
             let vertex1 = table1.farthest([x as f32, y as f32, z as f32]);

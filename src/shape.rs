@@ -7,7 +7,7 @@ use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::hull_build::convex_hull_in_steps;
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
-use crate::lookup_build::build_lookup;
+use crate::lookup_build::plan_lookup;
 pub use crate::lookup_build::{LookupKind, LookupOptions};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::mesh::{PolygonMesh, check_vertex};
@@ -53,7 +53,8 @@ pub struct ShapeOptions {
     pub convexity_tolerance: Option<f64>,
     /// Levels of detail. By default there are none.
     pub hierarchy: HierarchyOptions,
-    /// The table of vertices from which marching starts when the last query tells nothing.
+    /// The table of vertices from which marching starts when the last query tells nothing. It is made by the first query that
+    /// looks into it.
     pub lookup: LookupOptions,
 }
 
@@ -127,7 +128,7 @@ impl Shape {
             InputPolicy::Strict | InputPolicy::Flat => checked.map(|()| Some(&mesh))?,
             InputPolicy::Hull => checked.is_ok().then_some(&mesh),
         };
-        let polyhedron = build_in_steps(&mesh.vertices, hull, polygons, &mut of_body.part(0.45, 0.92))?;
+        let polyhedron = build_in_steps(&mesh.vertices, hull, polygons, &mut of_body.part(0.45, 1.0))?;
         Shape::admitted(polyhedron, options, progress)
     }
 
@@ -148,7 +149,7 @@ impl Shape {
         let points = transformed(points, options)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let hull = convex_hull_in_steps(&points, &mut of_body.part(0.0, 0.3))?;
-        let polyhedron = build_in_steps(&points, hull, None, &mut of_body.part(0.3, 0.92))?;
+        let polyhedron = build_in_steps(&points, hull, None, &mut of_body.part(0.3, 1.0))?;
         Shape::admitted(polyhedron, options, progress)
     }
 
@@ -225,13 +226,13 @@ impl Shape {
         &self.hierarchy
     }
 
-    /// Memory held, in bytes.
+    /// Memory held, in bytes: the look-up table's only once a query needed it.
     pub fn bytes(&self) -> usize {
         let Shape { polyhedron, hierarchy } = self;
         size_of::<Shape>() + polyhedron.heap_bytes() + hierarchy.heap_bytes()
     }
 
-    /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their table and levels.
+    /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
     fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let least = match options.input {
             InputPolicy::Strict => 3,
@@ -245,9 +246,8 @@ impl Shape {
             return Err(Error::Mesh(format!("the body has no interior: {}; {hint}", what[dimension])));
         }
         let share = options.share_of_body();
-        progress.report(0.92 * share)?;
-        polyhedron.lookup = build_lookup(&polyhedron, &options.lookup)?;
         progress.report(share)?;
+        polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
         let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };
         shape.with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }

@@ -14,8 +14,8 @@ use crate::error::{Error, Result};
 use crate::hierarchy::{Hierarchy, Links};
 use crate::hull_build::{Hull, convex_hull};
 use crate::hull_check::check_hull;
-use crate::lookup::Table;
-use crate::lookup_build::{LookupKind, LookupOptions, build_lookup};
+use crate::lookup::Plan;
+use crate::lookup_build::{LookupKind, LookupOptions, plan_lookup};
 use crate::math::Vector;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::{Labels, build_on_hull};
@@ -52,10 +52,10 @@ pub fn to_bytes(shape: &Shape) -> Vec<u8> {
     writer.number(VERSION);
     let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
     writer.polyhedron(polyhedron);
-    let (kind, resolution, factor) = match &polyhedron.lookup.table {
-        Table::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
-        Table::Shells(table) => (LookupKind::Shells, table.resolution, LookupOptions::DEFAULT.radius_factor),
-        Table::Spherical(table) => (LookupKind::Spherical, table.resolution, table.radius_factor),
+    let (kind, resolution, factor) = match polyhedron.lookup.plan {
+        Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
+        Plan::Shells { resolution } => (LookupKind::Shells, resolution, LookupOptions::DEFAULT.radius_factor),
+        Plan::Spherical { resolution, radius_factor } => (LookupKind::Spherical, resolution, radius_factor),
     };
     writer.number(kind as u32);
     writer.number(resolution as u32);
@@ -98,7 +98,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
         return damaged("an unknown kind of look-up table");
     };
     let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
-    polyhedron.lookup = build_lookup(&polyhedron, &lookup).or_else(|e| damaged(e.message()))?;
+    polyhedron.lookup = plan_lookup(&polyhedron, &lookup).or_else(|e| damaged(e.message()))?;
     let kind = reader.number()?;
     let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");

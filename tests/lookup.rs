@@ -4,13 +4,14 @@
 mod common;
 
 use std::f64::consts::PI;
+use std::{ptr, thread};
 
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::orbits::{ORBITS, Step, poses};
 use common::random::Random;
 use swiftprox::error::Error;
-use swiftprox::lookup::{Cells, Shells, Spherical, Table};
-use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions};
+use swiftprox::lookup::{Cells, Plan, Shells, Spherical, Table};
+use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Start};
@@ -47,12 +48,12 @@ fn bodies() -> Vec<(&'static str, PolygonMesh)> {
 }
 
 fn shells(polyhedron: &Polyhedron) -> &Shells {
-    let Table::Shells(table) = &polyhedron.lookup.table else { panic!("shells") };
+    let Table::Shells(table) = table(polyhedron) else { panic!("shells") };
     table
 }
 
 fn spherical(polyhedron: &Polyhedron) -> &Spherical {
-    let Table::Spherical(table) = &polyhedron.lookup.table else { panic!("spherical") };
+    let Table::Spherical(table) = table(polyhedron) else { panic!("spherical") };
     table
 }
 
@@ -207,16 +208,52 @@ fn thin_bodies_have_shells_within_their_bounding_sphere() {
 
 #[test]
 fn tables_are_made_where_they_are_asked_for() {
-    let made = |mesh: &PolygonMesh, kind| shape(mesh, kind, 0).polyhedron().lookup.clone();
+    let made = |mesh: &PolygonMesh, kind| table(shape(mesh, kind, 0).polyhedron()).clone();
     let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES).unwrap());
-    assert_eq!(made(&small, LookupKind::Automatic).table, Table::None);
-    assert!(matches!(made(&large, LookupKind::Automatic).table, Table::Shells(_)));
-    assert_eq!(made(&large, LookupKind::None).table, Table::None);
-    assert_eq!(made(&large, LookupKind::None).heap_bytes(), 0);
-    assert!(matches!(made(&small, LookupKind::Shells).table, Table::Shells(_)));
-    assert!(matches!(made(&small, LookupKind::Spherical).table, Table::Spherical(t) if t.resolution == 32));
+    assert_eq!(made(&small, LookupKind::Automatic), Table::None);
+    assert!(matches!(made(&large, LookupKind::Automatic), Table::Shells(_)));
+    assert_eq!(made(&large, LookupKind::None), Table::None);
+    assert!(matches!(made(&small, LookupKind::Shells), Table::Shells(_)));
+    assert!(matches!(made(&small, LookupKind::Spherical), Table::Spherical(t) if t.resolution == 32));
     // Equal input, equal tables.
     assert_eq!(made(&large, LookupKind::Automatic), made(&large, LookupKind::Automatic));
+}
+
+#[test]
+fn tables_are_made_by_the_first_query_that_looks_into_them() {
+    let shape = |kind| shape(&ellipsoid([1.0, 0.7, 0.4], 300).unwrap(), kind, 0);
+    let bytes = |shape: &Shape| (shape.polyhedron().lookup.heap_bytes(), shape.bytes());
+    let mut away = Pose::IDENTITY;
+    away.rows[0][3] = 3.0;
+    for (kind, start, looks) in [
+        (LookupKind::Automatic, Start::Automatic, true),
+        (LookupKind::Automatic, Start::Cold, false),
+        (LookupKind::None, Start::Automatic, false),
+        (LookupKind::Spherical, Start::Table, true),
+    ] {
+        let [first, second] = [shape(kind), shape(kind)];
+        let (before, body) = bytes(&first);
+        assert_eq!(before, 0);
+        let config = PairConfig { start, ..PairConfig::default() };
+        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+        pair::distance(&first, &Pose::IDENTITY, &second, &away, &mut cache, &config, &mut answer).unwrap();
+        for shape in [&first, &second] {
+            let (made, all) = bytes(shape);
+            assert_eq!((made > 0, all), (looks, body + made), "{kind:?} {start:?}");
+        }
+    }
+}
+
+#[test]
+fn threads_that_look_at_once_see_one_table() {
+    let body = shape(&ellipsoid([1.0, 0.8, 0.5], 2_000).unwrap(), LookupKind::Automatic, 0);
+    let tables: Vec<usize> = thread::scope(|scope| {
+        let look = || ptr::from_ref(table(body.polyhedron())).addr();
+        let all: Vec<_> = (0..8).map(|_| scope.spawn(look)).collect();
+        all.into_iter().map(|thread| thread.join().unwrap()).collect()
+    });
+    assert!(tables.iter().all(|t| *t == tables[0]));
+    assert_eq!(*table(body.polyhedron()), build_table(body.polyhedron()));
 }
 
 #[test]
@@ -226,7 +263,7 @@ fn bodies_without_interior_have_tables_too() {
         for kind in [LookupKind::Shells, LookupKind::Spherical] {
             let shape = Shape::from_points(&square[..count], &options(kind, 0)).unwrap();
             // A point has no radius.
-            assert_eq!(shape.polyhedron().lookup.table == Table::None, count == 1);
+            assert_eq!(shape.polyhedron().lookup.plan == Plan::None, count == 1);
             let pose = Pose::IDENTITY;
             let mut away = pose;
             away.rows[2][3] = 3.0;

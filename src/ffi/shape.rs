@@ -8,7 +8,7 @@ use super::shape_options::{CShapeOptions, read_options};
 use super::{
     Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, string, write_struct,
 };
-use crate::lookup::Table;
+use crate::lookup::Plan;
 use crate::lookup_build::LookupKind;
 use crate::math::Vector;
 use crate::mesh::PolygonMesh;
@@ -55,7 +55,7 @@ pub struct ShapeInfo {
     pub lookup: i32,
     /// Its resolution, as in swift_shape_options; 0 without one.
     pub lookup_resolution: u32,
-    /// Its share of `bytes`.
+    /// Its share of `bytes`: 0 until the first query that looks into the table, which makes it.
     pub lookup_bytes: usize,
 }
 
@@ -211,10 +211,10 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
-        let (kind, resolution) = match &polyhedron.lookup.table {
-            Table::None => (LookupKind::None, 0),
-            Table::Shells(table) => (LookupKind::Shells, table.resolution),
-            Table::Spherical(table) => (LookupKind::Spherical, table.resolution),
+        let (kind, resolution) = match polyhedron.lookup.plan {
+            Plan::None => (LookupKind::None, 0),
+            Plan::Shells { resolution } => (LookupKind::Shells, resolution),
+            Plan::Spherical { resolution, .. } => (LookupKind::Spherical, resolution),
         };
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),

@@ -13,7 +13,7 @@ use crate::error::{Error, Result, check_range};
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
 use crate::hierarchy::Level;
-use crate::lookup::Table;
+use crate::lookup::Plan;
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::overlap::Decision;
 use crate::polyhedron::Polyhedron;
@@ -203,7 +203,7 @@ impl PairQuery<'_> {
     /// tables of the bodies say, without tables at the coarsest levels.
     fn place_anew(&self, bodies: &Leveled) -> Place {
         let no_levels = self.config.levels != Levels::All;
-        let has_tables = self.polyhedra.iter().all(|polyhedron| !matches!(polyhedron.lookup.table, Table::None));
+        let has_tables = self.polyhedra.iter().all(|polyhedron| polyhedron.lookup.plan != Plan::None);
         if no_levels || (has_tables && self.config.start != Start::Cold) {
             let place =
                 Place { levels: [0, 0], state: self.state_anew(self.polyhedra, self.config.start != Start::Cold) };

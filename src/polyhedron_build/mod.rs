@@ -264,7 +264,7 @@ impl HullSurface {
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
             mass,
-            lookup: Lookup::NONE,
+            lookup: Lookup::none(),
         };
         if self.dimension < 2 {
             // A segment's ends are each other's neighbours, a point is its own.

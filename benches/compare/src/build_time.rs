@@ -5,7 +5,8 @@ use std::hint::black_box;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::lookup_build::{LookupKind, LookupOptions, build_lookup};
+use swiftprox::lookup::Lookup;
+use swiftprox::lookup_build::build_table;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
 
@@ -15,14 +16,13 @@ use crate::report::{self, BuildRow};
 use crate::timing::{Time, measure, median};
 
 pub fn run(options: &Options) -> Result<(), String> {
-    let body_alone = LookupOptions { kind: LookupKind::None, ..LookupOptions::DEFAULT };
-    let body_alone = ShapeOptions { lookup: body_alone, ..ShapeOptions::default() };
     let mut rows = Vec::new();
     for &n in &options.vertices {
         for name in &options.models {
             let mesh = model(options, name, n)?;
             let points: Vec<Vector> = mesh.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
-            let body = Shape::from_mesh(&mesh, &body_alone).map_err(|e| e.to_string())?;
+            let defaults = ShapeOptions::default();
+            let body = Shape::from_mesh(&mesh, &defaults).map_err(|e| e.to_string())?;
             let polyhedron = body.polyhedron();
             let mut push = |method, work: &dyn Fn() -> Option<usize>| {
                 let (time, bytes) =
@@ -30,14 +30,13 @@ pub fn run(options: &Options) -> Result<(), String> {
                 rows.push(BuildRow { model: name.clone(), n: mesh.vertices.len(), method, time, bytes });
                 Ok::<(), String>(())
             };
-            let defaults = ShapeOptions::default();
             let bytes = |shape: swiftprox::error::Result<Shape>| shape.ok().map(|shape| shape.bytes());
             push("swiftprox-mesh", &|| bytes(Shape::from_mesh(black_box(&mesh), &defaults)))?;
             push("swiftprox-points", &|| bytes(Shape::from_points(black_box(&mesh.vertices), &defaults)))?;
             push("parry-hull", &|| try_convex_hull(black_box(&points)).ok().map(|_| 0))?;
-            push("body", &|| bytes(Shape::from_mesh(black_box(&mesh), &body_alone)))?;
             push("table", &|| {
-                build_lookup(black_box(polyhedron), &LookupOptions::DEFAULT).ok().map(|lookup| lookup.heap_bytes())
+                let table = black_box(build_table(black_box(polyhedron)));
+                Some(Lookup { made: table.into(), ..polyhedron.lookup.clone() }.heap_bytes())
             })?;
             for (method, kind) in [
                 ("quadric", HierarchyKind::Quadric),
