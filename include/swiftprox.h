@@ -116,7 +116,8 @@ typedef int32_t swift_start;
 enum {
   /**
    * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
-   * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
+   * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
+   * of a shape with automatic levels makes them, which takes about as long as making the shape did.
    */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */
@@ -227,14 +228,22 @@ enum {
   /** Cut out of a box by planes that touch the body: tight on thin bodies, too. */
   SWIFT_HIERARCHY_OUTER_CUTS = 3,
   /** The caller's, translated and scaled until they contain the body. */
-  SWIFT_HIERARCHY_GIVEN = 4
+  SWIFT_HIERARCHY_GIVEN = 4,
+  /**
+   * Quadric ones by the default options for bodies of 30,000 vertices and more, made by the first query that goes through them;
+   * none for smaller bodies.
+   */
+  SWIFT_HIERARCHY_AUTOMATIC = 5
 };
 typedef int32_t swift_hierarchy;
 
 /** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
 typedef struct swift_scene swift_scene;
 
-/** Geometry for queries: immutable, shared by any number of owners. */
+/**
+ * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, the look-up table
+ * and automatic levels, is all that is ever added.
+ */
 typedef struct swift_shape swift_shape;
 
 /**
@@ -270,9 +279,12 @@ typedef struct swift_shape_options {
    * which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
    */
   double convexity_tolerance;
-  /** A swift_hierarchy: how levels of detail are made. Default: there are none. */
+  /** A swift_hierarchy: how levels of detail are made. Default: automatic. */
   int32_t hierarchy;
-  /** The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25. */
+  /**
+   * The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25. This
+   * and the two that follow do not count for automatic levels.
+   */
   double decimation;
   /** No level has fewer triangles. Default: 50. */
   size_t minimum_triangles;
@@ -284,7 +296,8 @@ typedef struct swift_shape_options {
   void *progress_user;
   /**
    * A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the first
-   * query that looks into it: about a quarter of the time that making the shape took. Default: automatic.
+   * query that looks into it: about a quarter of the time that making the shape took. A body
+   * smaller than 2^-200 or larger than 2^200 has none. Default: automatic.
    */
   int32_t lookup;
   /**
@@ -323,11 +336,11 @@ typedef struct swift_shape_info {
   double upper[3];
   /** Memory that the shape holds, in bytes, levels included, however many share it. */
   size_t bytes;
-  /** A swift_hierarchy: how the levels of detail were made. */
+  /** A swift_hierarchy: how the levels of detail are made. */
   int32_t hierarchy;
   /**
    * The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
-   * level 0.
+   * level 0. Automatic ones are made by the first query that goes through them: 0 until then.
    */
   size_t level_count;
   /** Of bytes, what the levels take. */
@@ -779,8 +792,8 @@ swift_status swift_shape_copy_triangles(const struct swift_shape *shape,
  * Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
  * swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
  * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
- * bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
- * levels.
+ * bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE or automatic; the input transform
+ * goes for all levels.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults.

@@ -4,7 +4,7 @@ use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup::{Lookup, Plan, Shells, Spherical, Table};
 use crate::math::Vector;
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 
 /// Which look-up table a body has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,8 +66,8 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     let vertex_count = polyhedron.vertices.len();
     let resolution = resolution as usize;
     let plan = match kind {
-        // Points have no radius to measure distances by.
-        _ if !(polyhedron.mass.radius > 0.0) => Plan::None,
+        // Squares of distances over- or underflow. Points are among the small ones.
+        _ if !(SMALLEST..=LARGEST).contains(&polyhedron.radius) => Plan::None,
         LookupKind::None => Plan::None,
         LookupKind::Automatic if vertex_count < LEAST_VERTICES => Plan::None,
         LookupKind::Automatic | LookupKind::Shells => {

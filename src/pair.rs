@@ -153,7 +153,8 @@ impl Start {
 #[repr(i32)]
 pub enum Levels {
     /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
-    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables.
+    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
+    /// of a shape with automatic levels makes them, which takes about as long as making the shape did.
     #[default]
     Automatic = 0,
     /// None.

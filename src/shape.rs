@@ -1,10 +1,11 @@
 //! A shape: geometry that any number of objects, scenes and threads share, immutable once made.
 
 use std::path::Path;
+use std::sync::OnceLock;
 
 use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result, check_range};
-use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
+use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
 use crate::hull_build::convex_hull_in_steps;
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
 use crate::lookup_build::plan_lookup;
@@ -51,7 +52,7 @@ pub struct ShapeOptions {
     /// Largest distance of a vertex outside a face of accepted input, relative to the bounding-box diagonal. `None`: 1e-9, or
     /// 1e-6 for meshes that went through single precision.
     pub convexity_tolerance: Option<f64>,
-    /// Levels of detail. By default there are none.
+    /// Levels of detail.
     pub hierarchy: HierarchyOptions,
     /// The table of vertices from which marching starts when the last query tells nothing. It is made by the first query that
     /// looks into it.
@@ -76,18 +77,29 @@ impl ShapeOptions {
     /// Which part of building the shape, about, the body itself is.
     fn share_of_body(&self) -> f64 {
         match self.hierarchy.kind {
-            HierarchyKind::None | HierarchyKind::Given => 1.0,
+            HierarchyKind::None | HierarchyKind::Given | HierarchyKind::Automatic => 1.0,
             HierarchyKind::Quadric | HierarchyKind::OuterCuts => 0.4,
             HierarchyKind::DobkinKirkpatrick => 0.06,
         }
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners.
-#[derive(Debug, Clone, PartialEq)]
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, the look-up table
+/// and automatic levels, is all that is ever added.
+#[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
-    hierarchy: Hierarchy,
+    /// Empty while automatic levels are not made.
+    hierarchy: OnceLock<Hierarchy>,
+}
+
+/// Whatever is made yet of what equal shapes make alike.
+impl PartialEq for Shape {
+    fn eq(&self, other: &Shape) -> bool {
+        let [levels, others] = [self.hierarchy(), other.hierarchy()];
+        let are_automatic = [levels, others].map(|levels| levels.kind == HierarchyKind::Automatic);
+        self.polyhedron == other.polyhedron && (are_automatic == [true; 2] || levels == others)
+    }
 }
 
 impl Shape {
@@ -183,7 +195,7 @@ impl Shape {
         let Some((mesh, levels)) = meshes.split_first() else {
             return Err(Error::Argument("no level is given, not even the body itself".into()));
         };
-        if options.hierarchy.kind != HierarchyKind::None {
+        if !matches!(options.hierarchy.kind, HierarchyKind::None | HierarchyKind::Automatic) {
             return Err(Error::Argument("levels are given, and the options ask for others to be built".into()));
         }
         let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
@@ -197,22 +209,30 @@ impl Shape {
             })?);
         }
         let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
-        Ok(Shape { polyhedron, hierarchy })
+        Ok(Shape::from_parts(polyhedron, hierarchy))
     }
 
-    /// From parts that belong together.
+    /// From parts that belong together; automatic levels are left to be made.
     pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Shape {
-        Shape { polyhedron, hierarchy }
+        let made = if hierarchy.kind == HierarchyKind::Automatic { None } else { Some(hierarchy) };
+        Shape { polyhedron, hierarchy: made.map_or_else(OnceLock::new, OnceLock::from) }
     }
 
-    /// The same body with levels of detail built anew, those that it has dropped.
+    /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
     ///
     /// # Errors
     /// As [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
+        options.check()?;
         let Shape { polyhedron, .. } = self;
-        let hierarchy = Hierarchy::build(&polyhedron, options, progress)?;
-        Ok(Shape { polyhedron, hierarchy })
+        let hierarchy = match options.kind {
+            HierarchyKind::Automatic => {
+                progress.report(1.0)?;
+                Hierarchy::AUTOMATIC
+            }
+            _ => Hierarchy::build(&polyhedron, options, progress)?,
+        };
+        Ok(Shape::from_parts(polyhedron, hierarchy))
     }
 
     /// The polyhedron that queries run on: P₀ of the levels of detail.
@@ -221,15 +241,34 @@ impl Shape {
         &self.polyhedron
     }
 
-    /// The levels of detail, without P₀.
+    /// The levels of detail that are made, without P₀.
+    #[inline]
     pub fn hierarchy(&self) -> &Hierarchy {
-        &self.hierarchy
+        static NOT_MADE: Hierarchy = Hierarchy::AUTOMATIC;
+        self.hierarchy.get().unwrap_or(&NOT_MADE)
     }
 
-    /// Memory held, in bytes: the look-up table's only once a query needed it.
+    /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait.
+    #[inline]
+    pub(crate) fn need_levels(&self) {
+        if self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES) {
+            self.make_levels();
+        }
+    }
+
+    #[cold]
+    fn make_levels(&self) {
+        self.hierarchy.get_or_init(|| {
+            let built =
+                Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), &mut Progress::new(&mut |_| true));
+            // Without levels the bodies answer themselves.
+            built.unwrap_or(Hierarchy::AUTOMATIC)
+        });
+    }
+
+    /// Memory held, in bytes: of the look-up table and of automatic levels once a query needed them.
     pub fn bytes(&self) -> usize {
-        let Shape { polyhedron, hierarchy } = self;
-        size_of::<Shape>() + polyhedron.heap_bytes() + hierarchy.heap_bytes()
+        size_of::<Shape>() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
@@ -248,8 +287,8 @@ impl Shape {
         let share = options.share_of_body();
         progress.report(share)?;
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
-        let shape = Shape { polyhedron, hierarchy: Hierarchy::default() };
-        shape.with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
+        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)
+            .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }
 }
 

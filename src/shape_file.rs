@@ -11,7 +11,7 @@ use std::path::Path;
 
 use crate::enumerator::Enumerator;
 use crate::error::{Error, Result};
-use crate::hierarchy::{Hierarchy, Links};
+use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::hull_build::{Hull, convex_hull};
 use crate::hull_check::check_hull;
 use crate::lookup::Plan;
@@ -61,8 +61,10 @@ pub fn to_bytes(shape: &Shape) -> Vec<u8> {
     writer.number(resolution as u32);
     writer.real(factor);
     writer.number(hierarchy.kind as u32);
-    writer.number(hierarchy.levels.len() as u32);
-    for level in &hierarchy.levels {
+    // Automatic levels are made anew, whether they are made here or not.
+    let levels = if hierarchy.kind == HierarchyKind::Automatic { &[] } else { &hierarchy.levels[..] };
+    writer.number(levels.len() as u32);
+    for level in levels {
         writer.polyhedron(&level.polyhedron);
         writer.links(&level.children);
         writer.links(&level.parents);

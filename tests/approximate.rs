@@ -10,11 +10,12 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::random::{Random, rotation};
 use swiftprox::error::Error;
-use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::shape_file::{from_bytes, to_bytes};
 use swiftprox::verify::verify;
 
 const KINDS: [HierarchyKind; 4] =
@@ -356,10 +357,13 @@ fn coarse_questions_are_answered_by_coarse_levels() {
 /// The automatic choice: levels for what they may answer of large bodies, none for the rest; the answers hold the exact ones.
 #[test]
 fn levels_of_large_bodies_are_used_where_they_save_time() {
-    let hierarchy = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
-    let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
-    let shape = |n| Shape::from_mesh(&ellipsoid([1.0, 1.0, 0.1], n).unwrap(), &options).unwrap();
-    let (large, small) = (shape(30_002), shape(1002));
+    let shape = |n, kind| {
+        let hierarchy = HierarchyOptions { kind, ..HierarchyOptions::default() };
+        let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+        Shape::from_mesh(&ellipsoid([1.0, 1.0, 0.1], n).unwrap(), &options).unwrap()
+    };
+    let (large, small) = (shape(30_002, HierarchyKind::Automatic), shape(1002, HierarchyKind::OuterCuts));
+    let (unused, bytes, file) = (large.clone(), large.bytes(), to_bytes(&large));
     let mut random = Random::new(17);
     let mut by_levels = 0;
     for round in 0..300 {
@@ -374,6 +378,12 @@ fn levels_of_large_bodies_are_used_where_they_save_time() {
             };
             let exact = ask(pair::distance, 0.0);
             assert_eq!(exact.statistics.levels, [0, 0]);
+            // None is made for what it would not answer.
+            if round == 0 && is_large {
+                ask(pair::approximate, 0.0);
+                ask(pair::intersection, 0.05);
+                assert!(shape.hierarchy() == &Hierarchy::AUTOMATIC, "{} levels", shape.hierarchy().levels.len());
+            }
             for (query, error) in
                 [(pair::intersection as Query, 0.0), (pair::approximate, 0.05), (pair::approximate, 1e-6)]
             {
@@ -387,6 +397,26 @@ fn levels_of_large_bodies_are_used_where_they_save_time() {
         }
     }
     assert!(by_levels > 100, "{by_levels}");
+    // They were made by the first query that they may answer, and what is saved or equal does not depend on that.
+    assert!(large.hierarchy().levels.len() > 3 && unused.hierarchy().levels.is_empty());
+    let table = large.polyhedron().lookup.heap_bytes();
+    assert_eq!(large.bytes(), bytes + large.hierarchy().heap_bytes() + table);
+    assert_eq!(large, unused);
+    assert!(to_bytes(&large) == file && from_bytes(&file).unwrap() == large);
+}
+
+/// A body of automatic levels between ones that have none, and all levels asked for.
+#[test]
+fn automatic_levels_are_made_where_all_are_asked_for() {
+    let shape = |n| Shape::from_mesh(&ellipsoid([1.0, 0.6, 0.3], n).unwrap(), &ShapeOptions::default()).unwrap();
+    let (large, small) = (shape(30_000), shape(29_999));
+    let away = Pose::new(&Matrix::identity(), &Vector::new(4.0, 1.0, 0.5));
+    let config = PairConfig { levels: Levels::All, absolute_error: 0.5, ..PairConfig::default() };
+    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+    pair::approximate(&large, &Pose::IDENTITY, &small, &away, &mut cache, &config, &mut answer).unwrap();
+    assert!(answer.upper - answer.lower <= 0.5, "{answer:?}");
+    assert!(answer.statistics.levels[0] > 0 && answer.statistics.levels[1] == 0, "{answer:?}");
+    assert!(!large.hierarchy().levels.is_empty() && small.hierarchy().levels.is_empty());
 }
 
 #[test]

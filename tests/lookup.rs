@@ -276,6 +276,32 @@ fn bodies_without_interior_have_tables_too() {
 }
 
 #[test]
+fn tables_hold_numbers_only() {
+    // Of a body across the whole range: found by fuzzing, positions were NaN.
+    let wide = [
+        [31.0, -f64::MAX, f64::MAX],
+        [31.0, f64::MAX, -32.0],
+        [31.0, -32.0, -32.0],
+        [31.0, -5.4861240687642383e303, -1.0565890622713304e270],
+    ];
+    let wide = Shape::from_points(&wide.map(Vector::from), &options(LookupKind::Shells, 4)).unwrap();
+    assert_eq!(*table(wide.polyhedron()), Table::None);
+    for (size, has_table) in [(1e-300, false), (1e-59, true), (1e59, true), (1e150, false), (1e300, false)] {
+        let mut mesh = ellipsoid([1.0, 0.7, 0.4], 100).unwrap();
+        mesh.vertices.iter_mut().for_each(|v| *v *= size);
+        for kind in [LookupKind::Shells, LookupKind::Spherical] {
+            match table(shape(&mesh, kind, 0).polyhedron()) {
+                Table::None => assert!(!has_table, "{size:e}"),
+                Table::Shells(shells) => {
+                    assert!(has_table && shells.positions.iter().flatten().all(|x| x.abs() < 1.000_001), "{size:e}");
+                }
+                Table::Spherical(_) => assert!(has_table, "{size:e}"),
+            }
+        }
+    }
+}
+
+#[test]
 fn options_out_of_range_are_refused() {
     let mesh = cuboid([1.0; 3]).unwrap();
     for (kind, resolution) in [

@@ -19,8 +19,13 @@ use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
 
-const KINDS: [HierarchyKind; 4] =
-    [HierarchyKind::None, HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
+const KINDS: [HierarchyKind; 5] = [
+    HierarchyKind::None,
+    HierarchyKind::Automatic,
+    HierarchyKind::Quadric,
+    HierarchyKind::DobkinKirkpatrick,
+    HierarchyKind::OuterCuts,
+];
 
 fn with_levels(mesh: &PolygonMesh, kind: HierarchyKind) -> Shape {
     let hierarchy = HierarchyOptions { kind, decimation: 0.4, minimum_triangles: 20, most_levels: 5 };

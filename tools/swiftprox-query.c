@@ -37,7 +37,8 @@ static const char HELP[] =
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
     "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
-    "  --levels auto         no levels of detail: building them is not worth it for one file of poses (the default)\n"
+    "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
+    "                        that they may answer (the default)\n"
     "  --levels none         no levels of detail\n"
     "  --levels quadric      build levels by quadric error simplification, and send all queries through them\n"
     "  --levels dk           the same with levels after Dobkin and Kirkpatrick\n"
@@ -148,7 +149,7 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     static const swift_start START_VALUES[] = {SWIFT_START_AUTOMATIC, SWIFT_START_CACHE, SWIFT_START_TABLE,
                                                SWIFT_START_COLD};
     static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer"};
-    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_NONE,
+    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_AUTOMATIC, SWIFT_HIERARCHY_NONE,
                                                   SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                   SWIFT_HIERARCHY_OUTER_CUTS};
 
@@ -197,7 +198,7 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                                     .input = SWIFT_INPUT_STRICT,
                                     .bounds = SWIFT_BOUNDS_TIGHT,
                                     .start = SWIFT_START_AUTOMATIC,
-                                    .hierarchy = SWIFT_HIERARCHY_NONE,
+                                    .hierarchy = SWIFT_HIERARCHY_AUTOMATIC,
                                     .levels = SWIFT_LEVELS_AUTOMATIC,
                                     .count = SIZE_MAX};
     int files = 0;

@@ -254,8 +254,8 @@ pub fn pose(u: &mut Unstructured) -> Result<Pose> {
 
 /// How a shape of anything is made: with any levels of detail and look-up table.
 pub fn hull_options(u: &mut Unstructured) -> Result<ShapeOptions> {
-    use HierarchyKind::{DobkinKirkpatrick, OuterCuts, Quadric};
-    let kind = *u.choose(&[HierarchyKind::None, HierarchyKind::None, Quadric, DobkinKirkpatrick, OuterCuts])?;
+    use HierarchyKind::{Automatic, DobkinKirkpatrick, OuterCuts, Quadric};
+    let kind = *u.choose(&[HierarchyKind::None, Automatic, Quadric, DobkinKirkpatrick, OuterCuts])?;
     let minimum_triangles = u.int_in_range(0..=20)?;
     let decimation = f64::from(u.int_in_range(1..=7_u8)?) / 8.0;
     let hierarchy = HierarchyOptions { kind, minimum_triangles, decimation, ..HierarchyOptions::default() };

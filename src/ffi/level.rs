@@ -52,8 +52,8 @@ unsafe impl Versioned for LevelInfo {
 /// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
 /// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
 /// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
-/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE; the input transform goes for all
-/// levels.
+/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE or automatic; the input transform
+/// goes for all levels.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults.

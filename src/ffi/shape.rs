@@ -44,10 +44,10 @@ pub struct ShapeInfo {
     pub upper: [f64; 3],
     /// Memory that the shape holds, in bytes, levels included, however many share it.
     pub bytes: usize,
-    /// A swift_hierarchy: how the levels of detail were made.
+    /// A swift_hierarchy: how the levels of detail are made.
     pub hierarchy: i32,
     /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
-    /// level 0.
+    /// level 0. Automatic ones are made by the first query that goes through them: 0 until then.
     pub level_count: usize,
     /// Of bytes, what the levels take.
     pub level_bytes: usize,

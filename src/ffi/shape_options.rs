@@ -33,9 +33,10 @@ pub struct CShapeOptions {
     /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
     /// which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
     pub convexity_tolerance: f64,
-    /// A swift_hierarchy: how levels of detail are made. Default: there are none.
+    /// A swift_hierarchy: how levels of detail are made. Default: automatic.
     pub hierarchy: i32,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25.
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Default: 0.25. This
+    /// and the two that follow do not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles. Default: 50.
     pub minimum_triangles: usize,
@@ -46,7 +47,8 @@ pub struct CShapeOptions {
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
     /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the first
-    /// query that looks into it: about a quarter of the time that making the shape took. Default: automatic.
+    /// query that looks into it: about a quarter of the time that making the shape took. A body
+    /// smaller than 2^-200 or larger than 2^200 has none. Default: automatic.
     pub lookup: i32,
     /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
     /// from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
@@ -90,7 +92,7 @@ impl CShapeOptions {
         translation: [0.0; 3],
         scale: 1.0,
         convexity_tolerance: -1.0,
-        hierarchy: HierarchyKind::None as i32,
+        hierarchy: HierarchyKind::Automatic as i32,
         decimation: 0.25,
         minimum_triangles: 50,
         most_levels: 32,

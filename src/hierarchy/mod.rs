@@ -30,7 +30,6 @@ use correspondence::{Correspondence, by_identity, by_position};
 #[repr(i32)]
 pub enum HierarchyKind {
     /// There are none.
-    #[default]
     None = 0,
     /// Simplified by quadric error (Garland & Heckbert 1997), then translated and scaled until they contain the body.
     Quadric = 1,
@@ -40,9 +39,17 @@ pub enum HierarchyKind {
     OuterCuts = 3,
     /// The caller's, translated and scaled until they contain the body.
     Given = 4,
+    /// Quadric ones by the default options for bodies of 30,000 vertices and more, made by the first query that goes through them;
+    /// none for smaller bodies.
+    #[default]
+    Automatic = 5,
 }
 
-enumerator!(HierarchyKind { None, Quadric, DobkinKirkpatrick, OuterCuts, Given });
+enumerator!(HierarchyKind { None, Quadric, DobkinKirkpatrick, OuterCuts, Given, Automatic });
+
+/// Fewest vertices of a body that is given levels on its own account: for two smaller ones no query takes the way through levels
+/// where the choice is automatic.
+pub const LEAST_VERTICES: usize = 30_000;
 
 /// What levels to make.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -50,7 +57,7 @@ pub struct HierarchyOptions {
     /// How.
     pub kind: HierarchyKind,
     /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Dobkin and
-    /// Kirkpatrick's own way of building decides for theirs.
+    /// Kirkpatrick's own way of building decides for theirs. This and what follows does not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles.
     pub minimum_triangles: usize,
@@ -59,9 +66,9 @@ pub struct HierarchyOptions {
 }
 
 impl Default for HierarchyOptions {
-    /// No levels; for other kinds a quarter of the triangles from level to level, at least 50, at most 32 levels.
+    /// Automatic levels; for other kinds a quarter of the triangles from level to level, at least 50, at most 32 levels.
     fn default() -> Self {
-        HierarchyOptions { kind: HierarchyKind::None, decimation: 0.25, minimum_triangles: 50, most_levels: 32 }
+        HierarchyOptions { kind: HierarchyKind::Automatic, decimation: 0.25, minimum_triangles: 50, most_levels: 32 }
     }
 }
 
@@ -153,7 +160,7 @@ impl Level {
 }
 
 /// The levels of a body.
-#[derive(Debug, Clone, PartialEq, Default)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Hierarchy {
     /// How they were made.
     pub kind: HierarchyKind,
@@ -162,7 +169,10 @@ pub struct Hierarchy {
 }
 
 impl Hierarchy {
-    /// Builds levels. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large
+    /// Automatic levels where none are made, or not yet.
+    pub const AUTOMATIC: Hierarchy = Hierarchy { kind: HierarchyKind::Automatic, levels: Vec::new() };
+
+    /// Builds levels, automatic ones at once. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large
     /// (2^±200), and where each would be no simpler than the next finer one: a box or a tetrahedron gets none. Otherwise so
     /// many until one more would fall below the minimum of triangles, would have no interior, or be so thin that no rounding
     /// makes it contain P₀.
@@ -176,6 +186,8 @@ impl Hierarchy {
         if base.dimension == 3 && builder.is_of_usual_size() {
             match options.kind {
                 HierarchyKind::None | HierarchyKind::Given => {}
+                HierarchyKind::Automatic if base.vertices.len() < LEAST_VERTICES => {}
+                HierarchyKind::Automatic => builder.add_quadric(&HierarchyOptions::default(), progress)?,
                 HierarchyKind::Quadric => builder.add_quadric(options, progress)?,
                 HierarchyKind::DobkinKirkpatrick => builder.add_dobkin_kirkpatrick(options, progress)?,
                 HierarchyKind::OuterCuts => builder.add_outer_cuts(options, progress)?,

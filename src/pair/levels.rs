@@ -70,6 +70,9 @@ fn through_levels(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     check_config(config)?;
+    if config.levels == Levels::All {
+        shapes.iter().for_each(|shape| shape.need_levels());
+    }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
@@ -77,14 +80,20 @@ fn through_levels(
 /// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the
 /// tightest, may answer to within the error.
 #[inline(always)]
-fn pay([shape1, shape2]: [&Shape; 2], config: &PairConfig, error: f64, vertex_count: usize) -> bool {
-    let [levels1, levels2] = [&shape1.hierarchy().levels, &shape2.hierarchy().levels];
-    if (levels1.is_empty() & levels2.is_empty()) | (config.levels != Levels::Automatic) {
+fn pay(shapes: [&Shape; 2], config: &PairConfig, error: f64, vertex_count: usize) -> bool {
+    let [count1, count2] = [shapes[0].polyhedron().vertices.len(), shapes[1].polyhedron().vertices.len()];
+    (count1 + count2 >= vertex_count) & (config.levels == Levels::Automatic) && may_answer(shapes, error)
+}
+
+/// Whether there are levels that may answer to within an error.
+fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
+    if error == 0.0 {
         return false;
     }
+    shapes.iter().for_each(|shape| shape.need_levels());
+    let [levels1, levels2] = shapes.map(|shape| &shape.hierarchy().levels);
     let finest = |levels: &[Level]| levels.first().map_or(0.0, |level| level.deviation);
-    shape1.polyhedron().vertices.len() + shape2.polyhedron().vertices.len() >= vertex_count
-        && finest(levels1) + finest(levels2) < error
+    !(levels1.is_empty() & levels2.is_empty()) && finest(levels1) + finest(levels2) < error
 }
 
 /// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the

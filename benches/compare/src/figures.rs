@@ -107,7 +107,7 @@ fn decimated(kind: HierarchyKind, decimation: f64) -> HierarchyOptions {
 }
 
 fn none() -> HierarchyOptions {
-    HierarchyOptions::default()
+    HierarchyOptions { kind: HierarchyKind::None, ..HierarchyOptions::default() }
 }
 
 /// Figure 5: the rule by which marching goes on.
@@ -250,10 +250,12 @@ fn sizes(mesh: &PolygonMesh) -> Result<Vec<Series>> {
         shapes.push((name, quadric, through_levels(Refinement::SingleSingle)));
     }
     // Each its own shape, so that none finds what the one before has left in the machine's caches.
-    for (name, levels) in
-        [("levels and table", Levels::All), ("table alone", Levels::None), ("automatic", Levels::Automatic)]
-    {
-        let ours = shape(mesh, LookupOptions::DEFAULT, decimated(HierarchyKind::Quadric, 0.25))?;
+    for (name, hierarchy, levels) in [
+        ("levels and table", decimated(HierarchyKind::Quadric, 0.25), Levels::All),
+        ("table alone", none(), Levels::None),
+        ("automatic", HierarchyOptions::default(), Levels::Automatic),
+    ] {
+        let ours = shape(mesh, LookupOptions::DEFAULT, hierarchy)?;
         shapes.push((name, ours, config(Start::Automatic, levels, Refinement::Adaptive)));
     }
     let mut all = Vec::new();
