@@ -206,3 +206,20 @@ fn features_of_points_and_segments_are_checked() {
     ];
     each_is_refused(&forgeries, &shapes, &poses, &answer);
 }
+
+/// Lengths of such bodies fit doubles, their sums do not. Found by fuzzing: the witness point lay NaN out of its body.
+#[test]
+fn what_doubles_cannot_check_is_said() {
+    let far = Vector::new(4e-16, -1.668390324278999e308, -5.366706752131341e307);
+    let line = hull(&[far, -far]);
+    let cube =
+        hull(&[0.0, 1.0].map(|x| [0.0, 1.0].map(|y| [0.0, 1.0].map(|z| Vector::new(x, y, z)))).concat().concat());
+    let (pose1, pose2) = (at(0.0, 0.0, 0.0), at(4.0, 0.5, 0.5));
+    let answer = distance(&line, &pose1, &cube, &pose2);
+    assert_eq!(answer.outcome, Outcome::Separated);
+    // The line passes the edge from (4, 1.5, 0.5) to (4, 1.5, 1.5).
+    assert!(answer.lower > 4.0 && answer.upper < 4.0001, "{answer:?}");
+    assert!(
+        matches!(verify(&line, &pose1, &cube, &pose2, &answer), Err(Error::Argument(m)) if m.contains("too large"))
+    );
+}
