@@ -76,7 +76,8 @@ static void queries(void)
     swift_scene_statistics statistics;
     CHECK_OK(swift_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 5 && statistics.pairs > 0);
-    CHECK(statistics.marched + statistics.coherent + statistics.fallback + statistics.exact == statistics.pairs);
+    CHECK(statistics.marched + statistics.coherent + statistics.fallback + statistics.exact +
+              statistics.bounding_spheres == statistics.pairs);
     CHECK_OK(swift_scene_reset_statistics(scene));
     CHECK_OK(swift_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 0 && statistics.pairs == 0);
@@ -171,6 +172,13 @@ static void levels(void)
     CHECK(info.hierarchy == SWIFT_HIERARCHY_QUADRIC && info.level_count > 0 && info.lookup == SWIFT_LOOKUP_SHELLS);
     CHECK(info.level_bytes > 0 && info.lookup_bytes == 0 && info.level_bytes < info.bytes);
     const size_t without_table = info.bytes;
+
+    swift_shape *prepared;
+    CHECK_OK(swift_shape_create_from_points(points, COUNT, &options, &prepared));
+    CHECK_OK(swift_shape_prepare(prepared));
+    CHECK_OK(swift_shape_get_info(prepared, &info));
+    CHECK(info.lookup_bytes > 0 && info.bytes == without_table + info.lookup_bytes);
+    swift_shape_release(prepared);
 
     swift_scene *scene;
     swift_scene_query query;

@@ -173,7 +173,9 @@ enum {
    * The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from
    * there.
    */
-  SWIFT_PAIR_STATUS_BUDGET_SPENT = 6
+  SWIFT_PAIR_STATUS_BUDGET_SPENT = 6,
+  /** The bounding spheres are apart, and farther than the distance tolerance if there is one: no more was asked. */
+  SWIFT_PAIR_STATUS_BOUNDING_SPHERES = 7
 };
 typedef int32_t swift_pair_status;
 
@@ -438,7 +440,7 @@ typedef struct swift_statistics {
   uint32_t marching_steps;
   /** Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries. */
   uint32_t fallback_iterations;
-  /** Exact tier: iterations in integer arithmetic (it allocates; nothing else does). */
+  /** Exact tier: iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels. */
   uint32_t exact_iterations;
   /** The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself. */
   uint16_t levels[2];
@@ -598,7 +600,7 @@ typedef struct swift_scene_statistics {
   uint64_t pairs;
   /** ... of which Voronoi marching decided. */
   uint64_t marched;
-  /** ... of which the vertex pairs of the query before decided. */
+  /** ... of which the vertex pairs or the separating axis of the query before decided. */
   uint64_t coherent;
   /** ... of which Gilbert-Johnson-Keerthi in floating point decided. */
   uint64_t fallback;
@@ -621,6 +623,8 @@ typedef struct swift_scene_statistics {
   uint64_t by_level[8];
   /** Sum of `upper - lower` over the pairs answered as SWIFT_OUTCOME_SEPARATED. */
   double error_spent;
+  /** Of the pairs, those whose bounding spheres decided. */
+  uint64_t bounding_spheres;
 } swift_scene_statistics;
 
 
@@ -755,6 +759,14 @@ swift_status swift_shape_retain(const struct swift_shape *shape);
  * Always SWIFT_OK.
  */
 swift_status swift_shape_release(const struct swift_shape *shape);
+
+/**
+ * Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail. After
+ * that no query of this shape allocates or waits for that. Safe from any thread.
+ *
+ * SWIFT_ERROR_NULL_POINTER: shape is null.
+ */
+swift_status swift_shape_prepare(const struct swift_shape *shape);
 
 /**
  * Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.

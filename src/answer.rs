@@ -37,6 +37,8 @@ pub enum Status {
     /// The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from
     /// there.
     BudgetSpent = 6,
+    /// The bounding spheres are apart, and farther than the distance tolerance if there is one: no more was asked.
+    BoundingSpheres = 7,
 }
 
 /// Kind of a feature.
@@ -72,7 +74,7 @@ pub struct Statistics {
     pub marching_steps: u32,
     /// Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries.
     pub fallback_iterations: u32,
-    /// Exact tier: iterations in integer arithmetic (it allocates; nothing else does).
+    /// Exact tier: iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels.
     pub exact_iterations: u32,
     /// The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself.
     pub levels: [u16; 2],

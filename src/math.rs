@@ -23,6 +23,12 @@ pub fn clamp(x: f64, low: f64, high: f64) -> f64 {
     if x < high { x } else { high }
 }
 
+/// 2^`exponent`, from −1022 to 1023, exactly: `powi` promises no precision.
+#[inline]
+pub fn power_of_two(exponent: i32) -> f64 {
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
 /// An object's placement: world point = R·(local point) + T, exactly as the doubles give it. R is nearly orthonormal,
 /// but no answer assumes that it is perfectly so.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -5,7 +5,7 @@ mod levels;
 pub(crate) use levels::check_accuracy;
 
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
-use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
+use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum, reciprocal_length};
 use crate::contact;
 use crate::contact_direction::contact_direction;
 pub use crate::descent::Refinement;
@@ -18,7 +18,7 @@ use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
-use crate::separating_axis::{Axis, NUDGE, Search, Trial};
+use crate::separating_axis::{self, Axis, NUDGE, Search, Trial};
 use crate::shape::Shape;
 use crate::simd::{self, Kernel, Lanes, Portable, Work};
 use crate::start::{self, Beginning, Guess};
@@ -312,6 +312,9 @@ fn query(
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
     let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    if pair.is_far() {
+        return Ok(());
+    }
     let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
@@ -390,6 +393,51 @@ impl Kernel for Coherent<'_, '_> {
                 L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: next, steps: 1, limit: TRIAL_STEPS })
             }
         }
+    }
+}
+
+impl PairQuery<'_> {
+    /// Whether the bounding spheres answer the query, which asks for no more than the verdict or a side of the distance tolerance.
+    /// The cache stays as it is.
+    #[inline(always)]
+    fn is_far(&mut self) -> bool {
+        let &mut PairQuery { query, polyhedra: [body1, body2], poses: [pose1, pose2], config, .. } = self;
+        let tolerance = config.distance_tolerance;
+        let enough = if (query == Query::Intersection) & (tolerance == f64::INFINITY) { 0.0 } else { tolerance };
+        let reach = body1.radius + body2.radius + enough;
+        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
+        // Most pairs are settled by this; NaN is for others to refuse.
+        (x * x + y * y + z * z > reach * reach)
+            & (enough >= 0.0)
+            & (config.rotation_limit >= RIGID_TOGETHER)
+            & (body1.ordinary & body2.ordinary)
+            && simd::dispatch(&mut Spheres { pair: self, enough })
+    }
+}
+
+/// Bounding spheres that seem apart by more than is enough.
+struct Spheres<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+    enough: f64,
+}
+
+impl Kernel for Spheres<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let interval = separating_axis::between_spheres(&frame);
+        if !(frame.usual & (interval.lower > self.enough)) {
+            return false;
+        }
+        answer.status = Status::BoundingSpheres;
+        answer.statistics = Statistics::default();
+        set_interval(answer, &interval, frame.separation, config);
+        let offset = frame.bodies[0].offset;
+        contact::fill_normal(answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
+        true
     }
 }
 

@@ -12,7 +12,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::error::Result;
-use crate::math::Vector;
+use crate::math::{Vector, power_of_two};
 use crate::progress::Progress;
 use crate::triangulation::{Triangulation, next, previous};
 
@@ -53,7 +53,7 @@ pub fn simplify(
 ) -> Result<Simplified> {
     // A power of two takes the body to size 1 and back without rounding, so that no product can overflow.
     let size = positions.iter().map(|p| p.amax()).fold(0.0, f64::max);
-    let factor = if size > 0.0 { 2.0_f64.powi(-(size.log2() as i32).clamp(-1000, 1000)) } else { 1.0 };
+    let factor = if size > 0.0 { power_of_two(-(size.log2() as i32).clamp(-1000, 1000)) } else { 1.0 };
     let mut collapse = Collapse::new(positions.iter().map(|p| p * factor).collect(), triangles)?;
     collapse.run(target.max(4), progress)?;
     let mut simplified = collapse.finish();

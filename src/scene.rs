@@ -107,7 +107,7 @@ pub struct SceneStatistics {
     pub pairs: u64,
     /// … of which Voronoi marching decided.
     pub marched: u64,
-    /// … of which the vertex pairs of the query before decided.
+    /// … of which the vertex pairs or the separating axis of the query before decided.
     pub coherent: u64,
     /// … of which Gilbert-Johnson-Keerthi in floating point decided.
     pub fallback: u64,
@@ -128,6 +128,8 @@ pub struct SceneStatistics {
     pub by_level: [u64; 8],
     /// Sum of `upper − lower` over the pairs answered as [`Outcome::Separated`].
     pub error_spent: f64,
+    /// Of the pairs, those whose bounding spheres decided.
+    pub bounding_spheres: u64,
 }
 
 impl SceneStatistics {
@@ -141,6 +143,7 @@ impl SceneStatistics {
             Status::Exact => &mut self.exact,
             Status::WithinTolerance => &mut self.within_tolerance,
             Status::BudgetSpent => &mut self.budget_spent,
+            Status::BoundingSpheres => &mut self.bounding_spheres,
         } += 1;
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);

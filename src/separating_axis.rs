@@ -21,6 +21,20 @@ pub struct Axis {
     pub direction: [f32; 3],
 }
 
+/// The interval of the bodies' distance that their bounding spheres prove, for rigid poses of [ordinary](Polyhedron::ordinary)
+/// bodies.
+///
+/// No point of R·P is farther from its centred origin than ρ(1 + 13u): |R|² ≤ 1 + √6·10u (see [`crate::frame::RIGID_TOGETHER`]).
+/// |Δ| is below `separation` by at most 16u of it: 8u that it was raised by, 2u of Δ, and the rounding of dot product and root.
+/// Sums and differences err by 4u of the largest term; `tolerance` is 32u of both together.
+#[inline(always)]
+pub fn between_spheres<L: Lanes>(frame: &Frame<L>) -> Interval {
+    Interval {
+        lower: frame.separation - frame.size - frame.tolerance,
+        upper: frame.separation + frame.size + frame.tolerance,
+    }
+}
+
 /// Directions tried beyond the first; marching is better at what they leave open.
 const MOST_DIRECTIONS: u32 = 3;
 

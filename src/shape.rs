@@ -8,8 +8,8 @@ use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
 use crate::hull_build::convex_hull_in_steps;
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
-use crate::lookup_build::plan_lookup;
 pub use crate::lookup_build::{LookupKind, LookupOptions};
+use crate::lookup_build::{plan_lookup, table};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::mesh::{PolygonMesh, check_vertex};
 use crate::mesh_io::read_mesh;
@@ -264,6 +264,13 @@ impl Shape {
             // Without levels the bodies answer themselves.
             built.unwrap_or(Hierarchy::AUTOMATIC)
         });
+    }
+
+    /// Makes now what the first query that needs it would: the look-up table and automatic levels. After that no query of this shape
+    /// allocates or waits, but for the integer arithmetic.
+    pub fn prepare(&self) {
+        table(&self.polyhedron);
+        self.need_levels();
     }
 
     /// Memory held, in bytes: of the look-up table and of automatic levels once a query needed them.

@@ -94,7 +94,7 @@ fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> Option<f64> {
     let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres;
     // Some hundred operations, each with at most half the least double where its result is subnormal.
     let underflow = 128.0 * f64::from_bits(1);
-    (all <= f64::MAX / 8.0).then(|| 64.0 * U * all + underflow)
+    (all <= f64::MAX / 8.0).then_some(64.0 * U * all + underflow)
 }
 
 fn check_unit(normal: &Vector) -> Result<()> {

@@ -277,6 +277,7 @@ pub fn end_of(parameter: f64, length: f64, tail: u32, head: u32) -> Option<u32> 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::power_of_two;
     use crate::polyhedron_build::build;
     use crate::simd::{self, Kernel, Portable};
 
@@ -325,7 +326,7 @@ mod tests {
             let height = |v: u32| polyhedron.vertices[v as usize].position.dot(&g);
             let highest = (0..6).map(height).fold(f64::NEG_INFINITY, f64::max);
             for exponent in [-300, -160, 0, 127, 140, 300] {
-                let g = g * 2f64.powi(exponent);
+                let g = g * power_of_two(exponent);
                 let mut climb = Climb { polyhedron: &polyhedron, g, start };
                 assert!([simd::dispatch(&mut climb), climb.run::<Portable>()].iter().all(|v| height(*v) == highest));
             }
@@ -346,7 +347,7 @@ mod tests {
                     let across = outward - edge * edge.dot(&outward);
                     let unit = (across.normalize() + edge * tilt).normalize();
                     for exponent in [-1060, -160, -130, -101, -60, 0, 60, 126, 127, 128, 129, 600, 1020] {
-                        let length = 2f64.powi(exponent) * (1.0 + 0.9 * (k as f64 / 8.0));
+                        let length = power_of_two(exponent) * (1.0 + 0.9 * (k as f64 / 8.0));
                         let mut test =
                             Test { polyhedron: &polyhedron, vertex, g: unit * length, length: length * 1.01 };
                         let answers = [simd::dispatch(&mut test), test.run::<Portable>()];

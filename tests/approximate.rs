@@ -417,6 +417,9 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
     assert!(answer.upper - answer.lower <= 0.5, "{answer:?}");
     assert!(answer.statistics.levels[0] > 0 && answer.statistics.levels[1] == 0, "{answer:?}");
     assert!(!large.hierarchy().levels.is_empty() && small.hierarchy().levels.is_empty());
+    let prepared = shape(30_000);
+    prepared.prepare();
+    assert_eq!(prepared.hierarchy(), large.hierarchy());
 }
 
 #[test]

@@ -245,6 +245,16 @@ fn tables_are_made_by_the_first_query_that_looks_into_them() {
 }
 
 #[test]
+fn a_prepared_shape_has_its_table() {
+    let shape = shape(&ellipsoid([1.0, 0.7, 0.4], 300).unwrap(), LookupKind::Automatic, 0);
+    shape.prepare();
+    let bytes = shape.bytes();
+    assert_eq!(shape.polyhedron().lookup.made.get(), Some(&build_table(shape.polyhedron())));
+    shape.prepare();
+    assert_eq!(shape.bytes(), bytes);
+}
+
+#[test]
 fn threads_that_look_at_once_see_one_table() {
     let body = shape(&ellipsoid([1.0, 0.8, 0.5], 2_000).unwrap(), LookupKind::Automatic, 0);
     let tables: Vec<usize> = thread::scope(|scope| {

@@ -317,8 +317,8 @@ fn statistics_add_up() {
     scene.query_contacts(&SceneQuery::default()).unwrap();
     let statistics = *scene.statistics();
     assert_eq!((statistics.queries, statistics.pairs), (2, 6));
-    let SceneStatistics { marched, coherent, fallback, exact, .. } = statistics;
-    assert_eq!(marched + coherent + fallback + exact, 6);
+    let SceneStatistics { marched, coherent, fallback, exact, bounding_spheres, .. } = statistics;
+    assert_eq!(marched + coherent + fallback + exact + bounding_spheres, 6);
     assert!(statistics.marching_steps + statistics.fallback_iterations + statistics.exact_iterations > 0);
     scene.reset_statistics();
     assert_eq!(scene.statistics(), &SceneStatistics::default());

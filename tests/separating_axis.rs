@@ -1,15 +1,21 @@
-//! Verdicts from a separating axis: right, verified, and what most queries of a coherent motion come from.
+//! Verdicts from bounding spheres and from a separating axis: right, verified, and what most queries of a coherent motion come from.
 
 #[path = "../benches/common/mod.rs"]
 mod common;
 
 use common::models::{self, ellipsoid};
-use common::orbits::{ORBITS, Step, poses};
-use swiftprox::math::Pose;
+use common::orbits::{ORBITS, Orbit, Step, poses};
+use common::random::Random;
+use swiftprox::error::Error;
+use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, Status, distance, intersection};
+use swiftprox::pair::{
+    Outcome, PairAnswer, PairCache, PairConfig, Status, approximate, contact, distance, intersection,
+};
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
+
+type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
 
 const COUNT: usize = 400;
 
@@ -20,11 +26,12 @@ fn bodies() -> Vec<PolygonMesh> {
     bodies.into_iter().map(Result::unwrap).collect()
 }
 
-/// Each answer against that of a cold exact query; returns how many came from an axis, and of how many disjoint pairs.
-fn fly(shape: &Shape, orbit: usize, step: &str) -> [usize; 2] {
-    let mut counts = [0; 2];
+/// Each answer against that of a cold exact query; returns, of the disjoint pairs, how many the spheres decided, an axis, and
+/// neither.
+fn fly(shape: &Shape, orbit: Orbit, step: &str) -> [usize; 3] {
+    let mut counts = [0; 3];
     let (mut cache, mut answer, mut exact) = (PairCache::default(), PairAnswer::default(), PairAnswer::default());
-    for (number, pose) in poses(ORBITS[orbit], step.parse::<Step>().unwrap(), COUNT).into_iter().enumerate() {
+    for (number, pose) in poses(orbit, step.parse::<Step>().unwrap(), COUNT).into_iter().enumerate() {
         // Now and then with a tolerance: the answer is on the side of it that the distance is.
         let distance_tolerance = if number % 8 == 7 { 1.0 } else { f64::INFINITY };
         let config = PairConfig { distance_tolerance, ..PairConfig::default() };
@@ -34,10 +41,13 @@ fn fly(shape: &Shape, orbit: usize, step: &str) -> [usize; 2] {
         assert_eq!(answer.outcome, exact.outcome);
         verify(shape, &pose1, shape, &pose2, &answer).unwrap();
         assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
-        let is_disjoint = answer.outcome == Outcome::Separated;
-        let is_disjoint = is_disjoint && number % 8 != 7;
-        counts[0] += usize::from(is_disjoint && answer.status == Status::Coherent);
-        counts[1] += usize::from(is_disjoint);
+        if answer.outcome == Outcome::Separated && number % 8 != 7 {
+            counts[match answer.status {
+                Status::BoundingSpheres => 0,
+                Status::Coherent => 1,
+                _ => 2,
+            }] += 1;
+        }
     }
     counts
 }
@@ -46,7 +56,7 @@ fn fly(shape: &Shape, orbit: usize, step: &str) -> [usize; 2] {
 fn verdicts_of_every_motion_are_right() {
     for mesh in bodies() {
         let shape = Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
-        for orbit in 0..ORBITS.len() {
+        for orbit in ORBITS {
             for step in ["0.1", "5", "45", "random"] {
                 fly(&shape, orbit, step);
             }
@@ -56,15 +66,60 @@ fn verdicts_of_every_motion_are_right() {
 
 #[test]
 fn bodies_that_stay_apart_seldom_need_more() {
-    let large = ORBITS.iter().position(|orbit| orbit.name == "large").unwrap();
-    for mesh in bodies() {
-        let shape = Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
-        for (step, least) in [("0.1", 0.99), ("1", 0.98), ("10", 0.95)] {
-            let [by_axis, disjoint] = fly(&shape, large, step);
-            assert!(disjoint > 3 * COUNT / 4);
-            assert!(by_axis as f64 >= least * disjoint as f64, "{by_axis} of {disjoint} at {step} degrees");
+    let large = ORBITS[1];
+    // Near enough for the spheres to overlap, too far for thin bodies to meet often.
+    let near = Orbit { name: "near", radius: 1.25 };
+    let shapes: Vec<Shape> =
+        bodies().iter().map(|mesh| Shape::from_mesh(mesh, &ShapeOptions::default()).unwrap()).collect();
+    for (step, least) in [("0.1", 0.98), ("1", 0.95), ("10", 0.8)] {
+        let (mut by_axes, mut rest) = (0, 0);
+        for shape in &shapes {
+            let [by_spheres, ..] = fly(shape, large, step);
+            assert!(by_spheres > 3 * COUNT / 4, "{by_spheres} by spheres at {step} degrees");
+            let [_, by_axis, others] = fly(shape, near, step);
+            by_axes += by_axis;
+            rest += others;
+        }
+        assert!(by_axes > 3 * COUNT, "{by_axes} at {step} degrees");
+        assert!(by_axes as f64 >= least * (by_axes + rest) as f64, "{by_axes}, and {rest} not, at {step} degrees");
+    }
+}
+
+/// The spheres alone: pairs about as far apart as the sum of the radii, and a tolerance about as large as what is left; for all
+/// queries, from any pose, the answer is that of the query without.
+#[test]
+fn spheres_decide_where_they_may() {
+    let shape = Shape::from_mesh(&ellipsoid([1.0, 0.7, 0.4], 302).unwrap(), &ShapeOptions::default()).unwrap();
+    let radius = shape.polyhedron().radius;
+    let mut random = Random::new(3);
+    let mut counts = [0; 4];
+    for round in 0..4_000 {
+        let distance_tolerance = [f64::INFINITY, 0.0, 0.3][round % 3];
+        let beyond = if distance_tolerance < f64::INFINITY { distance_tolerance } else { 0.0 };
+        let near = [0.0, 1e-15, 1e-12, 1e-2][random.below(4)] * random.uniform(-1.0, 1.0);
+        let away = random.direction() * ((2.0 * radius + beyond) * (1.0 + near));
+        let [pose1, pose2] = [Vector::zeros(), away].map(|t| Pose::new(&random.rotation(), &t));
+        let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+        let mut exact = PairAnswer::default();
+        let ask = |query: Query, config: &PairConfig, answer: &mut PairAnswer| {
+            query(&shape, &pose1, &shape, &pose2, &mut PairCache::default(), config, answer).unwrap();
+        };
+        ask(distance, &PairConfig::default(), &mut exact);
+        for (i, query) in [intersection as Query, distance, contact, approximate].into_iter().enumerate() {
+            let mut answer = PairAnswer::default();
+            ask(query, &config, &mut answer);
+            verify(&shape, &pose1, &shape, &pose2, &answer).unwrap();
+            assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
+            let is_beyond = answer.outcome == Outcome::Beyond;
+            assert_eq!(is_beyond, answer.lower > distance_tolerance);
+            assert!(is_beyond || exact.lower <= distance_tolerance, "{answer:?}\n{exact:?}");
+            counts[i] += usize::from(answer.status == Status::BoundingSpheres);
         }
     }
+    // Without a tolerance only the verdict is for the spheres.
+    let [verdicts, distances, contacts, approximations] = counts;
+    assert!(verdicts > 700 && verdicts < 1_300 && distances > 450, "{counts:?}");
+    assert!(distances < verdicts && contacts == distances && approximations == distances, "{counts:?}");
 }
 
 /// The axis beside the features does no harm to queries that ask for more, and the other way round.
@@ -72,7 +127,8 @@ fn bodies_that_stay_apart_seldom_need_more() {
 fn verdicts_and_distances_take_turns() {
     let shape = Shape::from_mesh(&ellipsoid([1.0, 0.6, 0.3], 502).unwrap(), &ShapeOptions::default()).unwrap();
     let (mut cache, mut answer, mut steps) = (PairCache::default(), PairAnswer::default(), 0);
-    for (number, pose) in poses(ORBITS[0], "0.1".parse().unwrap(), COUNT).iter().enumerate() {
+    let near = Orbit { name: "near", radius: 1.25 };
+    for (number, pose) in poses(near, "0.1".parse().unwrap(), COUNT).iter().enumerate() {
         let [pose1, pose2] = [&pose[..12], &pose[12..]].map(|m| Pose::from_row_major(m.try_into().unwrap()));
         let query = if number % 2 == 0 { intersection } else { distance };
         query(&shape, &pose1, &shape, &pose2, &mut cache, &PairConfig::default(), &mut answer).unwrap();

@@ -65,8 +65,8 @@ static const char HELP[] =
     "  n              unit normal in the world frame, from B to A\n"
     "  lower, upper   the true distance lies between them, rounding included (lower is printed rounded down\n"
     "                 and upper rounded up, so this holds for the printed decimals); both 0 when intersecting\n"
-    "  status         how the query was decided: marched, coherent, fallback, exact, or tolerance: by\n"
-    "                 levels of detail\n"
+    "  status         how the query was decided: marched, coherent, fallback, exact, spheres: by bounding\n"
+    "                 spheres, or tolerance: by levels of detail\n"
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
@@ -312,6 +312,8 @@ static const char *status_word(swift_pair_status status)
         return "exact";
     case SWIFT_PAIR_STATUS_WITHIN_TOLERANCE:
         return "tolerance";
+    case SWIFT_PAIR_STATUS_BOUNDING_SPHERES:
+        return "spheres";
     default:
         return "none";
     }

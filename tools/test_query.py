@@ -46,7 +46,7 @@ class Query(unittest.TestCase):
         for row in rows:
             self.assertEqual(len(row), 15)
             self.assertEqual(row[1], "nan")
-            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact", "tolerance"))
+            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact", "spheres", "tolerance"))
             self.assertGreaterEqual(int(row[14]), 0)
         return rows
 

@@ -3,7 +3,7 @@
 use dashu_int::ops::{BitTest, SquareRootRem};
 use dashu_int::{IBig, UBig};
 
-use crate::math::Vector;
+use crate::math::{Vector, power_of_two};
 use crate::predicates::mantissa_and_exponent;
 
 /// Three integers: a vector up to a common scale.
@@ -138,8 +138,7 @@ fn round(mantissa: UBig, exponent: i64, rounding: Rounding) -> f64 {
         let up = rounding == Rounding::Up && (&kept << shift) != mantissa;
         if up { kept + UBig::ONE } else { kept }
     };
-    let power =
-        if unit >= -1022 { f64::from_bits(((unit + 1023) as u64) << 52) } else { f64::from_bits(1 << (unit + 1074)) };
+    let power = if unit >= -1022 { power_of_two(unit as i32) } else { f64::from_bits(1 << (unit + 1074)) };
     // At most 2⁵³, times the unit: both exact, or rounded up to 2¹⁰²⁴, which is +∞.
     u64::try_from(integer).map_or(f64::INFINITY, |i| i as f64 * power)
 }
@@ -154,7 +153,7 @@ mod tests {
             let (mantissa, exponent) = decode(x);
             assert_eq!(mantissa & 1, 1);
             let half = exponent / 2;
-            assert_eq!(mantissa as f64 * 2f64.powi(half) * 2f64.powi(exponent - half), x);
+            assert_eq!(mantissa as f64 * power_of_two(half) * power_of_two(exponent - half), x);
         }
         assert_eq!(decode(-0.0), (0, 0));
     }
@@ -177,7 +176,7 @@ mod tests {
         assert_eq!(power(-1074), (5e-324, 5e-324));
         assert_eq!(power(-1075), (0.0, 5e-324));
         assert_eq!(power(-5000), (0.0, 5e-324));
-        assert_eq!(power(1023), (2f64.powi(1023), 2f64.powi(1023)));
+        assert_eq!(power(1023), (power_of_two(1023), power_of_two(1023)));
         assert_eq!(power(1024), (f64::MAX, f64::INFINITY));
         let below = (IBig::ONE << 54) - 1;
         assert_eq!(bounds_of_quotient_by_root(&below, &IBig::ONE, 1024 - 54), (f64::MAX, f64::INFINITY));

@@ -135,6 +135,7 @@ fn answer(simplex: &Simplex, iterations: u32) -> ExactAnswer {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::power_of_two;
     use crate::polyhedron::{NONE, NeighbourBlock, Vertex};
     use crate::polyhedron_build::build;
 
@@ -201,9 +202,9 @@ mod tests {
     #[test]
     fn distances_beyond_the_range_of_doubles() {
         // The rotation takes y = 2⁻⁵⁰⁰ to x = 2⁻¹⁵⁰⁰: apart, by less than any double.
-        let tiny = hull(&[[0.0, 2f64.powi(-500), 0.0]]);
+        let tiny = hull(&[[0.0, power_of_two(-500), 0.0]]);
         let mut skewed = Pose::IDENTITY;
-        skewed.rows[0][1] = 2f64.powi(-1000);
+        skewed.rows[0][1] = power_of_two(-1000);
         let close = solve(&tiny, &skewed, &tiny, &Pose::IDENTITY, &[]);
         assert!(!close.intersecting);
         assert_eq!((close.lower, close.upper, close.direction), (0.0, 5e-324, Vector::x()));

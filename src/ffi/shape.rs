@@ -202,6 +202,19 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
     })
 }
 
+/// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail. After
+/// that no query of this shape allocates or waits for that. Safe from any thread.
+///
+/// SWIFT_ERROR_NULL_POINTER: shape is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swift_shape_prepare(shape: *const Shape) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { input(shape, "shape") }?.prepare();
+        Ok(())
+    })
+}
+
 /// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
 ///
 /// SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.

@@ -74,7 +74,8 @@ fn through_levels(
         shapes.iter().for_each(|shape| shape.need_levels());
     }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
+    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    if pair.is_far() { Ok(()) } else { pair.descend(shapes) }
 }
 
 /// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the

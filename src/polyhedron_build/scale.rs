@@ -1,7 +1,7 @@
 //! Bodies of extreme size are laid out near size 1 and scaled back.
 
 use crate::mass::bounding_box;
-use crate::math::Vector;
+use crate::math::{Vector, power_of_two};
 use crate::polyhedron::{LARGEST, MassProperties, PlaneBlock, Polyhedron, SMALLEST};
 
 /// 1, or the power of two that brings a very large or very small body to a size near 1. In between squares of lengths and
@@ -11,7 +11,7 @@ pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
     if size == 0.0 || (SMALLEST..=LARGEST).contains(&size) {
         return 1.0;
     }
-    2.0_f64.powi(-(size.log2() as i32).clamp(-1000, 1000))
+    power_of_two(-(size.log2() as i32).clamp(-1000, 1000))
 }
 
 /// Undoes the scaling of a polyhedron that was laid out about the local origin. Vertices come back exactly and bounds remain

@@ -44,7 +44,7 @@ pub struct Tally {
     pub pairs: usize,
     pub queries: usize,
     intersecting: usize,
-    by_status: [usize; 5],
+    by_status: [usize; 8],
     /// The most that one query took.
     pub most: Work,
 }
@@ -79,10 +79,10 @@ impl AddAssign for Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [_, marched, coherent, fallback, exact] = self.by_status;
+        let [_, marched, coherent, fallback, exact, .., spheres] = self.by_status;
         let Tally { pairs, queries, intersecting, .. } = self;
         write!(f, "{pairs} pairs, {queries} queries ({intersecting} intersecting): ")?;
-        write!(f, "{marched} marched, {coherent} coherent, {fallback} fallback, {exact} exact; ")?;
+        write!(f, "{marched} marched, {coherent} coherent, {spheres} spheres, {fallback} fallback, {exact} exact; ")?;
         let Work([steps, iterations, exact_iterations]) = self.most;
         write!(f, "at most {steps} steps, {iterations} iterations, {exact_iterations} in integers")
     }

@@ -54,7 +54,7 @@ pub struct Tally {
     pub missed: usize,
     pub not_a_number: usize,
     /// Queries by [`Status`].
-    pub by_status: [usize; 5],
+    pub by_status: [usize; 8],
     pub most_marching_steps: u32,
     pub most_fallback_iterations: u32,
     pub most_exact_iterations: u32,
@@ -84,7 +84,7 @@ impl Tally {
     }
 
     /// The head of the columns of [`Tally::row`].
-    pub const COLUMNS: [&str; 15] = [
+    pub const COLUMNS: [&str; 16] = [
         "sequences",
         "poses",
         "intersecting",
@@ -94,6 +94,7 @@ impl Tally {
         "unnamed",
         "marched",
         "coherent",
+        "spheres",
         "fallback",
         "exact",
         "most_marching_steps",
@@ -102,15 +103,15 @@ impl Tally {
         "most_exact_iterations",
     ];
 
-    pub fn row(&self) -> [usize; 15] {
-        let [unnamed, marched, coherent, fallback, exact] = self.by_status;
+    pub fn row(&self) -> [usize; 16] {
+        let [unnamed, marched, coherent, fallback, exact, .., spheres] = self.by_status;
         let Tally { sequences, poses, intersecting, wrong, missed, not_a_number, vertices_there, .. } = *self;
         let [marching, falling, exactly] =
             [self.most_marching_steps, self.most_fallback_iterations, self.most_exact_iterations].map(|n| n as usize);
         let verdicts = [sequences, poses, intersecting, wrong, missed, not_a_number, unnamed];
-        let statuses = [marched, coherent, fallback, exact];
+        let statuses = [marched, coherent, spheres, fallback, exact];
         let most = [marching, vertices_there, falling, exactly];
-        let mut row = [0; 15];
+        let mut row = [0; 16];
         let numbers = verdicts.into_iter().chain(statuses).chain(most);
         row.iter_mut().zip(numbers).for_each(|(entry, number)| *entry = number);
         row
