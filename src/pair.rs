@@ -310,11 +310,45 @@ fn query(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
-    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    if pair.is_far() {
+    if config.distance_tolerance < f64::INFINITY {
+        return query_with_tolerance(query, shapes, poses, cache, config, answer);
+    }
+    if query == Query::Intersection && are_farther_than(0.0, polyhedra, poses, config, answer) {
         return Ok(());
     }
+    query_near(query, shapes, poses, cache, config, answer)
+}
+
+/// Out of line, with all that follows: mostly there is no tolerance.
+#[inline(never)]
+fn query_with_tolerance(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+    if are_farther_than(config.distance_tolerance, polyhedra, poses, config, answer) {
+        return Ok(());
+    }
+    query_near(query, shapes, poses, cache, config, answer)
+}
+
+/// The query of a pair whose bounding spheres do not answer it.
+#[inline(always)]
+fn query_near(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+    // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
+    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
     let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
@@ -396,40 +430,41 @@ impl Kernel for Coherent<'_, '_> {
     }
 }
 
-impl PairQuery<'_> {
-    /// Whether the bounding spheres answer the query, which asks for no more than the verdict or a side of the distance tolerance.
-    /// The cache stays as it is.
-    #[inline(always)]
-    fn is_far(&mut self) -> bool {
-        let &mut PairQuery { query, polyhedra: [body1, body2], poses: [pose1, pose2], config, .. } = self;
-        let tolerance = config.distance_tolerance;
-        let enough = if (query == Query::Intersection) & (tolerance == f64::INFINITY) { 0.0 } else { tolerance };
-        let reach = body1.radius + body2.radius + enough;
-        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
-        // Most pairs are settled by this; NaN is for others to refuse.
-        (x * x + y * y + z * z > reach * reach)
-            & (enough >= 0.0)
-            & (config.rotation_limit >= RIGID_TOGETHER)
-            & (body1.ordinary & body2.ordinary)
-            && simd::dispatch(&mut Spheres { pair: self, enough })
-    }
-}
-
-/// Bounding spheres that seem apart by more than is enough.
-struct Spheres<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+/// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
+/// than is enough; the answer then says so. NaN is for others to refuse.
+#[inline(always)]
+fn are_farther_than(
     enough: f64,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> bool {
+    let [body1, body2] = polyhedra;
+    let reach = body1.radius + body2.radius + enough;
+    let [x, y, z] = [0, 1, 2].map(|i| poses[0].rows[i][3] - poses[1].rows[i][3]);
+    (x * x + y * y + z * z > reach * reach) & (enough >= 0.0) & (body1.ordinary & body2.ordinary)
+        && simd::dispatch(&mut Spheres { polyhedra, poses, enough, config, answer })
 }
 
-impl Kernel for Spheres<'_, '_> {
+/// Bounding spheres that seem farther apart than is enough.
+struct Spheres<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    enough: f64,
+    config: &'a PairConfig,
+    answer: &'a mut PairAnswer,
+}
+
+impl Kernel for Spheres<'_> {
     type Output = bool;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
+        let &mut Spheres { polyhedra, poses, enough, config, ref mut answer } = self;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let interval = separating_axis::between_spheres(&frame);
-        if !(frame.usual & (interval.lower > self.enough)) {
+        if !(frame.usual & (config.rotation_limit >= RIGID_TOGETHER) & (interval.lower > enough)) {
             return false;
         }
         answer.status = Status::BoundingSpheres;

@@ -3,7 +3,7 @@
 
 use super::{
     Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
-    Statistics, Status, TRIAL_STEPS, check_config, has_jumped, set_interval, step_limit,
+    Statistics, Status, TRIAL_STEPS, are_farther_than, check_config, has_jumped, set_interval, step_limit,
 };
 use crate::certificate::Interval;
 use crate::contact;
@@ -74,8 +74,13 @@ fn through_levels(
         shapes.iter().for_each(|shape| shape.need_levels());
     }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    if pair.is_far() { Ok(()) } else { pair.descend(shapes) }
+    // Exact and approximate distances without a tolerance have an infinite one, beyond which nothing is.
+    let is_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
+    let enough = if is_verdict { 0.0 } else { config.distance_tolerance };
+    if are_farther_than(enough, polyhedra, poses, config, answer) {
+        return Ok(());
+    }
+    PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
 
 /// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the
