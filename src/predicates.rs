@@ -401,7 +401,7 @@ mod tests {
             assert_eq!(sign_of(ExactPoints::new(&points).orientation([0, 1, 2], 3)), truth);
             zeros += usize::from(truth == 0.0);
         }
-        assert!(20 * zeros > rounds(20_000), "{zeros}");
+        assert!(zeros >= if cfg!(miri) { 1 } else { 1000 }, "{zeros}");
     }
 
     #[test]
