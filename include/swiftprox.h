@@ -8,8 +8,8 @@
  * Failure. What can fail returns a swift_status: SWIFT_OK is 0, the numbers are never reused.
  * swift_library_last_error_message says what was wrong and where, for each thread. A call that fails changes nothing but the
  * outputs it names. Nothing is printed, nothing unwinds into the caller. A bug of the library, when it is caught, comes back as
- * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. Shapes
- * never change, so no bug can spoil them.
+ * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. What is
+ * made of a shape does not change, so no bug can spoil it.
  *
  * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
  * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
@@ -117,7 +117,7 @@ enum {
   /**
    * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
    * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-   * of a shape with automatic levels makes them, which takes about as long as making the shape did.
+   * of a shape with automatic levels makes them, which takes about one and a half times as long as making the shape did.
    */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */
@@ -351,7 +351,7 @@ typedef struct swift_shape_info {
   int32_t lookup;
   /** Its resolution, as in swift_shape_options; 0 without one. */
   uint32_t lookup_resolution;
-  /** Its share of `bytes`: 0 until the first query that looks into the table, which makes it. */
+  /** Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. */
   size_t lookup_bytes;
 } swift_shape_info;
 
@@ -721,10 +721,10 @@ swift_status swift_shape_create_from_file(const char *path,
                                           struct swift_shape **shape);
 
 /**
- * Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
- * encoding (UTF-8 on Windows). Any machine can load it, with the levels that it has: built anew, those of a machine with other
- * vector units may be slightly different ones. A version of this library that does not know the version of the file
- * refuses it.
+ * Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
+ * when they are needed, as the look-up table is. The path is in the system's encoding (UTF-8 on Windows). Any machine can load
+ * it, with the levels that are saved: built anew, those of a machine with other vector units may be slightly different ones. A
+ * version of this library that does not know the version of the file refuses it.
  *
  * SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
  * argument.
@@ -930,7 +930,8 @@ swift_status swift_pair_approximate(const struct swift_shape *shape1,
  * and features that are said. SWIFT_OK: it holds for these shapes and poses.
  *
  * SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
- * unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+ * unknown, or the objects are separated and so large or far apart that doubles cannot tell. SWIFT_ERROR_POSE,
+ * SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
  */
 swift_status swift_pair_verify(const struct swift_shape *shape1,
                                const double *pose1,

@@ -66,8 +66,6 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     let vertex_count = polyhedron.vertices.len();
     let resolution = resolution as usize;
     let plan = match kind {
-        // Squares of distances over- or underflow. Points are among the small ones.
-        _ if !(SMALLEST..=LARGEST).contains(&polyhedron.radius) => Plan::None,
         LookupKind::None => Plan::None,
         LookupKind::Automatic if vertex_count < LEAST_VERTICES => Plan::None,
         LookupKind::Automatic | LookupKind::Shells => {
@@ -89,6 +87,8 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
             Plan::Spherical { resolution, radius_factor }
         }
     };
+    // Squares of distances over- or underflow in others. Points are among the small ones.
+    let plan = if (SMALLEST..=LARGEST).contains(&polyhedron.radius) { plan } else { Plan::None };
     let reach = if plan == Plan::None { f64::INFINITY } else { REACH / (vertex_count as f64).sqrt() };
     Ok(Lookup { plan, reach, ..Lookup::none() })
 }
@@ -99,6 +99,17 @@ pub fn table(polyhedron: &Polyhedron) -> &Table {
     match polyhedron.lookup.made.get() {
         Some(table) => table,
         None => make_table(polyhedron),
+    }
+}
+
+/// The tables of two bodies if they are of one kind; else none is made.
+#[inline(always)]
+pub fn tables(polyhedra: [&Polyhedron; 2]) -> Option<[&Table; 2]> {
+    match polyhedra.map(|polyhedron| polyhedron.lookup.plan) {
+        [Plan::Shells { .. }, Plan::Shells { .. }] | [Plan::Spherical { .. }, Plan::Spherical { .. }] => {
+            Some([table(polyhedra[0]), table(polyhedra[1])])
+        }
+        _ => None,
     }
 }
 

@@ -26,6 +26,7 @@ pub fn clamp(x: f64, low: f64, high: f64) -> f64 {
 /// 2^`exponent`, from −1022 to 1023, exactly: `powi` promises no precision.
 #[inline]
 pub fn power_of_two(exponent: i32) -> f64 {
+    debug_assert!((-1022..=1023).contains(&exponent), "{exponent}");
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 

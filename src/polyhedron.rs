@@ -153,7 +153,7 @@ pub struct MassProperties {
     pub upper: Vector,
 }
 
-/// A convex polyhedron, immutable once built.
+/// A convex polyhedron, immutable once built but for its look-up table.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Polyhedron {
     /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).

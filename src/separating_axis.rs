@@ -7,7 +7,7 @@
 use crate::certificate::{Interval, interval, reciprocal_length};
 use crate::frame::{Body, Frame};
 use crate::lookup::Table;
-use crate::lookup_build::table;
+use crate::lookup_build::tables;
 use crate::math::Vector;
 use crate::simd::{Lanes, Work};
 use crate::voronoi::{Rule, VertexTest, test_vertex};
@@ -24,7 +24,8 @@ pub struct Axis {
 /// The interval of the bodies' distance that their bounding spheres prove, for rigid poses of [ordinary](Polyhedron::ordinary)
 /// bodies.
 ///
-/// No point of R·P is farther from its centred origin than ρ(1 + 13u): |R|² ≤ 1 + √6·10u (see [`crate::frame::RIGID_TOGETHER`]).
+/// No point of R·P is farther from its centred origin than ρ(1 + 16u): |R|² ≤ 1 + √6·10u (see [`crate::frame::RIGID_TOGETHER`]) plus
+/// the rounding of the defect as computed, below 6u.
 /// |Δ| is below `separation` by at most 16u of it: 8u that it was raised by, 2u of Δ, and the rounding of dot product and root.
 /// Sums and differences err by 4u of the largest term; `tolerance` is 32u of both together.
 #[inline(always)]
@@ -143,8 +144,8 @@ impl<L: Lanes> Work for Search<'_, L> {
 #[inline(always)]
 fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
     let [body1, body2] = &frame.bodies;
-    match (table(body1.polyhedron), table(body2.polyhedron)) {
-        (Table::Shells(table1), Table::Shells(table2)) => {
+    match tables([body1.polyhedron, body2.polyhedron])? {
+        [Table::Shells(table1), Table::Shells(table2)] => {
             let [x, y, z] = body1.rotate_back(direction).negate().to_vector().into();
             let vertex1 = table1.farthest([x as f32, y as f32, z as f32]);
             let [x, y, z] = body2.rotate_back(direction).to_vector().into();

@@ -1,4 +1,4 @@
-//! A shape: geometry that any number of objects, scenes and threads share, immutable once made.
+//! A shape: geometry that any number of objects, scenes and threads share.
 
 use std::path::Path;
 use std::sync::OnceLock;
@@ -248,10 +248,16 @@ impl Shape {
         self.hierarchy.get().unwrap_or(&NOT_MADE)
     }
 
+    /// Whether it would have automatic levels if they were made.
+    #[inline]
+    pub(crate) fn lacks_levels(&self) -> bool {
+        self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES)
+    }
+
     /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait.
     #[inline]
     pub(crate) fn need_levels(&self) {
-        if self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES) {
+        if self.lacks_levels() {
             self.make_levels();
         }
     }
@@ -261,6 +267,7 @@ impl Shape {
         self.hierarchy.get_or_init(|| {
             let built =
                 Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), &mut Progress::new(&mut |_| true));
+            debug_assert!(built.is_ok(), "{built:?}");
             // Without levels the bodies answer themselves.
             built.unwrap_or(Hierarchy::AUTOMATIC)
         });

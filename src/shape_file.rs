@@ -1,4 +1,4 @@
-//! Shapes in files: saved once, loaded as they were, levels of detail included.
+//! Shapes in files: saved once, loaded as they were, levels of detail included; what is made on first need is made again.
 //!
 //! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
 //! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels) or takes long to find
@@ -105,8 +105,12 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
     let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");
     };
+    let count = reader.number()?;
+    if kind == HierarchyKind::Automatic && count > 0 {
+        return damaged("automatic levels, which are not saved");
+    }
     let mut levels = Vec::new();
-    for _ in 0..reader.number()? {
+    for _ in 0..count {
         levels.push((reader.polyhedron(Some(polyhedron.centre))?, reader.links()?, reader.links()?));
     }
     if !reader.rest.is_empty() {

@@ -1,7 +1,7 @@
 //! Where marching starts: from the tables of nearest vertices when the last query tells little or nothing.
 
 use crate::lookup::{Shells, Table};
-use crate::lookup_build::table;
+use crate::lookup_build::tables;
 use crate::math::{Pose, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::simd::{self, Kernel, Lanes};
@@ -63,10 +63,9 @@ impl Kernel for Climb<'_> {
 /// The vertices that the tables of both bodies give, if both have one.
 #[inline(always)]
 fn from_tables(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<Beginning> {
-    let [first, second] = polyhedra;
-    match (table(first), table(second)) {
-        (Table::Shells(first), Table::Shells(second)) => Some(alternate([first, second], polyhedra, poses)),
-        (Table::Spherical(first), Table::Spherical(second)) => {
+    match tables(polyhedra)? {
+        [Table::Shells(first), Table::Shells(second)] => Some(alternate([first, second], polyhedra, poses)),
+        [Table::Spherical(first), Table::Spherical(second)] => {
             let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
             let vertices =
                 [first.towards(&poses[0].rotate_back(&between)), second.towards(&poses[1].rotate_back(&-between))];

@@ -21,7 +21,8 @@ use witness::Witness;
 ///
 /// # Errors
 /// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an
-/// answer that holds no outcome or vertex indices that the shapes do not have.
+/// answer that holds no outcome or vertex indices that the shapes do not have, and for separated objects so large or far apart that
+/// doubles cannot tell.
 pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
     let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
     let poses = [pose1, pose2];

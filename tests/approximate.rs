@@ -417,9 +417,52 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
     assert!(answer.upper - answer.lower <= 0.5, "{answer:?}");
     assert!(answer.statistics.levels[0] > 0 && answer.statistics.levels[1] == 0, "{answer:?}");
     assert!(!large.hierarchy().levels.is_empty() && small.hierarchy().levels.is_empty());
-    let prepared = shape(30_000);
-    prepared.prepare();
-    assert_eq!(prepared.hierarchy(), large.hierarchy());
+    // Spheres that overlap, bodies that do not: whatever is asked, prepared or not, the answer is the same.
+    let near = Pose::new(&Matrix::identity(), &Vector::new(0.0, 0.0, 0.8));
+    for query in [pair::approximate as Query, pair::intersection, pair::distance, pair::contact] {
+        let answers = [false, true].map(|is_prepared| {
+            let shape = shape(30_000);
+            if is_prepared {
+                shape.prepare();
+                assert_eq!(shape.hierarchy(), large.hierarchy());
+            }
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            query(&shape, &Pose::IDENTITY, &small, &near, &mut cache, &config, &mut answer).unwrap();
+            assert!(!shape.hierarchy().levels.is_empty());
+            assert_eq!(answer.outcome, Outcome::Separated);
+            // NaN is not equal to NaN.
+            format!("{answer:?} {cache:?}")
+        });
+        assert_eq!(answers[0], answers[1]);
+    }
+}
+
+/// Two bodies of 100,000 vertices, for which a verdict near by is worth levels.
+#[test]
+fn no_levels_are_made_where_nothing_asks_for_them() {
+    let shape = Shape::from_mesh(&ellipsoid([1.0, 0.6, 0.3], 100_000).unwrap(), &ShapeOptions::default()).unwrap();
+    let at = |x: f64| Pose::new(&Matrix::identity(), &Vector::new(x, 0.0, 0.0));
+    let mut skewed = at(0.7);
+    skewed.rows[0][0] = f64::NAN;
+    let ask = |query: Query, pose: &Pose, config: PairConfig| {
+        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+        query(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, &config, &mut answer).map(|()| answer.status)
+    };
+    let plain = PairConfig::default();
+    let nan = PairConfig { distance_tolerance: f64::NAN, ..plain };
+    assert_eq!(ask(pair::intersection, &at(1000.0), plain), Ok(Status::BoundingSpheres));
+    let within = PairConfig { distance_tolerance: 10.0, absolute_error: 0.1, ..plain };
+    assert_eq!(ask(pair::approximate, &at(1000.0), within), Ok(Status::BoundingSpheres));
+    assert!(matches!(ask(pair::intersection, &skewed, plain), Err(Error::Pose(_))));
+    for x in [0.7, 1000.0] {
+        assert!(matches!(ask(pair::intersection, &at(x), nan), Err(Error::Argument(_))));
+    }
+    ask(pair::approximate, &at(0.7), PairConfig { absolute_error: 1e-300, ..plain }).unwrap();
+    ask(pair::intersection, &at(0.7), PairConfig { levels: Levels::None, ..plain }).unwrap();
+    ask(pair::contact, &at(0.7), plain).unwrap();
+    assert_eq!(shape.hierarchy(), &Hierarchy::AUTOMATIC);
+    ask(pair::intersection, &at(1.2), plain).unwrap();
+    assert!(shape.hierarchy().levels.len() > 3);
 }
 
 #[test]

@@ -124,7 +124,8 @@ pub unsafe extern "C" fn swift_pair_approximate(
 /// and features that are said. SWIFT_OK: it holds for these shapes and poses.
 ///
 /// SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
-/// unknown. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+/// unknown, or the objects are separated and so large or far apart that doubles cannot tell. SWIFT_ERROR_POSE,
+/// SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_verify(
     shape1: *const Shape,

@@ -55,7 +55,7 @@ pub struct ShapeInfo {
     pub lookup: i32,
     /// Its resolution, as in swift_shape_options; 0 without one.
     pub lookup_resolution: u32,
-    /// Its share of `bytes`: 0 until the first query that looks into the table, which makes it.
+    /// Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it.
     pub lookup_bytes: usize,
 }
 
@@ -143,10 +143,10 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
     })
 }
 
-/// Saves a shape in a file, levels of detail and look-up table included, replacing what was there. The path is in the system's
-/// encoding (UTF-8 on Windows). Any machine can load it, with the levels that it has: built anew, those of a machine with other
-/// vector units may be slightly different ones. A version of this library that does not know the version of the file
-/// refuses it.
+/// Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
+/// when they are needed, as the look-up table is. The path is in the system's encoding (UTF-8 on Windows). Any machine can load
+/// it, with the levels that are saved: built anew, those of a machine with other vector units may be slightly different ones. A
+/// version of this library that does not know the version of the file refuses it.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
 /// argument.

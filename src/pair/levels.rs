@@ -35,9 +35,8 @@ pub(super) fn approximate(
     if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
     }
-    if pay(shapes, config, config.absolute_error, MANY_VERTICES) {
-        let config = &PairConfig { levels: Levels::All, ..*config };
-        return through_levels(Query::Approximate, shapes, poses, cache, config, answer);
+    if are_large(shapes, MANY_VERTICES) & (config.levels == Levels::Automatic) {
+        return of_large(Query::Approximate, shapes, poses, cache, config, answer);
     }
     if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
@@ -54,9 +53,8 @@ pub(super) fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if pay(shapes, config, f64::INFINITY, VERY_MANY_VERTICES) {
-        let config = &PairConfig { levels: Levels::All, ..*config };
-        return through_levels(Query::Intersection, shapes, poses, cache, config, answer);
+    if are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic) {
+        return of_large(Query::Intersection, shapes, poses, cache, config, answer);
     }
     super::query(Query::Intersection, shapes, poses, cache, config, answer)
 }
@@ -70,33 +68,63 @@ fn through_levels(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     check_config(config)?;
-    if config.levels == Levels::All {
-        shapes.iter().for_each(|shape| shape.need_levels());
-    }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    // Exact and approximate distances without a tolerance have an infinite one, beyond which nothing is.
-    let is_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
-    let enough = if is_verdict { 0.0 } else { config.distance_tolerance };
-    if are_farther_than(enough, polyhedra, poses, config, answer) {
+    if are_farther_than(enough(query, config), polyhedra, poses, config, answer) {
         return Ok(());
     }
     PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
 }
 
-/// Whether levels save time where the choice is automatic: if the bodies are large and levels of theirs, the finest being the
-/// tightest, may answer to within the error.
 #[inline(always)]
-fn pay(shapes: [&Shape; 2], config: &PairConfig, error: f64, vertex_count: usize) -> bool {
-    let [count1, count2] = [shapes[0].polyhedron().vertices.len(), shapes[1].polyhedron().vertices.len()];
-    (count1 + count2 >= vertex_count) & (config.levels == Levels::Automatic) && may_answer(shapes, error)
+fn are_large(shapes: [&Shape; 2], vertex_count: usize) -> bool {
+    shapes[0].polyhedron().vertices.len() + shapes[1].polyhedron().vertices.len() >= vertex_count
 }
 
-/// Whether there are levels that may answer to within an error.
-fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
-    if error == 0.0 {
-        return false;
+/// A query of bodies so large that levels save time where they may answer.
+#[inline(never)]
+fn of_large(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    check_config(config)?;
+    let error = if query == Query::Approximate { config.absolute_error } else { f64::INFINITY };
+    if shapes.iter().any(|shape| shape.lacks_levels()) {
+        // Nothing is made for a query that is refused, or answered without.
+        for pose in poses {
+            pose.check(config.rotation_limit.min(ROTATION_LIMIT))?;
+        }
+        let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+        if are_farther_than(enough(query, config), polyhedra, poses, config, answer) {
+            return Ok(());
+        }
+        // A fourth of the triangles of a round body stands off by some 1e-4 of its radius at this size.
+        if error >= 1e-6 * (polyhedra[0].radius + polyhedra[1].radius) {
+            shapes.iter().for_each(|shape| shape.need_levels());
+        }
     }
-    shapes.iter().for_each(|shape| shape.need_levels());
+    if may_answer(shapes, error) {
+        let config = &PairConfig { levels: Levels::All, ..*config };
+        return through_levels(query, shapes, poses, cache, config, answer);
+    }
+    if query == Query::Approximate && config.step_budget != u32::MAX {
+        return through_levels(query, shapes, poses, cache, config, answer);
+    }
+    super::query(query, shapes, poses, cache, config, answer)
+}
+
+/// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
+#[inline(always)]
+fn enough(query: Query, config: &PairConfig) -> f64 {
+    let is_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
+    if is_verdict { 0.0 } else { config.distance_tolerance }
+}
+
+/// Whether there are levels that may answer to within an error, the finest being the tightest.
+fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
     let [levels1, levels2] = shapes.map(|shape| &shape.hierarchy().levels);
     let finest = |levels: &[Level]| levels.first().map_or(0.0, |level| level.deviation);
     !(levels1.is_empty() & levels2.is_empty()) && finest(levels1) + finest(levels2) < error
@@ -129,6 +157,9 @@ impl PairQuery<'_> {
     #[inline(never)]
     pub(super) fn descend(&mut self, shapes: [&Shape; 2]) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
+        if config.levels == Levels::All {
+            shapes.iter().for_each(|shape| shape.need_levels());
+        }
         if let Some(pairs) = cache.recall_pairs(polyhedra) {
             let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
             if frame.usual
