@@ -333,8 +333,8 @@ mod tests {
         }
     }
 
-    /// Single precision overrules nothing: directions perpendicular to an edge up to 1e-3 … 1e-17, of any length that may prove
-    /// something ([`crate::certificate::reciprocal_length`]).
+    /// Single precision overrules nothing: directions perpendicular to an edge up to 1e-3 … 1e-17, of any length that certificates
+    /// take for one, which is 2⁻⁴⁰⁰ and more.
     #[test]
     fn a_vertex_is_strictly_farthest_only_if_double_precision_says_so() {
         let polyhedron = pyramid();
