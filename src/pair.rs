@@ -309,15 +309,13 @@ fn query(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     if config.distance_tolerance < f64::INFINITY {
+        // Arrays of their own: those lent to it would have to live in memory here, too.
+        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return query_with_tolerance(query, shapes, poses, cache, config, answer);
     }
     let asks_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
-    if asks_verdict && are_farther_than(0.0, polyhedra, poses, config, answer) {
-        return Ok(());
-    }
-    query_near(query, shapes, poses, cache, config, answer)
+    query_beyond(query, asks_verdict.then_some(0.0), shapes, poses, cache, config, answer)
 }
 
 /// Out of line, with all that follows: mostly there is no tolerance.
@@ -330,17 +328,14 @@ fn query_with_tolerance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    if are_farther_than(config.distance_tolerance, polyhedra, poses, config, answer) {
-        return Ok(());
-    }
-    query_near(query, shapes, poses, cache, config, answer)
+    query_beyond(query, Some(config.distance_tolerance), shapes, poses, cache, config, answer)
 }
 
-/// The query of a pair whose bounding spheres do not answer it.
+/// A query that needs to know no more than that the bodies are farther apart than is `enough`, if they are.
 #[inline(always)]
-fn query_near(
+fn query_beyond(
     query: Query,
+    enough: Option<f64>,
     shapes: [&Shape; 2],
     poses: [&Pose; 2],
     cache: &mut PairCache,
@@ -350,6 +345,11 @@ fn query_near(
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
     let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    if let Some(enough) = enough
+        && pair.is_farther_than(enough)
+    {
+        return Ok(());
+    }
     let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
     if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
@@ -431,41 +431,34 @@ impl Kernel for Coherent<'_, '_> {
     }
 }
 
-/// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
-/// than is enough; the answer then says so. NaN is for others to refuse.
-#[inline(always)]
-fn are_farther_than(
-    enough: f64,
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> bool {
-    let [body1, body2] = polyhedra;
-    let reach = body1.radius + body2.radius + enough;
-    let [x, y, z] = [0, 1, 2].map(|i| poses[0].rows[i][3] - poses[1].rows[i][3]);
-    (x * x + y * y + z * z > reach * reach) & (enough >= 0.0) & (body1.ordinary & body2.ordinary)
-        && simd::dispatch(&mut Spheres { polyhedra, poses, enough, config, answer })
+impl PairQuery<'_> {
+    /// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
+    /// than is enough; the answer then says so, and the cache stays as it is. NaN is for others to refuse.
+    #[inline(always)]
+    fn is_farther_than(&mut self, enough: f64) -> bool {
+        let &mut PairQuery { polyhedra: [body1, body2], poses: [pose1, pose2], .. } = self;
+        let reach = body1.radius + body2.radius + enough;
+        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
+        (x * x + y * y + z * z > reach * reach) & (enough >= 0.0) & (body1.ordinary & body2.ordinary)
+            && simd::dispatch(&mut Spheres { pair: self, enough })
+    }
 }
 
 /// Bounding spheres that seem farther apart than is enough.
-struct Spheres<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+struct Spheres<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
     enough: f64,
-    config: &'a PairConfig,
-    answer: &'a mut PairAnswer,
 }
 
-impl Kernel for Spheres<'_> {
+impl Kernel for Spheres<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let &mut Spheres { polyhedra, poses, enough, config, ref mut answer } = self;
+        let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let interval = separating_axis::between_spheres(&frame);
-        if !(frame.usual & (config.rotation_limit >= RIGID_TOGETHER) & (interval.lower > enough)) {
+        if !(frame.usual & (config.rotation_limit >= RIGID_TOGETHER) & (interval.lower > self.enough)) {
             return false;
         }
         answer.status = Status::BoundingSpheres;

@@ -3,7 +3,7 @@
 
 use super::{
     Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
-    Statistics, Status, TRIAL_STEPS, are_farther_than, check_config, has_jumped, set_interval, step_limit,
+    Statistics, Status, TRIAL_STEPS, check_config, has_jumped, set_interval, step_limit,
 };
 use crate::certificate::Interval;
 use crate::contact;
@@ -36,6 +36,7 @@ pub(super) fn approximate(
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
     }
     if are_large(shapes, MANY_VERTICES) & (config.levels == Levels::Automatic) {
+        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return of_large(Query::Approximate, shapes, poses, cache, config, answer);
     }
     if config.step_budget == u32::MAX && config.levels != Levels::All {
@@ -54,6 +55,8 @@ pub(super) fn intersection(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic) {
+        // Arrays of their own: those lent to it would have to live in memory here, too.
+        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return of_large(Query::Intersection, shapes, poses, cache, config, answer);
     }
     super::query(Query::Intersection, shapes, poses, cache, config, answer)
@@ -69,10 +72,8 @@ fn through_levels(
 ) -> Result<()> {
     check_config(config)?;
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    if are_farther_than(enough(query, config), polyhedra, poses, config, answer) {
-        return Ok(());
-    }
-    PairQuery { query, polyhedra, poses, cache, config, answer }.descend(shapes)
+    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    if pair.is_farther_than(enough(query, config)) { Ok(()) } else { pair.descend(shapes) }
 }
 
 #[inline(always)]
@@ -98,7 +99,8 @@ fn of_large(
             pose.check(config.rotation_limit.min(ROTATION_LIMIT))?;
         }
         let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-        if are_farther_than(enough(query, config), polyhedra, poses, config, answer) {
+        let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+        if pair.is_farther_than(enough(query, config)) {
             return Ok(());
         }
         // A fourth of the triangles of a round body stands off by some 1e-4 of its radius at this size.
