@@ -39,7 +39,7 @@ from decimal import Decimal
 
 Case = collections.namedtuple("Case", "family name first second poses truth workload")
 
-STATUSES = ("marched", "coherent", "fallback", "exact", "tolerance")
+STATUSES = ("marched", "coherent", "fallback", "exact", "spheres", "tolerance")
 FAILURES = ("wrong", "missed", "wide", "refused", "failed", "hung")
 
 
