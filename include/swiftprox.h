@@ -8,8 +8,8 @@
  * Failure. What can fail returns a swift_status: SWIFT_OK is 0, the numbers are never reused.
  * swift_library_last_error_message says what was wrong and where, for each thread. A call that fails changes nothing but the
  * outputs it names. Nothing is printed, nothing unwinds into the caller. A bug of the library, when it is caught, comes back as
- * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. What is
- * made of a shape does not change, so no bug can spoil it.
+ * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. What a
+ * shape holds never changes once made, so no bug can spoil it.
  *
  * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
  * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
@@ -117,7 +117,7 @@ enum {
   /**
    * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
    * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-   * of a shape with automatic levels makes them, which takes about one and a half times as long as making the shape did.
+   * of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
    */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */

@@ -154,7 +154,7 @@ impl Start {
 pub enum Levels {
     /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
     /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-    /// of a shape with automatic levels makes them, which takes about one and a half times as long as making the shape did.
+    /// of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
     #[default]
     Automatic = 0,
     /// None.
@@ -831,7 +831,8 @@ impl PairQuery<'_> {
         }
         // Bodies that intersected the last time and have jumped apart are for marching.
         if let Some(frame) = &frame
-            && self.cache.kind > PAIRS
+            && config.start != Start::Cache
+            && self.cache.recall_pairs(polyhedra).is_some()
             && has_jumped(frame, &self.cache.marker)
         {
             let beginning = start::anew(polyhedra, poses, true);

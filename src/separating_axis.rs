@@ -6,7 +6,7 @@
 
 use crate::certificate::{Interval, interval, reciprocal_length};
 use crate::frame::{Body, Frame};
-use crate::lookup::Table;
+use crate::lookup::{Plan, Table};
 use crate::lookup_build::tables;
 use crate::math::Vector;
 use crate::simd::{Lanes, Work};
@@ -144,6 +144,9 @@ impl<L: Lanes> Work for Search<'_, L> {
 #[inline(always)]
 fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
     let [body1, body2] = &frame.bodies;
+    if !matches!(body1.polyhedron.lookup.plan, Plan::Shells { .. }) {
+        return None;
+    }
     match tables([body1.polyhedron, body2.polyhedron])? {
         [Table::Shells(table1), Table::Shells(table2)] => {
             let [x, y, z] = body1.rotate_back(direction).negate().to_vector().into();

@@ -93,7 +93,7 @@ pub struct Shape {
     hierarchy: OnceLock<Hierarchy>,
 }
 
-/// Whatever is made yet of what equal shapes make alike.
+/// Tables and automatic levels do not count: equal shapes make equal ones.
 impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {
         let [levels, others] = [self.hierarchy(), other.hierarchy()];
@@ -280,7 +280,7 @@ impl Shape {
         self.need_levels();
     }
 
-    /// Memory held, in bytes: of the look-up table and of automatic levels once a query needed them.
+    /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
         size_of::<Shape>() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
     }

@@ -106,8 +106,8 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
         return damaged("an unknown kind of levels");
     };
     let count = reader.number()?;
-    if kind == HierarchyKind::Automatic && count > 0 {
-        return damaged("automatic levels, which are not saved");
+    if matches!(kind, HierarchyKind::Automatic | HierarchyKind::None) && count > 0 {
+        return damaged("levels where none are saved");
     }
     let mut levels = Vec::new();
     for _ in 0..count {

@@ -457,12 +457,47 @@ fn no_levels_are_made_where_nothing_asks_for_them() {
     for x in [0.7, 1000.0] {
         assert!(matches!(ask(pair::intersection, &at(x), nan), Err(Error::Argument(_))));
     }
-    ask(pair::approximate, &at(0.7), PairConfig { absolute_error: 1e-300, ..plain }).unwrap();
+    // The finest level will stand off by more than 1e-4.
+    for absolute_error in [1e-300, 5e-5] {
+        ask(pair::approximate, &at(0.7), PairConfig { absolute_error, ..plain }).unwrap();
+    }
     ask(pair::intersection, &at(0.7), PairConfig { levels: Levels::None, ..plain }).unwrap();
     ask(pair::contact, &at(0.7), plain).unwrap();
     assert_eq!(shape.hierarchy(), &Hierarchy::AUTOMATIC);
     ask(pair::intersection, &at(1.2), plain).unwrap();
     assert!(shape.hierarchy().levels.len() > 3);
+    assert!(2.0 * shape.hierarchy().levels[0].deviation > 1e-4);
+}
+
+/// A body whose finest level stands off by less than an automatic choice expects: a cap of very many vertices. Whatever levels are
+/// made already, the answer is the same.
+#[test]
+fn what_is_made_already_changes_no_answer() {
+    let cap = |i: usize| {
+        let (turn, part) = (2.4 * i as f64, (i as f64 / 31_000.0).sqrt());
+        let (x, y) = (1e-3 * part * turn.cos(), 1e-3 * part * turn.sin());
+        Vector::new(x, y, (1.0 - x * x - y * y).sqrt())
+    };
+    let far = [[1.0, 0.0, 0.0], [-1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, -1.0, 0.0], [0.0, 0.0, -1.0]];
+    let points: Vec<Vector> = (0..31_000).map(cap).chain(far.map(Vector::from)).collect();
+    let shape = || Shape::from_points(&points, &ShapeOptions::default()).unwrap();
+    let prepared = shape();
+    prepared.prepare();
+    let finest = prepared.hierarchy().levels[0].deviation;
+    assert!(finest < 1e-5, "{finest:e}");
+    let away = Pose::new(&Matrix::identity(), &Vector::new(0.1, 0.2, 1.5));
+    for absolute_error in [1.0, 2.5, 1e3].map(|times| 2.0 * finest * times) {
+        let answers = [[false; 2], [true, false], [false, true], [true; 2]].map(|made| {
+            let shapes = made.map(|is_made| if is_made { prepared.clone() } else { shape() });
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            let config = PairConfig { absolute_error, ..PairConfig::default() };
+            let [a, b] = &shapes;
+            pair::approximate(a, &Pose::IDENTITY, b, &away, &mut cache, &config, &mut answer).unwrap();
+            // NaN is not equal to NaN.
+            format!("{answer:?} {cache:?}")
+        });
+        assert!(answers.iter().all(|answer| *answer == answers[0]), "{answers:?}");
+    }
 }
 
 #[test]

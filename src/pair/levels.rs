@@ -12,7 +12,7 @@ use crate::enclosure::encloses_origin;
 use crate::error::{Error, Result, check_range};
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
-use crate::hierarchy::Level;
+use crate::hierarchy::{HierarchyKind, Level};
 use crate::lookup::Plan;
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::overlap::Decision;
@@ -93,7 +93,8 @@ fn of_large(
 ) -> Result<()> {
     check_config(config)?;
     let error = if query == Query::Approximate { config.absolute_error } else { f64::INFINITY };
-    if shapes.iter().any(|shape| shape.lacks_levels()) {
+    let are_worth_it = are_worth_it(shapes, error);
+    if are_worth_it && shapes.iter().any(|shape| shape.lacks_levels()) {
         // Nothing is made for a query that is refused, or answered without.
         for pose in poses {
             pose.check(config.rotation_limit.min(ROTATION_LIMIT))?;
@@ -103,12 +104,9 @@ fn of_large(
         if pair.is_farther_than(enough(query, config)) {
             return Ok(());
         }
-        // A fourth of the triangles of a round body stands off by some 1e-4 of its radius at this size.
-        if error >= 1e-6 * (polyhedra[0].radius + polyhedra[1].radius) {
-            shapes.iter().for_each(|shape| shape.need_levels());
-        }
+        shapes.iter().for_each(|shape| shape.need_levels());
     }
-    if may_answer(shapes, error) {
+    if are_worth_it && may_answer(shapes, error) {
         let config = &PairConfig { levels: Levels::All, ..*config };
         return through_levels(query, shapes, poses, cache, config, answer);
     }
@@ -116,6 +114,14 @@ fn of_large(
         return through_levels(query, shapes, poses, cache, config, answer);
     }
     super::query(query, shapes, poses, cache, config, answer)
+}
+
+/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n vertices
+/// stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the doubt.
+fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
+    let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
+    let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
+    !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
 }
 
 /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
