@@ -273,8 +273,8 @@ impl Shape {
         });
     }
 
-    /// Makes now what the first query that needs it would: the look-up table and automatic levels. After that no query of this shape
-    /// allocates or waits, but for the integer arithmetic.
+    /// Makes now what the first query that needs it would: the look-up table and automatic levels. After that no query of this
+    /// shape allocates or waits, but for the integer arithmetic.
     pub fn prepare(&self) {
         table(&self.polyhedron);
         self.need_levels();

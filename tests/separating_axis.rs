@@ -1,4 +1,5 @@
-//! Verdicts from bounding spheres and from a separating axis: right, verified, and what most queries of a coherent motion come from.
+//! Verdicts from bounding spheres and from a separating axis: right, verified, and what most queries of a coherent motion come
+//! from.
 
 #[path = "../benches/common/mod.rs"]
 mod common;

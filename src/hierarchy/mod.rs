@@ -172,10 +172,10 @@ impl Hierarchy {
     /// Automatic levels where none are made, or not yet.
     pub const AUTOMATIC: Hierarchy = Hierarchy { kind: HierarchyKind::Automatic, levels: Vec::new() };
 
-    /// Builds levels, automatic ones at once. There are none for [`HierarchyKind::None`], for a body without interior, for one too small or too large
-    /// (2^±200), and where each would be no simpler than the next finer one: a box or a tetrahedron gets none. Otherwise so
-    /// many until one more would fall below the minimum of triangles, would have no interior, or be so thin that no rounding
-    /// makes it contain P₀.
+    /// Builds levels, automatic ones at once. There are none for [`HierarchyKind::None`], for a body without interior, for one
+    /// too small or too large (2^±200), and where each would be no simpler than the next finer one: a box or a tetrahedron gets
+    /// none. Otherwise so many until one more would fall below the minimum of triangles, would have no interior, or be so thin
+    /// that no rounding makes it contain P₀.
     ///
     /// # Errors
     /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].

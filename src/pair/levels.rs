@@ -116,8 +116,9 @@ fn of_large(
     super::query(query, shapes, poses, cache, config, answer)
 }
 
-/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n vertices
-/// stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the doubt.
+/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
+/// vertices stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the
+/// doubt.
 fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
     let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
     let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
