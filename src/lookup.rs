@@ -275,7 +275,8 @@ impl PartialEq for Lookup {
 impl Lookup {
     /// No table.
     pub fn none() -> Lookup {
-        Lookup { plan: Plan::None, reach: f64::INFINITY, made: OnceLock::new() }
+        // Made, so that no query has to: small bodies are shared without a lock.
+        Lookup { plan: Plan::None, reach: f64::INFINITY, made: OnceLock::from(Table::None) }
     }
 
     /// Memory that it holds beyond its own size: none until the table is made.

@@ -1,5 +1,7 @@
 //! Says which look-up table a body gets, and builds it.
 
+use std::sync::OnceLock;
+
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup::{Lookup, Plan, Shells, Spherical, Table};
@@ -89,8 +91,10 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     };
     // Squares of distances over- or underflow in others. Points are among the small ones.
     let plan = if (SMALLEST..=LARGEST).contains(&polyhedron.radius) { plan } else { Plan::None };
-    let reach = if plan == Plan::None { f64::INFINITY } else { REACH / (vertex_count as f64).sqrt() };
-    Ok(Lookup { plan, reach, ..Lookup::none() })
+    if plan == Plan::None {
+        return Ok(Lookup::none());
+    }
+    Ok(Lookup { plan, reach: REACH / (vertex_count as f64).sqrt(), made: OnceLock::new() })
 }
 
 /// The table of a body. The first to look makes it; others who come meanwhile wait.
