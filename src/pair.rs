@@ -1,7 +1,9 @@
 //! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
 
+mod cache;
 mod levels;
 
+pub use cache::PairCache;
 pub(crate) use levels::check_accuracy;
 
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
@@ -12,108 +14,17 @@ pub use crate::descent::Refinement;
 use crate::descent::{Accuracy, Leveled, Place};
 use crate::enclosure::encloses_origin;
 use crate::error::{Result, check_range};
-use crate::exact::VertexPair;
 use crate::frame::{Frame, RIGID_TOGETHER};
 use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::overlap::{self, Decision, Pairs};
 use crate::polyhedron::Polyhedron;
-use crate::separating_axis::{self, Axis, NUDGE, Search, Trial};
+use crate::separating_axis::{self, NUDGE, Search, Trial};
 use crate::shape::Shape;
 use crate::simd::{self, Kernel, Lanes, Portable, Work};
 use crate::start::{self, Beginning, Guess};
 use crate::state::State;
-
-/// What a pair remembers from its last query (that its bounding spheres did not answer). Any bytes are safe; all zero is cold.
-/// It changes how fast an answer comes, never the verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(C)]
-pub struct PairCache {
-    /// 0: nothing; 1 to 6: a feature pair, the number of its kind; 8 + n: n vertex pairs of an intersection; 16 + the number of
-    /// its kind: a feature pair of two levels of detail, which are `pairs[0]`.
-    kind: u32,
-    /// The indices of a feature pair.
-    indices: [u32; 2],
-    /// Vertex pairs. With a feature pair, after a query for the verdict alone: the vertices of a separating axis, its direction
-    /// as the bits of single-precision numbers, and [`AXIS`].
-    pairs: [VertexPair; 4],
-    /// With a feature pair: where body 1 saw a point of body 2 ([`Frame::marker`]), as the bits of single-precision numbers.
-    marker: [u32; 3],
-}
-
-/// `PairCache::kind` of no vertex pairs.
-const PAIRS: u32 = 8;
-
-/// What `PairCache::kind` of a feature pair of levels has more.
-const LEVELS: u32 = 16;
-
-/// Marks a separating axis in `PairCache::pairs`. Where other pairs happen to look like one no harm is done.
-const AXIS: u32 = u32::from_ne_bytes(*b"axis");
-
-impl PairCache {
-    /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
-    #[inline(always)]
-    fn recall_pairs(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        if self.kind <= PAIRS || self.kind > PAIRS + 4 {
-            return None;
-        }
-        let pairs = &self.pairs[..(self.kind - PAIRS) as usize];
-        let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
-        let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
-        pairs.iter().all(known).then(|| Pairs::new(pairs))
-    }
-
-    #[inline(always)]
-    fn remember_state(&mut self, state: State) {
-        self.kind = state.kind as u32;
-        self.indices = state.indices;
-    }
-
-    /// The separating axis of the last verdict, if the cache holds one of vertices that the polyhedra have.
-    #[inline(always)]
-    fn recall_axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
-        let [vertices @ [v, w], [x, y], [z, mark], _] = self.pairs;
-        let is_known = (mark == AXIS)
-            & ((1..=6).contains(&self.kind))
-            & ((v as usize) < polyhedra[0].vertices.len())
-            & ((w as usize) < polyhedra[1].vertices.len());
-        is_known.then_some(Axis { vertices, direction: [x, y, z].map(f32::from_bits) })
-    }
-
-    #[inline(always)]
-    fn remember_axis(&mut self, vertices: [u32; 2], direction: Vector) {
-        let [x, y, z] = bits(direction);
-        [self.pairs[0], self.pairs[1], self.pairs[2]] = [vertices, [x, y], [z, AXIS]];
-    }
-
-    fn remember_pairs(&mut self, pairs: &[VertexPair]) {
-        self.kind = PAIRS + pairs.len() as u32;
-        self.pairs[..pairs.len()].copy_from_slice(pairs);
-    }
-
-    /// A place among levels, if the bodies have it. A feature pair without levels is one, too.
-    fn recall_place(&self, bodies: &Leveled) -> Option<Place> {
-        let (kind, levels) = if self.kind > LEVELS { (self.kind - LEVELS, self.pairs[0]) } else { (self.kind, [0, 0]) };
-        let coarsest = bodies.coarsest();
-        let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];
-        if levels[0] > coarsest[0] || levels[1] > coarsest[1] {
-            return None;
-        }
-        State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| Place { levels, state })
-    }
-
-    fn remember_place(&mut self, place: Place) {
-        self.kind = LEVELS + place.state.kind as u32;
-        self.indices = place.state.indices;
-        self.pairs[0] = place.levels.map(u32::from);
-        self.pairs[1] = [0; 2];
-    }
-
-    /// Steps that queries whose budget ran out have made on the way to this place.
-    fn spent_before(&self) -> u32 {
-        if self.kind > LEVELS { self.pairs[1][0] } else { 0 }
-    }
-}
+use cache::bits;
 
 /// Which interval a query computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -725,12 +636,6 @@ fn has_moved<L: Lanes>(frame: &Frame<L>, last: &[u32; 3], square: f64) -> bool {
     let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
     let moved = marker.sub(L::from_vector(&last));
     moved.dot(moved) > lever * lever * square
-}
-
-/// The single-precision bits of a vector.
-#[inline(always)]
-fn bits(v: Vector) -> [u32; 3] {
-    [(v.x as f32).to_bits(), (v.y as f32).to_bits(), (v.z as f32).to_bits()]
 }
 
 /// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair.

@@ -4,9 +4,9 @@
 #[path = "../benches/common/mod.rs"]
 mod common;
 #[path = "oracle/cases.rs"]
-#[allow(dead_code)]
+#[allow(dead_code)] // the cases themselves: only their random numbers are drawn here
 mod cases;
-#[allow(dead_code)]
+#[allow(dead_code)] // what other tests ask of it
 mod oracle;
 mod shapes;
 

@@ -7,12 +7,13 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 9] = [
+const SOURCES: [&str; 10] = [
     "src/lookup_build.rs",
     "src/hierarchy/mod.rs",
     "src/shape.rs",
     "src/descent.rs",
     "src/answer.rs",
+    "src/pair/cache.rs",
     "src/pair.rs",
     "src/object.rs",
     "src/scene.rs",
