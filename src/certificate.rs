@@ -188,6 +188,7 @@ pub fn edge_rounding(polyhedron: &Polyhedron) -> f64 {
 /// A quick δ/|U| of an edge's point, for g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound of all rounding:
 /// g = c₁n₁ + c₂n₂ + r with |r| ≤ misfit·|U| and c₁ + c₂ ≤ √2|g|, as the normals are at most a right angle apart; the cone of a
 /// sharp edge is halved by its bevel, whose normal then stands for one of them. |g| ≤ 1.02|U| for any R, less than 1.06·√2 = 1.5.
+/// What an edge that leans out of its faces' planes misses their normals' cone by is part of its slack.
 #[inline(always)]
 pub fn of_edge_in_cone(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64 {
     1.5 * (edge.slack + edge_rounding(polyhedron)) + 2.0 * polyhedron.radius * misfit

@@ -55,6 +55,7 @@ pub const FAMILIES: &[(&str, Generator)] = &[
     ("parallel faces", parallel_faces),
     ("flat bodies, segments, points", flat),
     ("flat vertices inside faces and edges", flat_vertices),
+    ("short sides of long faces", leaning_sides),
     ("one inside the other", contained),
     ("far from the origin", far),
     ("far local origins that cancel", far_local_origin),
@@ -226,6 +227,20 @@ fn flat_vertices(random: &mut Random) -> Case {
     let axis = random.below(3);
     shift[axis] = 2.0 * half[axis] + [gap(random), 0.5, 0.0][random.below(3)];
     side_by_side(random, points.clone(), points, shift)
+}
+
+/// A plate that is thinner than rounding along its length, and something beside one of its short sides that is parallel to the
+/// long ones: its vertices are coplanar up to rounding, but a short edge leans out of that plane by a lot. Found by fuzzing: the
+/// directions across such an edge were taken for the cone of its faces' normals.
+fn leaning_sides(random: &mut Random) -> Case {
+    let length = random.power(2, 50);
+    let thickness = length * random.power(-54, -50);
+    let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0], [0.5 * random.signed(), length]];
+    let points_a = corners.map(|[x, y]| Vector::new(x, y, thickness * random.signed())).to_vec();
+    let size = random.power(-3, 0);
+    let points_b = random_points(random, 5).iter().map(|p| size * p).collect();
+    let shift = 3.0 * Vector::new(random.signed(), 0.5 * random.signed(), random.signed());
+    side_by_side(random, points_a, points_b, shift)
 }
 
 fn contained(random: &mut Random) -> Case {
