@@ -7,6 +7,7 @@ mod common;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use common::caches::{WORDS, cache_of_words};
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::random::{Random, rotation};
 use swiftprox::error::Error;
@@ -187,17 +188,12 @@ impl Session<'_> {
 
 fn garbage(random: &mut Random) -> PairCache {
     // A feature pair of levels is what most bits are not.
-    const WORDS: usize = size_of::<PairCache>() / 4;
     let words: [u32; WORDS] = std::array::from_fn(|i| match i {
         0 => random.below(26) as u32,
         1 | 2 => random.below(300) as u32,
         _ => [random.below(5) as u32, random.next_u64() as u32][usize::from(random.below(8) == 0)],
     });
-    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
-    unsafe {
-        std::mem::transmute::<[u32; WORDS], PairCache>(words)
-    }
+    cache_of_words(words)
 }
 
 /// A pose pair: near enough to meet or well apart, sometimes skewed, sometimes far from the origin.

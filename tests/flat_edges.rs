@@ -11,20 +11,10 @@ mod oracle;
 mod shapes;
 
 use cases::Random;
+use common::caches::cache_of_features;
 use shapes::hull;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
-
-/// The cache of an edge-edge pair.
-fn edge_edge(edges: [u32; 2]) -> PairCache {
-    let mut words = [0_u32; size_of::<PairCache>() / 4];
-    (words[0], words[1], words[2]) = (6, edges[0], edges[1]);
-    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
-    unsafe {
-        std::mem::transmute::<[u32; size_of::<PairCache>() / 4], PairCache>(words)
-    }
-}
 
 /// An edge of B lies deep inside A, under a ridge of A that is all but flat, and nearly parallel to it: the difference of the
 /// edges' nearest points is perpendicular to both, but points the wrong way for A.
@@ -43,7 +33,7 @@ fn an_edge_under_a_flat_ridge_is_inside() {
         let poses = [Pose::new(&Matrix::identity(), &random.vector()); 2];
         for e in 0..shapes[0].polyhedron().edges.len() as u32 {
             for f in 0..shapes[1].polyhedron().edges.len() as u32 {
-                let (mut cache, config) = (edge_edge([e, f]), PairConfig::default());
+                let (mut cache, config) = (cache_of_features(6, [e, f]), PairConfig::default());
                 let mut answer = PairAnswer::default();
                 distance(&shapes[0], &poses[0], &shapes[1], &poses[1], &mut cache, &config, &mut answer).unwrap();
                 if answer.outcome != Outcome::Intersecting {

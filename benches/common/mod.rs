@@ -5,6 +5,7 @@
 
 #![allow(dead_code)] // every program that includes this uses a part of it
 
+pub mod caches;
 pub mod files;
 pub mod hard;
 pub mod models;

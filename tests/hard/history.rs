@@ -10,11 +10,9 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
 use crate::cases::Random;
+use crate::common::caches::{WORDS, cache_of_words};
 use crate::common::hard::flight::{fly, poses};
 use crate::{Flight, ask, contradiction};
-
-/// The number of 32-bit words in a cache: its kind, two feature indices, four vertex pairs, a place.
-pub const WORDS: usize = size_of::<PairCache>() / 4;
 
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
 const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
@@ -188,12 +186,4 @@ fn farthest(shapes: [&Shape; 2], poses: &[Pose; 2], random: &mut Random) -> Pair
 /// Random bits, as many as a cache has.
 pub fn words_of_a_cache(random: &mut Random) -> [u32; WORDS] {
     [(); WORDS].map(|()| random.next_u64() as u32)
-}
-
-pub fn cache_of_words(words: [u32; WORDS]) -> PairCache {
-    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
-    unsafe {
-        std::mem::transmute::<[u32; WORDS], PairCache>(words)
-    }
 }

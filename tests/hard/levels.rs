@@ -11,8 +11,9 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
 use crate::cases::Random;
+use crate::common::caches::cache_of_words;
 use crate::common::hard::flight::poses;
-use crate::history::{Query, cache_of_words, words_of_a_cache};
+use crate::history::{Query, words_of_a_cache};
 use crate::retold::extent;
 use crate::{Flight, ask, contradiction};
 

@@ -11,6 +11,7 @@ use swiftprox::verify::verify;
 
 use crate::bodies::Body;
 use crate::cases::{Case, Random};
+use crate::common::caches::{WORDS, cache_of_words};
 
 /// Two bodies at their poses.
 #[derive(Clone, Copy)]
@@ -233,12 +234,9 @@ const OTHER_QUERIES: &[(&str, Question, Origin)] = &[
     ("a cache of garbage, cheap bounds", Question::CheapDistance, Origin::Garbage),
 ];
 
-/// The number of 32-bit words in a cache.
-const CACHE_WORDS: usize = size_of::<PairCache>() / 4;
-
 /// Any bytes, or bytes that look like a cache's: small kinds and indices near the pair's own counts.
 fn garbage_cache(random: &mut Random, placed: &Placed) -> PairCache {
-    let mut words = [(); CACHE_WORDS].map(|()| random.next_u64() as u32);
+    let mut words = [(); WORDS].map(|()| random.next_u64() as u32);
     if random.below(4) != 0 {
         words[0] = random.below(14) as u32;
         let most = placed.bodies.map(|body| body.points.len());
@@ -247,11 +245,7 @@ fn garbage_cache(random: &mut Random, placed: &Placed) -> PairCache {
             *word = random.below(most[body] + 2) as u32;
         }
     }
-    #[allow(unsafe_code, reason = "only so can a caller in Rust do what one in C can")]
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
-    unsafe {
-        std::mem::transmute::<[u32; CACHE_WORDS], PairCache>(words)
-    }
+    cache_of_words(words)
 }
 
 fn violation(property: &'static str, detail: String) -> Violation {
