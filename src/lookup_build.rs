@@ -69,7 +69,6 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     let resolution = resolution as usize;
     let plan = match kind {
         LookupKind::None => Plan::None,
-        LookupKind::Automatic if vertex_count < LEAST_VERTICES => Plan::None,
         LookupKind::Automatic | LookupKind::Shells => {
             let resolution = if resolution == 0 { resolution_for(vertex_count) } else { resolution };
             if !(4..=512).contains(&resolution) || !resolution.is_power_of_two() {
@@ -89,9 +88,10 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
             Plan::Spherical { resolution, radius_factor }
         }
     };
-    // Squares of distances over- or underflow in others. Points are among the small ones.
-    let plan = if (SMALLEST..=LARGEST).contains(&polyhedron.radius) { plan } else { Plan::None };
-    if plan == Plan::None {
+    // Squares of distances over- or underflow in bodies of other sizes. Points are among the small ones.
+    let has_use = (SMALLEST..=LARGEST).contains(&polyhedron.radius)
+        && (kind != LookupKind::Automatic || vertex_count >= LEAST_VERTICES);
+    if plan == Plan::None || !has_use {
         return Ok(Lookup::none());
     }
     Ok(Lookup { plan, reach: REACH / (vertex_count as f64).sqrt(), made: OnceLock::new() })

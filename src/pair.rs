@@ -1,19 +1,21 @@
 //! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
 
 mod cache;
+mod config;
 mod levels;
 
 pub use cache::PairCache;
-pub(crate) use levels::check_accuracy;
+pub(crate) use config::check_accuracy;
+pub use config::{Bounds, Levels, PairConfig, Start};
 
 pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
 use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum, reciprocal_length};
 use crate::contact;
 use crate::contact_direction::contact_direction;
 pub use crate::descent::Refinement;
-use crate::descent::{Accuracy, Leveled, Place};
+use crate::descent::{Leveled, Place};
 use crate::enclosure::encloses_origin;
-use crate::error::{Result, check_range};
+use crate::error::Result;
 use crate::frame::{Frame, RIGID_TOGETHER};
 use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
@@ -25,106 +27,7 @@ use crate::simd::{self, Kernel, Lanes, Portable, Work};
 use crate::start::{self, Beginning, Guess};
 use crate::state::State;
 use cache::bits;
-
-/// Which interval a query computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Bounds {
-    /// As tight as double precision allows.
-    #[default]
-    Tight = 0,
-    /// The cheapest that still prove the verdict.
-    Verdict = 1,
-}
-
-/// Where marching starts. It changes how fast an answer comes, never the verdict.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Start {
-    /// At the features of the last query while the pair moves little, else where the look-up tables of the shapes say.
-    #[default]
-    Automatic = 0,
-    /// At the features of the last query whenever there are any.
-    Cache = 1,
-    /// Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind.
-    Table = 2,
-    /// Afresh: at the vertices farthest along the line between the bodies.
-    Cold = 3,
-}
-
-impl Start {
-    #[inline(always)]
-    fn asks_cache(self) -> bool {
-        self as i32 <= Start::Cache as i32
-    }
-}
-
-/// Which levels of detail a query goes through, of those that the shapes have.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Levels {
-    /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
-    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-    /// of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
-    #[default]
-    Automatic = 0,
-    /// None.
-    None = 1,
-    /// All, whatever is asked (Ehmann & Lin 2000).
-    All = 2,
-}
-
-/// What a pair query is asked for.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
-pub struct PairConfig {
-    /// The size of this struct, so that it can grow; set by swift_pair_config_init.
-    pub struct_size: usize,
-    /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
-    pub distance_tolerance: f64,
-    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2.
-    pub rotation_limit: f64,
-    /// Which interval.
-    pub bounds: Bounds,
-    /// Where marching starts.
-    pub start: Start,
-    /// Of an approximate query: `upper − lower` may be as large as this …
-    pub absolute_error: f64,
-    /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
-    pub relative_error: f64,
-    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-    /// no limit. What marching leaves open is decided all the same, however long it takes.
-    pub step_budget: u32,
-    /// Which levels of detail a query goes through.
-    pub levels: Levels,
-    /// How it goes from level to level.
-    pub refinement: Refinement,
-}
-
-impl Default for PairConfig {
-    fn default() -> Self {
-        PairConfig {
-            struct_size: size_of::<PairConfig>(),
-            distance_tolerance: f64::INFINITY,
-            rotation_limit: ROTATION_LIMIT,
-            bounds: Bounds::Tight,
-            start: Start::Automatic,
-            absolute_error: 0.0,
-            relative_error: 0.0,
-            step_budget: u32::MAX,
-            levels: Levels::Automatic,
-            refinement: Refinement::Adaptive,
-        }
-    }
-}
-
-impl PairConfig {
-    /// What an approximate query wants to know.
-    #[inline(always)]
-    fn accuracy(&self) -> Accuracy {
-        Accuracy { absolute: self.absolute_error, relative: self.relative_error, beyond: self.distance_tolerance }
-    }
-}
+use config::check_config;
 
 /// What is asked of a pair.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -277,11 +180,6 @@ fn query_beyond(
     } else {
         pair.begin(shapes)
     }
-}
-
-fn check_config(config: &PairConfig) -> Result<()> {
-    check_range("distance_tolerance", config.distance_tolerance, 0.0..=f64::INFINITY)?;
-    check_range("rotation_limit", config.rotation_limit, 0.0..=f64::INFINITY)
 }
 
 // ---------------------------------------------------------------------------------------------------------------------
@@ -497,7 +395,7 @@ impl Kernel for General<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+        let frame = Frame::<L>::new(polyhedra, poses, config.most_skew());
         if !frame.usual {
             return Attempt::Unusual;
         }
@@ -664,13 +562,20 @@ impl PairQuery<'_> {
     fn begin(&mut self, shapes: [&Shape; 2]) -> Result<()> {
         check_config(self.config)?;
         if !self.config.start.asks_cache() {
-            // Those of a query that is refused would find their cache forgotten.
-            for pose in self.poses {
-                pose.check(self.config.rotation_limit.min(ROTATION_LIMIT))?;
-            }
-            *self.cache = PairCache::default();
+            self.forget()?;
         }
         self.go_on(Attempt::Unusual, shapes)
+    }
+
+    fn check_poses(&self) -> Result<()> {
+        self.poses.iter().try_for_each(|pose| pose.check(self.config.most_skew()))
+    }
+
+    /// Clears the cache, unless the poses are refused: who is refused finds nothing changed.
+    fn forget(&mut self) -> Result<()> {
+        self.check_poses()?;
+        *self.cache = PairCache::default();
+        Ok(())
     }
 
     /// The rest of a query whose first attempt did not answer it.
@@ -715,13 +620,10 @@ impl PairQuery<'_> {
     #[inline(never)]
     fn decide(&mut self, mut hint: Pairs, steps: u32) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, config, .. } = self;
-        let limit = config.rotation_limit.min(ROTATION_LIMIT);
-        let frame = Frame::<Portable>::new(polyhedra, poses, limit);
+        let frame = Frame::<Portable>::new(polyhedra, poses, config.most_skew());
         let frame = frame.usual.then_some(frame);
         if frame.is_none() {
-            for pose in poses {
-                pose.check(limit)?;
-            }
+            self.check_poses()?;
         }
         let mut statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // The tetrahedron of the last query: if it still encloses the origin, that is a proof.

@@ -14,7 +14,7 @@ use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use swiftprox::verify::verify;
@@ -314,6 +314,27 @@ fn a_query_goes_on_where_its_budget_ran_out() {
             }
         }
         assert!(spent > 500 && intersecting > 10, "{spent} {intersecting}");
+    }
+}
+
+/// A query that is to start afresh does, whatever an earlier one spent.
+#[test]
+fn a_fresh_start_spends_what_the_last_one_spent() {
+    let [a, b] = leveled_pair(KINDS[0]);
+    let poses = [Vector::zeros(), Vector::new(1.3, 1.1, 0.9)].map(|t| Pose::new(&Matrix::identity(), &t));
+    let random = Random::new(1);
+    let session = Session { shapes: [&a, &b], poses, random, warm: PairCache::default(), tally: Tally::default() };
+    for start in [Start::Table, Start::Cold] {
+        for levels in [Levels::All, Levels::None] {
+            let config = PairConfig { step_budget: 1, levels, start, ..PairConfig::default() };
+            let mut cache = PairCache::default();
+            let first = session.ask(pair::approximate, &mut cache, &config);
+            assert_eq!(first.status, Status::BudgetSpent, "{first:?}");
+            for _ in 0..1200 {
+                let again = session.ask(pair::approximate, &mut cache, &config);
+                assert_eq!((again.status, again.lower, again.upper), (first.status, first.lower, first.upper));
+            }
+        }
     }
 }
 

@@ -14,7 +14,7 @@ const SOURCES: [&str; 10] = [
     "src/descent.rs",
     "src/answer.rs",
     "src/pair/cache.rs",
-    "src/pair.rs",
+    "src/pair/config.rs",
     "src/object.rs",
     "src/scene.rs",
     "src/ffi/mod.rs",

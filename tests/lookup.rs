@@ -315,6 +315,7 @@ fn tables_hold_numbers_only() {
 fn options_out_of_range_are_refused() {
     let mesh = cuboid([1.0; 3]).unwrap();
     for (kind, resolution) in [
+        (LookupKind::Automatic, 2),
         (LookupKind::Shells, 2),
         (LookupKind::Shells, 24),
         (LookupKind::Shells, 1024),

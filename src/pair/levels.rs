@@ -1,15 +1,16 @@
 //! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
 //! where that is needed, and where the next query is to start.
 
+use super::config::{check_accuracy, check_config};
 use super::{
     Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
-    Statistics, Status, TRIAL_STEPS, check_config, has_jumped, set_interval, step_limit,
+    Statistics, Status, TRIAL_STEPS, has_jumped, set_interval, step_limit,
 };
 use crate::certificate::Interval;
 use crate::contact;
 use crate::descent::{Accuracy, Descended, Descent, Found};
 use crate::enclosure::encloses_origin;
-use crate::error::{Error, Result, check_range};
+use crate::error::Result;
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
 use crate::hierarchy::{HierarchyKind, Level};
@@ -73,7 +74,13 @@ fn through_levels(
     check_config(config)?;
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    if pair.is_farther_than(enough(query, config)) { Ok(()) } else { pair.descend(shapes) }
+    if pair.is_farther_than(enough(query, config)) {
+        return Ok(());
+    }
+    if !config.start.asks_cache() {
+        pair.forget()?;
+    }
+    pair.descend(shapes)
 }
 
 #[inline(always)]
@@ -95,16 +102,12 @@ fn of_large(
     let error = if query == Query::Approximate { config.absolute_error } else { f64::INFINITY };
     let are_worth_it = are_worth_it(shapes, error);
     if are_worth_it && shapes.iter().any(|shape| shape.lacks_levels()) {
-        // Nothing is made for a query that is refused, or answered without.
-        for pose in poses {
-            pose.check(config.rotation_limit.min(ROTATION_LIMIT))?;
-        }
         let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
         let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
         if pair.is_farther_than(enough(query, config)) {
             return Ok(());
         }
-        shapes.iter().for_each(|shape| shape.need_levels());
+        pair.make_levels(shapes)?;
     }
     if are_worth_it && may_answer(shapes, error) {
         let config = &PairConfig { levels: Levels::All, ..*config };
@@ -148,29 +151,23 @@ const MANY_VERTICES: usize = 60_000;
 /// vertices (1.2 times slower at 0.1°, 1.6 to 2 times faster elsewhere).
 const VERY_MANY_VERTICES: usize = 200_000;
 
-/// Refuses error tolerances and step budgets that are none.
-///
-/// # Errors
-/// [`Error::Argument`], naming the first.
-pub(crate) fn check_accuracy(absolute_error: f64, relative_error: f64, step_budget: u32) -> Result<()> {
-    check_range("absolute_error", absolute_error, 0.0..=f64::INFINITY)?;
-    check_range("relative_error", relative_error, 0.0..=f64::INFINITY)?;
-    if step_budget == 0 {
-        return Err(Error::Argument("step_budget is 0, it must be at least 1".into()));
-    }
-    Ok(())
-}
-
 impl PairQuery<'_> {
+    /// Makes the automatic levels that are missing, but for no query that is refused.
+    fn make_levels(&self, shapes: [&Shape; 2]) -> Result<()> {
+        self.check_poses()?;
+        shapes.iter().for_each(|shape| shape.need_levels());
+        Ok(())
+    }
+
     /// The query through the levels of detail, if the configuration wants any.
     #[inline(never)]
     pub(super) fn descend(&mut self, shapes: [&Shape; 2]) -> Result<()> {
-        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
-        if config.levels == Levels::All {
-            shapes.iter().for_each(|shape| shape.need_levels());
+        if self.config.levels == Levels::All && shapes.iter().any(|shape| shape.lacks_levels()) {
+            self.make_levels(shapes)?;
         }
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
         if let Some(pairs) = cache.recall_pairs(polyhedra) {
-            let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+            let frame = Frame::<Portable>::new(polyhedra, poses, config.most_skew());
             if frame.usual
                 && let Some(weights) = encloses_origin(&frame, pairs.as_slice())
             {
@@ -201,7 +198,7 @@ impl PairQuery<'_> {
             bodies,
             accuracy,
             refinement: config.refinement,
-            rotation_limit: config.rotation_limit.min(ROTATION_LIMIT),
+            rotation_limit: config.most_skew(),
             place,
             is_trial,
             step_limit: if query == Query::Approximate { config.step_budget } else { u32::MAX },
@@ -377,7 +374,7 @@ impl Kernel for Finish<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut Finish { start, steps, limit, .. } = self;
         let &mut PairQuery { polyhedra, poses, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit.min(ROTATION_LIMIT));
+        let frame = Frame::<L>::new(polyhedra, poses, config.most_skew());
         if !frame.usual {
             return Attempt::Unusual;
         }

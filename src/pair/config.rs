@@ -1,0 +1,134 @@
+//! What a pair query is asked for.
+
+use crate::descent::{Accuracy, Refinement};
+use crate::error::{Error, Result, check_range};
+use crate::math::ROTATION_LIMIT;
+
+/// Which interval a query computes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Bounds {
+    /// As tight as double precision allows.
+    #[default]
+    Tight = 0,
+    /// The cheapest that still prove the verdict.
+    Verdict = 1,
+}
+
+/// Where marching starts. It changes how fast an answer comes, never the verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Start {
+    /// At the features of the last query while the pair moves little, else where the look-up tables of the shapes say.
+    #[default]
+    Automatic = 0,
+    /// At the features of the last query whenever there are any.
+    Cache = 1,
+    /// Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind.
+    Table = 2,
+    /// Afresh: at the vertices farthest along the line between the bodies.
+    Cold = 3,
+}
+
+impl Start {
+    #[inline(always)]
+    pub(super) fn asks_cache(self) -> bool {
+        self as i32 <= Start::Cache as i32
+    }
+}
+
+/// Which levels of detail a query goes through, of those that the shapes have.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Levels {
+    /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
+    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
+    /// of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
+    #[default]
+    Automatic = 0,
+    /// None.
+    None = 1,
+    /// All, whatever is asked (Ehmann & Lin 2000).
+    All = 2,
+}
+
+/// What a pair query is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct PairConfig {
+    /// The size of this struct, so that it can grow; set by swift_pair_config_init.
+    pub struct_size: usize,
+    /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
+    pub distance_tolerance: f64,
+    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2.
+    pub rotation_limit: f64,
+    /// Which interval.
+    pub bounds: Bounds,
+    /// Where marching starts.
+    pub start: Start,
+    /// Of an approximate query: `upper − lower` may be as large as this …
+    pub absolute_error: f64,
+    /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
+    /// no limit. What marching leaves open is decided all the same, however long it takes. The next query with the same cache goes on
+    /// where this one stopped, if `start` lets it.
+    pub step_budget: u32,
+    /// Which levels of detail a query goes through.
+    pub levels: Levels,
+    /// How it goes from level to level.
+    pub refinement: Refinement,
+}
+
+impl Default for PairConfig {
+    fn default() -> Self {
+        PairConfig {
+            struct_size: size_of::<PairConfig>(),
+            distance_tolerance: f64::INFINITY,
+            rotation_limit: ROTATION_LIMIT,
+            bounds: Bounds::Tight,
+            start: Start::Automatic,
+            absolute_error: 0.0,
+            relative_error: 0.0,
+            step_budget: u32::MAX,
+            levels: Levels::Automatic,
+            refinement: Refinement::Adaptive,
+        }
+    }
+}
+
+impl PairConfig {
+    /// By how much rotations may miss being orthonormal.
+    #[inline(always)]
+    pub(super) fn most_skew(&self) -> f64 {
+        self.rotation_limit.min(ROTATION_LIMIT)
+    }
+
+    /// What an approximate query wants to know.
+    #[inline(always)]
+    pub(super) fn accuracy(&self) -> Accuracy {
+        Accuracy { absolute: self.absolute_error, relative: self.relative_error, beyond: self.distance_tolerance }
+    }
+}
+
+/// Refuses a tolerance and a limit that are none.
+///
+/// # Errors
+/// [`Error::Argument`], naming the first.
+pub(super) fn check_config(config: &PairConfig) -> Result<()> {
+    check_range("distance_tolerance", config.distance_tolerance, 0.0..=f64::INFINITY)?;
+    check_range("rotation_limit", config.rotation_limit, 0.0..=f64::INFINITY)
+}
+
+/// Refuses error tolerances and step budgets that are none.
+///
+/// # Errors
+/// [`Error::Argument`], naming the first.
+pub(crate) fn check_accuracy(absolute_error: f64, relative_error: f64, step_budget: u32) -> Result<()> {
+    check_range("absolute_error", absolute_error, 0.0..=f64::INFINITY)?;
+    check_range("relative_error", relative_error, 0.0..=f64::INFINITY)?;
+    if step_budget == 0 {
+        return Err(Error::Argument("step_budget is 0, it must be at least 1".into()));
+    }
+    Ok(())
+}
