@@ -358,20 +358,28 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let length = norm1_of(g);
     let c = clamp(g.dot(&record.normal), 0.0, f64::INFINITY);
     let remainder = g - record.normal * c;
-    let rounding = face_rounding(polyhedron, height);
+    // A point that is not in the face may be far out of the body.
+    let apart = point.norm();
+    let reach = if apart > polyhedron.radius { apart } else { polyhedron.radius };
+    let rounding = 16.0 * U * (reach + height);
     let beyond = c * (record.slack + rounding)
-        + 2.0 * polyhedron.radius * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
+        + (polyhedron.radius + reach) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
     // On the rim of the face nothing is proved about the point; the fallback finds another.
     let is_inside = is_inside_sides(polyhedron, record, Portable::from_vector(point));
     let outside = if is_inside { record.slack + rounding } else { f64::INFINITY };
     Defect { beyond, outside }
 }
 
-/// Whether a point of a face's plane lies inside all its sides by a margin that covers every rounding of the sides' planes and
-/// the deviation of merged faces' vertices from convex position (16u·ρ).
+/// Whether a point q of a face's plane surely lies inside all its sides. Left of every line from corner to corner it lies in the
+/// corners' hull, convex polygon or not, as the sides then go around it.
+///
+/// The margin, 64u·max(ρ, |q|₁), covers every rounding of the sides' planes: their normals are right to 8.5u, twice that where
+/// a side leans out of the face's plane by 60°, which q feels over at most ρ + |q|; offsets to 3u·ρ, values at q to 4u·|q|. The
+/// lever counts: at the tip of a needle whose sides are 1u apart the computed planes may diverge.
 #[inline(always)]
 pub fn is_inside_sides<L: Lanes>(polyhedron: &Polyhedron, face: &Face, point: L) -> bool {
-    let margin = L::splat(64.0 * U * polyhedron.radius);
+    let reach = point.norm1();
+    let margin = L::splat(64.0 * U * if reach > polyhedron.radius { reach } else { polyhedron.radius });
     let mut inside = plane_values(&face.planes, point).greater(margin) & 0b1110 == 0b1110;
     if face.side_count > 3 {
         for block in polyhedron.further_sides(face) {

@@ -13,6 +13,7 @@ mod shapes;
 use cases::Random;
 use common::caches::cache_of_features;
 use shapes::hull;
+use swiftprox::exact::solve;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
 
@@ -64,4 +65,40 @@ fn the_thinnest_plate_across_a_cube_meets_it() {
             assert_eq!(answer.outcome, Outcome::Intersecting, "{half:e}: {answer:?}");
         }
     }
+}
+
+/// The long sides of a triangle are so near each other that their computed planes diverge beyond its tip, where a body a thousand times
+/// as large looks at its plane: the foot is in none of its faces. Found by reading: a margin in proportion to the triangle's own
+/// size let the foot pass.
+#[test]
+fn beyond_the_tip_of_a_needle_is_no_face() {
+    let mut random = Random::new(0x4eed1e);
+    let mut wrong = Vec::new();
+    for _ in 0..4_000 {
+        let (tip, blunt) = (random.direction(), random.power(-40, -10) * random.direction());
+        let mut points = vec![tip, blunt, blunt + random.power(-57, -50) * random.vector()];
+        points.extend((0..random.below(2)).map(|_| 0.1 * random.vector()));
+        let needle = hull(&points);
+        let faces = &needle.polyhedron().faces;
+        for (index, face) in faces.iter().enumerate() {
+            let size = random.power(4, 14);
+            let above = |random: &mut Random| size * (face.normal + 0.5 * random.vector());
+            let large = hull(&[Vector::zeros(), above(&mut random), above(&mut random), above(&mut random)]);
+            let vertex = large.polyhedron().vertex_labels.iter().position(|label| *label == 0);
+            let Some(vertex) = vertex else { continue };
+            let at = tip + (tip - blunt) * (size * random.uniform(0.0, 1.0)) + face.normal * random.power(-40, 0);
+            let poses = [at, Vector::zeros()].map(|t| Pose::new(&Matrix::identity(), &t));
+            let truth = solve(large.polyhedron(), &poses[0], needle.polyhedron(), &poses[1], &[]);
+            let (mut cache, config) = (cache_of_features(4, [vertex as u32, index as u32]), PairConfig::default());
+            let mut answer = PairAnswer::default();
+            distance(&large, &poses[0], &needle, &poses[1], &mut cache, &config, &mut answer).unwrap();
+            let is_right = truth.intersecting == (answer.outcome == Outcome::Intersecting)
+                && answer.lower <= truth.upper
+                && truth.lower <= answer.upper;
+            if !is_right {
+                wrong.push((points.clone(), truth.lower, answer));
+            }
+        }
+    }
+    assert!(wrong.is_empty(), "{} wrong, for one {:?}", wrong.len(), wrong[0]);
 }

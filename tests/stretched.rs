@@ -145,7 +145,7 @@ fn body(random: &mut Random) -> Vec<Vector> {
 /// Points around or within 1 of the origin.
 fn base(random: &mut Random) -> Vec<Vector> {
     let count = 3 + random.below(6);
-    match random.below(5) {
+    match random.below(6) {
         0 => prism(random, count),
         1 => {
             let side = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
@@ -161,6 +161,13 @@ fn base(random: &mut Random) -> Vec<Vector> {
         3 => {
             let mut points: Vec<Vector> = (0..=count).map(|_| random.lattice(2)).collect();
             points.push(Vector::x());
+            points
+        }
+        4 => {
+            // A needle, flat or not, two of its long sides so near each other that rounding may make them diverge.
+            let blunt = random.power(-40, -10) * random.direction();
+            let mut points = vec![random.direction(), blunt, blunt + random.power(-57, -10) * random.vector()];
+            points.extend((0..random.below(2)).map(|_| 0.1 * random.vector()));
             points
         }
         _ => {
@@ -221,7 +228,15 @@ fn near_each_other(random: &mut Random, polyhedra: [&Polyhedron; 2]) -> [Pose; 2
     };
     let place = if random.below(2) == 0 { Vector::zeros() } else { small * random.power(-5, 30) * random.vector() };
     let pose1 = Pose::new(&rotations[0], &place);
-    let translation = pose1.transform(&point1) + gap * random.direction() - rotations[1] * point2;
+    // A needle's tip is looked at along the needle.
+    let direction = match polyhedra[1].edges.len() {
+        edges @ 1.. if random.below(3) == 0 => {
+            let edge = &polyhedra[1].edges[random.below(edges)];
+            rotations[1] * polyhedra[1].direction_to(edge.tail, edge.head)
+        }
+        _ => random.direction(),
+    };
+    let translation = pose1.transform(&point1) + gap * direction - rotations[1] * point2;
     [pose1, Pose::new(&rotations[1], &translation)]
 }
 
