@@ -84,8 +84,8 @@ pub struct Edge {
     pub tail_position: Vector,
     /// Length of the edge.
     pub length: f64,
-    /// The largest of the slacks of both faces and of the bevel, and what comes of an edge that leans out of their planes; +∞, which
-    /// asks for a closer look, where rounding hides the dihedral angle.
+    /// The largest of the slacks of both faces and of the bevel, and what comes of an edge that leans out of their planes; +∞,
+    /// which asks for a closer look, where rounding hides the dihedral angle.
     pub slack: f64,
     /// First vertex.
     pub tail: u32,

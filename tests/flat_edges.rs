@@ -67,9 +67,9 @@ fn the_thinnest_plate_across_a_cube_meets_it() {
     }
 }
 
-/// The long sides of a triangle are so near each other that their computed planes diverge beyond its tip, where a body a thousand times
-/// as large looks at its plane: the foot is in none of its faces. Found by reading: a margin in proportion to the triangle's own
-/// size let the foot pass.
+/// The long sides of a triangle are so near each other that their computed planes diverge beyond its tip, where a body a
+/// thousand times as large looks at its plane: the foot is in none of its faces. Found by reading: a margin in proportion to
+/// the triangle's own size let the foot pass.
 #[test]
 fn beyond_the_tip_of_a_needle_is_no_face() {
     let mut random = Random::new(0x4eed1e);
