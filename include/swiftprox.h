@@ -408,8 +408,8 @@ typedef struct swift_pair_config {
   double relative_error;
   /**
    * Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-   * no limit. What marching leaves open is decided all the same, however long it takes. The next query with the same cache goes on
-   * where this one stopped, if `start` lets it.
+   * no limit. What marching leaves open is decided all the same, however long it takes. The next query with the same cache
+   * goes on where this one stopped, if `start` lets it.
    */
   uint32_t step_budget;
   /** Which levels of detail a query goes through. */
