@@ -21,6 +21,16 @@ pub const FAMILIES: &[Family] = &[
         make: needles_plates,
     },
     Family {
+        name: "stretched",
+        why: "up to 1e14 times as long as wide: what was flat is crumpled by the rounding of its length, sides are short beside \
+              their faces, and the sides of a needle's tip are parallel up to rounding",
+        sources: &[
+            "found in this library, by fuzzing and by reading: tests/stretched.rs, tests/flat_edges.rs",
+            "https://github.com/jrouwe/JoltPhysics/issues/2080",
+        ],
+        make: stretched_beyond_rounding,
+    },
+    Family {
         name: "slivers",
         why: "tetrahedra with a height of 1e-6 to 1e-14, points within rounding of a face: normals of faces lose their digits",
         sources: &[
@@ -100,6 +110,40 @@ fn needles_plates(random: &mut Random, index: usize) -> Sequence {
         pose_pair(&turn, &Vector::zeros(), &(turn * tilt), &(turn * shift))
     }));
     Sequence { name: format!("1e{}", 2 + index % 5), bodies, poses }
+}
+
+fn stretched_beyond_rounding(random: &mut Random, index: usize) -> Sequence {
+    let exponent = 2 + 3 * (index / 2 % 5) as i32;
+    let length = 10f64.powi(exponent);
+    if index.is_multiple_of(2) {
+        // A plate as thick as its length is rounded, and something beside its short end.
+        let thickness = length * random.pick(&[1e-16, 3e-16, 1e-15]);
+        let corners = [[1.0, 1.0], [1.0, -1.0], [-1.0, 1.0], [-1.0, -1.0], [0.5 * random.signed(), length]];
+        let plate = hull_of(corners.map(|[x, y]| Vector::new(x, y, thickness * random.signed())).to_vec());
+        let poses = (0..30).map(|k| {
+            let turn = frame(random, k);
+            let other = random.rotation();
+            let turn2 = random.pick(&[turn, other]);
+            let beside = Vector::new(random.pick(&[2.5, -2.5]), random.signed(), 2.0 * random.signed());
+            pose_pair(&turn, &Vector::zeros(), &turn2, &(turn * beside))
+        });
+        let poses = poses.collect();
+        return Sequence { name: format!("plate_1e{exponent}"), bodies: [plate, ordinary(random)], poses };
+    }
+    // A needle, and beyond its tip a body so much larger.
+    let (tip, blunt) = (random.direction(), 1e-9 * random.direction());
+    let needle = hull_of(vec![tip, blunt, blunt + random.pick(&[1e-17, 1e-16, 1e-12]) * random.direction()]);
+    let size = length.min(1e5);
+    let large = scaled(cloud(random, 5), [size; 3]);
+    let corner = large.vertices[0];
+    let poses = (0..30).map(|k| {
+        let turn = frame(random, k);
+        let along = tip + (tip - blunt) * (size * random.uniform(0.0, 1.0));
+        let aside = random.pick(&[0.0, 1e-9, 0.1]) * random.direction();
+        pose_pair(&turn, &Vector::zeros(), &turn, &(turn * (along + aside - corner)))
+    });
+    let poses = poses.collect();
+    Sequence { name: format!("needle_1e{exponent}"), bodies: [needle, large], poses }
 }
 
 fn slivers(random: &mut Random, index: usize) -> Sequence {
