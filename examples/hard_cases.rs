@@ -2,9 +2,9 @@
 //!
 //!   cargo run --release --example hard_cases -- DIR [--seed N] [--count N] [--family NAME]...
 //!
-//! DIR/FAMILY/README says why the family is hard, with sources; DIR/FAMILY/cases.txt has a line `A.off B.off POSES TRUTH` for each
-//! of `--count` sequences (6). A pose is a line of 24 doubles, the row-major 3x4 `[R|T]` of A and of B, each with 17 digits. A
-//! truth is a line of 13 numbers a pose:
+//! DIR/FAMILY/README says why the family is hard, with sources; DIR/FAMILY/cases.txt has a line `A.off B.off POSES TRUTH` for
+//! each of `--count` sequences (the family's sweep of its parameters). A pose is a line of 24 doubles, the row-major 3x4
+//! `[R|T]` of A and of B, each with 17 digits. A truth is a line of 13 numbers a pose:
 //!
 //!   lo hi  ax ay az  bx by bz  depth_lo depth_hi  nx ny nz
 //!
@@ -57,7 +57,7 @@ const SMALL: usize = 120;
 struct Arguments {
     folder: PathBuf,
     seed: u64,
-    count: usize,
+    count: Option<usize>,
     families: Vec<String>,
 }
 
@@ -75,13 +75,13 @@ fn arguments() -> Result<Arguments, String> {
     let usage = "hard_cases DIR [--seed N] [--count N] [--family NAME]...";
     let mut words = std::env::args().skip(1);
     let folder = words.next().filter(|word| !word.starts_with('-')).ok_or(usage)?;
-    let mut arguments = Arguments { folder: folder.into(), seed: 1, count: 6, families: Vec::new() };
+    let mut arguments = Arguments { folder: folder.into(), seed: 1, count: None, families: Vec::new() };
     while let Some(word) = words.next() {
         let value = words.next().ok_or(format!("{word}: a value is missing; {usage}"))?;
         let number = || value.parse::<u64>().map_err(|_| format!("{value}: not a number"));
         match word.as_str() {
             "--seed" => arguments.seed = number()?,
-            "--count" => arguments.count = number()? as usize,
+            "--count" => arguments.count = Some(number()? as usize),
             "--family" => arguments.families.push(value),
             _ => return Err(format!("{word}: unknown; {usage}")),
         }
@@ -110,15 +110,15 @@ fn write_all(arguments: &Arguments) -> Result<(), String> {
 fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> Result<Tally, Box<dyn Error>> {
     fs::create_dir_all(folder)?;
     let sources = family.sources.join(", ");
-    let Arguments { seed, count, .. } = arguments;
+    let (seed, count) = (arguments.seed, arguments.count.unwrap_or(family.sweep));
     let truth = "truth: exact integers and rationals, without the library (tests/oracle/any_size)";
     fs::write(
         folder.join("README"),
         format!("{}: {}\nsources: {sources}\nseed {seed}, {count} sequences\n{truth}\n", family.name, family.why),
     )?;
     let (mut list, mut tally) = (String::new(), Tally::default());
-    for index in 0..*count {
-        let sequence = family.sequence(*seed, index);
+    for index in 0..count {
+        let sequence = family.sequence(seed, index);
         let stem = format!("c{index}_{}", sequence.name);
         let meshes = [format!("m{}.off", 2 * index), format!("m{}.off", 2 * index + 1)];
         for (name, body) in meshes.iter().zip(&sequence.bodies) {

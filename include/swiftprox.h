@@ -548,7 +548,8 @@ typedef struct swift_scene_query {
   double relative_error;
   /**
    * swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
-   * equal shares, whatever the two errors say. Default: infinity.
+   * equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
+   * Default: infinity.
    */
   double error_budget;
   /**
@@ -560,6 +561,8 @@ typedef struct swift_scene_query {
   int32_t levels;
   /** A swift_refinement: how they go from level to level. Default: the adaptive one. */
   int32_t refinement;
+  /** A swift_start: where marching starts in each pair. Default: the automatic choice. */
+  int32_t start;
 } swift_scene_query;
 
 /** One pair of convex pieces in a query's list. */

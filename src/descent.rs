@@ -42,11 +42,13 @@ pub struct Accuracy {
 }
 
 impl Accuracy {
-    /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known.
+    /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known. A narrow one
+    /// is to be wholly on this side of that: another start would not say otherwise.
     #[inline(always)]
     pub fn is_met_by(&self, lower: f64, upper: f64) -> bool {
         let width = upper - lower;
-        lower > 0.0 && ((width <= self.absolute) | (width <= self.relative * lower) | (lower > self.beyond))
+        let is_narrow = (width <= self.absolute) | (width <= self.relative * lower);
+        lower > 0.0 && ((is_narrow & (upper <= self.beyond)) | (lower > self.beyond))
     }
 }
 

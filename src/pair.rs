@@ -453,7 +453,10 @@ impl Acceptance<'_> {
                 }
                 Query::Intersection => interval.lower > 0.0 && settles(interval, self.config),
                 Query::Distance | Query::Contact => {
-                    self.config.bounds == Bounds::Verdict && interval.lower > 0.0 && interval.upper < f64::INFINITY
+                    self.config.bounds == Bounds::Verdict
+                        && interval.lower > 0.0
+                        && interval.upper < f64::INFINITY
+                        && settles(interval, self.config)
                 }
             }
     }

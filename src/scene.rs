@@ -3,7 +3,8 @@
 //! Queries list their results by object 1, object 2, piece 1, piece 2, objects in order of creation; object 1 is always
 //! the earlier created of the two. What a query answers depends on the objects, their poses and the activation alone:
 //! not on earlier queries, on other objects or on how the objects came to where they are. (Where nearest points are not
-//! unique, any of them may be given.)
+//! unique, any of them may be given, and of an approximate distance any interval that is narrow enough, or as the step budget
+//! leaves it.)
 
 use std::sync::Arc;
 
@@ -11,7 +12,7 @@ use crate::activation::Activation;
 use crate::error::{Error, Result, check_range};
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::object::{Object, ObjectId, ObjectOptions, ObjectTable};
-use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status};
+use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use crate::shape::Shape;
 
 /// How a scene is made.
@@ -42,7 +43,8 @@ pub struct SceneQuery {
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
     /// [`Scene::query_approximate_distance`]: finite, it is what `upper − lower` of all tested pairs together may come to, in
-    /// equal shares, whatever the two errors say. Default: +∞.
+    /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
+    /// Default: +∞.
     pub error_budget: f64,
     /// [`Scene::query_approximate_distance`]: as [`PairConfig::step_budget`], of each pair.
     pub step_budget: u32,
@@ -50,6 +52,8 @@ pub struct SceneQuery {
     pub levels: Levels,
     /// How they go from level to level.
     pub refinement: Refinement,
+    /// Where marching starts in each pair.
+    pub start: Start,
 }
 
 impl Default for SceneQuery {
@@ -64,6 +68,7 @@ impl Default for SceneQuery {
             step_budget: u32::MAX,
             levels: Levels::Automatic,
             refinement: Refinement::Adaptive,
+            start: Start::Automatic,
         }
     }
 }
@@ -503,6 +508,7 @@ impl Scene {
             step_budget: query.step_budget,
             levels: query.levels,
             refinement: query.refinement,
+            start: query.start,
             // The cheapest bounds prove that a pair is disjoint, which need not tell on which side of a tolerance it is.
             bounds: if tolerance < f64::INFINITY { Bounds::Tight } else { query.bounds },
             ..PairConfig::default()

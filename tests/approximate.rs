@@ -12,9 +12,10 @@ use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::random::{Random, rotation};
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
+use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
+use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use swiftprox::verify::verify;
@@ -44,7 +45,9 @@ fn shapes() -> Vec<Shape> {
             // One in three far from its own origin, sizes from a thousandth to a thousand.
             let translation = Vector::new(1e3, -2.0, 7.0) * if i % 3 == 2 { 1.0 } else { 0.0 };
             let scale = [1.0, 1e-3, 1e3][(i + shapes.len()) % 3];
-            let options = ShapeOptions { hierarchy, translation, scale, ..ShapeOptions::default() };
+            let kind = [LookupKind::Automatic, LookupKind::Spherical, LookupKind::Shells][(i + shapes.len() / 4) % 3];
+            let lookup = LookupOptions { kind, ..LookupOptions::DEFAULT };
+            let options = ShapeOptions { hierarchy, lookup, translation, scale, ..ShapeOptions::default() };
             shapes.push(Shape::from_mesh(mesh, &options).unwrap());
         }
     }
@@ -96,7 +99,7 @@ impl Session<'_> {
     }
 
     /// Any setting that approximate queries have.
-    fn any_config(&mut self) -> PairConfig {
+    fn any_config(&mut self, distance: f64) -> PairConfig {
         let random = &mut self.random;
         let size = self.shapes[0].polyhedron().radius + self.shapes[1].polyhedron().radius;
         let error = |random: &mut Random| match random.below(8) {
@@ -106,10 +109,16 @@ impl Session<'_> {
         PairConfig {
             absolute_error: size * error(random),
             relative_error: error(random),
-            distance_tolerance: if random.below(4) == 0 { size * error(random) } else { f64::INFINITY },
+            distance_tolerance: match random.below(8) {
+                0 => size * error(random),
+                1 => distance * (1.0 + random.power(-50, -1) * random.signed()),
+                _ => f64::INFINITY,
+            },
             step_budget: if random.below(8) == 0 { 1 + random.below(12) as u32 } else { u32::MAX },
             levels: random.pick(&[Levels::Automatic, Levels::None, Levels::All, Levels::All]),
             refinement: random.pick(&REFINEMENTS),
+            start: random.pick(&[Start::Automatic, Start::Automatic, Start::Cache, Start::Table, Start::Cold]),
+            bounds: random.pick(&[Bounds::Tight, Bounds::Tight, Bounds::Verdict]),
             ..PairConfig::default()
         }
     }
@@ -119,7 +128,7 @@ impl Session<'_> {
         let exact = self.ask(pair::distance, &mut PairCache::default(), &PairConfig::default());
         self.tally.intersecting += usize::from(exact.outcome == Outcome::Intersecting);
         for k in 0..8 {
-            let config = self.any_config();
+            let config = self.any_config(exact.distance);
             let queries: [Query; 4] = [pair::approximate, pair::distance, pair::intersection, pair::contact];
             let which = if k < 6 { 0 } else { 1 + self.random.below(3) };
             let mut cache = match self.random.below(8) {
@@ -162,11 +171,17 @@ impl Session<'_> {
         let reach = self.poses.iter().map(|pose| pose.translation().amax()).fold(0.0, f64::max);
         let widest = 1e-13 * (self.radius().max(answer.upper) + 2e-3 * reach);
         let asked = config.absolute_error.max(config.relative_error * answer.lower);
-        // An intersection query promises no width.
-        let tolerance = [asked, 0.0, f64::INFINITY, 0.0][which].max(widest);
+        // An intersection query promises no width, nor do the cheapest bounds.
+        let exactly = if config.bounds == Bounds::Verdict { f64::INFINITY } else { 0.0 };
+        let tolerance = [asked, exactly, f64::INFINITY, exactly][which].max(widest);
         let is_answered = answer.outcome == Outcome::Separated && answer.status != Status::BudgetSpent;
         if is_answered && !(answer.upper - answer.lower <= tolerance) {
             return Err("the interval is too wide".into());
+        }
+        // Whatever is asked, a distance tolerance is decided as far as rounding lets it be.
+        let is_open = answer.lower <= config.distance_tolerance && answer.upper > config.distance_tolerance;
+        if is_answered && is_open && config.distance_tolerance < f64::INFINITY && answer.upper - answer.lower > widest {
+            return Err("the interval leaves the distance tolerance open".into());
         }
         let [level1, level2] = answer.statistics.levels.map(usize::from);
         let [most1, most2] = self.shapes.map(|shape| shape.hierarchy().levels.len());

@@ -8,6 +8,8 @@
 mod corners;
 mod regions;
 
+use std::f64::consts::PI;
+
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::triangulation::{Triangulation, next};
 use corners::straighten_edges;
@@ -103,9 +105,11 @@ pub fn merge_faces(
     }
 }
 
-/// Whether a face, which is a disk, is a convex polygon up to rounding: whether it turns left at every corner. A right turn by an
-/// angle of 32u still passes: it leaves the farthest corner no more than 64uρ outside the prolonged side. A side as short as the
-/// bound may lean out of the plane; beyond 60° it has no good direction within the plane.
+/// Whether a face, which is a disk, is a convex polygon up to rounding: whether it turns left at every corner. A right turn by
+/// an angle of 32u still passes: it leaves the farthest corner no more than 64uρ outside the prolonged side. A side as short as
+/// the bound may lean out of the plane; beyond 60° it has no good direction within the plane. Where a side comes back on the
+/// one before, the corner may be a needle's tip or a spike that sticks out of a face: counted as left turns, spikes wind the
+/// sides around the face more than once.
 fn is_convex(surface: &Triangulation, positions: &[Vector], faces: &MergedFaces, face: usize) -> bool {
     const SMALLEST_TURN: f64 = -32.0 * UNIT_ROUNDOFF;
     let normal = &faces.normals[face];
@@ -117,6 +121,7 @@ fn is_convex(surface: &Triangulation, positions: &[Vector], faces: &MergedFaces,
     let first = faces.first_half_edges[face];
     let (mut h, mut previous) = side(first);
     let mut corners = 0;
+    let mut winding = 0.0;
     loop {
         let (after, vector) = side(h);
         let turn = normal.dot(&previous.cross(&vector));
@@ -127,8 +132,9 @@ fn is_convex(surface: &Triangulation, positions: &[Vector], faces: &MergedFaces,
             return false;
         }
         corners += 1;
+        winding += turn.max(0.0).atan2(previous.dot(&vector));
         if h == first {
-            return corners >= 3;
+            return corners >= 3 && winding < 3.0 * PI;
         }
         (h, previous) = (after, vector);
     }

@@ -3,7 +3,7 @@
 use super::scene::{SceneHandle, change, look};
 use super::{StatusCode, Versioned, guard, output, read_enumerator, read_struct};
 use crate::error::Result;
-use crate::pair::{Bounds, Levels, Refinement};
+use crate::pair::{Bounds, Levels, Refinement, Start};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 
 /// What a query over a scene is asked for. Fill it with swift_scene_query_init, then change what should differ.
@@ -25,7 +25,8 @@ pub struct CSceneQuery {
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
     /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
-    /// equal shares, whatever the two errors say. Default: infinity.
+    /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
+    /// Default: infinity.
     pub error_budget: f64,
     /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
@@ -34,6 +35,8 @@ pub struct CSceneQuery {
     pub levels: i32,
     /// A swift_refinement: how they go from level to level. Default: the adaptive one.
     pub refinement: i32,
+    /// A swift_start: where marching starts in each pair. Default: the automatic choice.
+    pub start: i32,
 }
 
 // SAFETY: repr(C), struct_size first.
@@ -54,6 +57,7 @@ impl CSceneQuery {
         step_budget: u32::MAX,
         levels: Levels::Automatic as i32,
         refinement: Refinement::Adaptive as i32,
+        start: Start::Automatic as i32,
     };
 }
 
@@ -186,6 +190,12 @@ unsafe fn ask(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     let mut found = CSceneAnswer::EMPTY;
+    // Before the scene does anything.
+    // SAFETY: by the caller.
+    let refused = guard(|| unsafe { output(answer, "answer", found) });
+    if refused != StatusCode::Ok {
+        return refused;
+    }
     // SAFETY: by the caller.
     let status = unsafe {
         change(scene, |scene| {
@@ -200,6 +210,7 @@ unsafe fn ask(
                 step_budget: query.step_budget,
                 levels: read_enumerator(query.levels, "query->levels", "swift_levels")?,
                 refinement: read_enumerator(query.refinement, "query->refinement", "swift_refinement")?,
+                start: read_enumerator(query.start, "query->start", "swift_start")?,
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {

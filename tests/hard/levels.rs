@@ -4,7 +4,7 @@
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::Pose;
 use swiftprox::pair::{
-    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Status, approximate, contact, distance,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status, approximate, contact, distance,
     intersection,
 };
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -21,6 +21,8 @@ const KINDS: [HierarchyKind; 3] = [HierarchyKind::Quadric, HierarchyKind::Dobkin
 
 const REFINEMENTS: [Refinement; 4] =
     [Refinement::Adaptive, Refinement::Single, Refinement::SingleSingle, Refinement::DoubleDouble];
+
+const STARTS: [Start; 5] = [Start::Automatic, Start::Automatic, Start::Cache, Start::Table, Start::Cold];
 
 const QUERIES: [(&str, Query); 6] = [
     ("approximate distance", approximate),
@@ -70,6 +72,7 @@ pub fn check(flight: &mut Flight) -> usize {
             };
             let complaint =
                 judge(&exact, &answer, &config, asked).or_else(|| not_verified([&first, &second], placed, &answer));
+            let complaint = complaint.or_else(|| beyond_bounds([&first, &second], &answer));
             if let Some(what) = complaint {
                 flight
                     .violated(number, format!("{name}: {what}: {answer:?}\nexactly {exact:?}\n{config:?} {before:?}"));
@@ -89,6 +92,7 @@ fn any_config(random: &mut Random, size: f64) -> PairConfig {
         step_budget: if random.below(6) == 0 { 1 + random.below(12) as u32 } else { u32::MAX },
         levels: [Levels::Automatic, Levels::None, Levels::All, Levels::All][random.below(4)],
         refinement: REFINEMENTS[random.below(4)],
+        start: STARTS[random.below(5)],
         ..PairConfig::default()
     }
 }
@@ -116,6 +120,19 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
     }
     let is_wide = answer.outcome == Outcome::Separated && !is_spent && !(answer.upper - answer.lower <= asked);
     contradiction(exact, answer).or_else(|| is_wide.then(|| format!("wider than {asked:e}")))
+}
+
+/// At every pair of levels 64 steps and one for each vertex of the larger one, there are at most as many pairs as levels of both, and
+/// at the bodies themselves what every query may take (`properties::check_work`).
+fn beyond_bounds(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
+    let larger = |vertices: [usize; 2]| vertices[0].max(vertices[1]) as u32;
+    let finest =
+        shapes.map(|shape| shape.hierarchy().levels.first().map_or(0, |level| level.polyhedron.vertices.len()));
+    let pairs: usize = shapes.iter().map(|shape| shape.hierarchy().levels.len()).sum();
+    let body = larger(shapes.map(|shape| shape.polyhedron().vertices.len()));
+    let most = 81 + body + pairs as u32 * (64 + larger(finest).max(body));
+    let steps = answer.statistics.marching_steps;
+    (steps > most).then(|| format!("{steps} steps, at most {most} were to be made"))
 }
 
 fn not_verified(shapes: [&Shape; 2], poses: &[Pose; 2], answer: &PairAnswer) -> Option<String> {

@@ -1,8 +1,9 @@
 //! The catalogue of hard families (`benches/common/hard`) against everything that answers promise: the truth, computed in
 //! integers without the library; the independence of warm starts and of levels of detail; the independence of how a pair is told.
 //!
-//! `HARD_SEED` and `HARD_COUNT` (sequences a family) make longer runs, `HARD_FAMILY` runs one family alone. The counts of every
-//! family, how its queries ended and in how many steps, are printed: `cargo test --profile checked --test hard -- --nocapture`.
+//! `HARD_SEED` and `HARD_COUNT` (sequences a family, each family's sweep of its parameters otherwise) make other runs,
+//! `HARD_FAMILY` runs one family alone. The counts of every family, how its queries ended and in how many steps, are printed:
+//! `cargo test --profile checked --test hard -- --nocapture`.
 
 #[path = "../million/bodies.rs"]
 #[allow(dead_code)] // what it draws itself
@@ -35,9 +36,6 @@ use swiftprox::pair::{Outcome, PairAnswer, PairCache};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
 use truth::ExactPair;
-
-/// Sequences of each family in an ordinary run.
-const COUNT: usize = 6;
 
 /// What a test does not like, and how to repeat it.
 struct Violation {
@@ -78,23 +76,21 @@ fn setting(name: &str, default: u64) -> u64 {
     std::env::var(name).map_or(default, |text| text.parse().unwrap_or_else(|_| panic!("{name}={text}: not a number")))
 }
 
-/// Runs a test over `share` of the sequences of every family, on two threads, and fails with what it found.
-fn over_all_families(test: &str, share: f64, run: impl Fn(&mut Flight) + Sync) -> Vec<(&'static str, Tally)> {
+/// Runs a test over the sequences of every family, on two threads, and fails with what it found.
+fn over_all_families(test: &str, run: impl Fn(&mut Flight) + Sync) -> Vec<(&'static str, Tally)> {
     let seed = setting("HARD_SEED", 1);
-    let count = (setting("HARD_COUNT", COUNT as u64) as f64 * share).ceil() as usize;
     let only = std::env::var("HARD_FAMILY").ok();
     let wanted: Vec<&Family> =
         families().filter(|family| only.as_ref().is_none_or(|name| name == family.name)).collect();
     assert!(!wanted.is_empty(), "HARD_FAMILY: no such family");
+    let count = |family: &Family| setting("HARD_COUNT", family.sweep as u64) as usize;
+    let jobs: Vec<(usize, usize)> =
+        (0..wanted.len()).flat_map(|which| (0..count(wanted[which])).map(move |index| (which, index))).collect();
     let results = Mutex::new((vec![Tally::default(); wanted.len()], Vec::new()));
     let next = AtomicUsize::new(0);
     let work = || {
         loop {
-            let job = next.fetch_add(1, Ordering::Relaxed);
-            if job >= wanted.len() * count {
-                return;
-            }
-            let (which, index) = (job % wanted.len(), job / wanted.len());
+            let Some(&(which, index)) = jobs.get(next.fetch_add(1, Ordering::Relaxed)) else { return };
             let sequence = wanted[which].sequence(seed, index);
             let [first, second] = shapes(&sequence).expect("bodies that the library admits");
             let mut flight = Flight {
@@ -126,7 +122,7 @@ fn over_all_families(test: &str, share: f64, run: impl Fn(&mut Flight) + Sync) -
 
 #[test]
 fn answers_are_the_truth() {
-    let tallies = over_all_families("answers are the truth", 1.0, |flight| {
+    let tallies = over_all_families("answers are the truth", |flight| {
         let exact = ExactPair::of(flight.sequence);
         let mut complaints = Vec::new();
         let (sequence, shapes) = (flight.sequence, flight.shapes);
@@ -155,18 +151,18 @@ fn answers_are_the_truth() {
 
 #[test]
 fn answers_do_not_depend_on_history() {
-    over_all_families("history", 0.5, history::check);
+    over_all_families("history", history::check);
 }
 
 #[test]
 fn answers_do_not_depend_on_the_telling() {
-    over_all_families("telling", 0.5, retelling::check);
+    over_all_families("telling", retelling::check);
 }
 
 #[test]
 fn levels_of_detail_change_no_verdict() {
     let from_levels = AtomicUsize::new(0);
-    over_all_families("levels", 0.5, |flight| {
+    over_all_families("levels", |flight| {
         from_levels.fetch_add(levels::check(flight), Ordering::Relaxed);
     });
     println!("{} answers from levels", from_levels.load(Ordering::Relaxed));
@@ -176,7 +172,7 @@ fn levels_of_detail_change_no_verdict() {
 /// Everything that the million queries of `tests/million` are held against: tight intervals, witness points, normals, features.
 #[test]
 fn answers_keep_every_promise() {
-    over_all_families("promises", 0.5, |flight| {
+    over_all_families("promises", |flight| {
         let bodies = flight.sequence.bodies.each_ref().map(|body| bodies::Body::from_points(body.vertices.clone()));
         let mut session = Session::new(flight.seed_of(0x7000));
         for (number, pair) in flight.sequence.poses.iter().enumerate() {
@@ -219,7 +215,11 @@ fn the_catalogue_is_in_order() {
     assert_eq!(names.len(), families().count(), "two families of one name");
     for family in families() {
         let is_word = |text: &str| text.chars().all(|c| c.is_ascii_alphanumeric() || "_.-".contains(c));
-        assert!(is_word(family.name) && !family.why.is_empty() && !family.sources.is_empty(), "{}", family.name);
+        assert!(
+            is_word(family.name) && family.sweep > 0 && !family.why.is_empty() && !family.sources.is_empty(),
+            "{}",
+            family.name
+        );
         let [one, again, other] = [(5, 1), (5, 1), (6, 1)].map(|(seed, index)| family.sequence(seed, index));
         assert!(is_word(&one.name), "{}: {}", family.name, one.name);
         assert_eq!((&one.poses, &one.bodies), (&again.poses, &again.bodies), "{} is not reproducible", family.name);

@@ -142,6 +142,21 @@ fn caps_flatter_than_rounding() {
     }
 }
 
+/// A face 10¹³ across takes a sliver beside it in, but for a side that sticks out of it. Found by fuzzing: the sides of the spike
+/// left nothing inside the face.
+#[test]
+fn no_face_has_a_spike() {
+    hull(&[
+        Vector::new(25.0, 25.0, 25.0),
+        Vector::new(25.0, 1.4210854715202004e-12, 0.0),
+        Vector::new(5.684341886080802e-14, 0.0, 5.684341886080802e-14),
+        Vector::new(0.0, 5.684341886080802e-14, 0.0),
+        Vector::zeros(),
+        Vector::new(68719476736.0, 0.00390625, 2.220446049250313e-16),
+        Vector::new(5.684341886080802e-14, 17592186044416.0, 1.0),
+    ]);
+}
+
 #[test]
 fn flat_bodies_have_two_faces() {
     let mut random = Random::new(5);

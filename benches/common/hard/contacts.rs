@@ -13,6 +13,7 @@ use super::{Family, Sequence};
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "parallel_faces",
+        sweep: 8,
         why: "two faces exactly parallel at gaps of 1e-3 to 1e-15 and touching: every point of a patch is nearest, simplices \
               collapse to slivers and the support switches from corner to corner without progress",
         sources: &[
@@ -25,6 +26,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "stacked_boxes",
+        sweep: 6,
         why: "identical boxes stacked on shared coordinates: faces, edges and corners coincide exactly and all supports tie",
         sources: &[
             "https://github.com/danfis/libccd/issues/25",
@@ -36,6 +38,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "vertex_contact",
+        sweep: 6,
         why: "a vertex exactly on a face, an edge or a vertex, or 2^-k off: the nearest feature is not unique and signs of \
               barycentric coordinates are zero",
         sources: &[
@@ -48,6 +51,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "edge_edge",
+        sweep: 6,
         why: "two edges that cross at an angle of 1e-1 to 1e-15, parallel or on one line: the cross product that gives the normal \
               loses all its digits",
         sources: &[
@@ -59,6 +63,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "conforming",
+        sweep: 8,
         why: "cylinders along a ruling, cap on cap, a cylinder on a face: the nearest points are segments or discs that are cut into \
               many small features",
         sources: &[
@@ -71,6 +76,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "grazing",
+        sweep: 8,
         why: "hulls brought to a gap of 1e-3 to 1e-15 or as deep: GJK cannot tell near from touching, EPA starts on a flat simplex",
         sources: &[
             "https://github.com/flexible-collision-library/fcl/issues/366",
@@ -82,6 +88,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "symmetric",
+        sweep: 25,
         why: "regular solids face-on, edge-on and vertex-on along a common axis: supports tie in all directions, and the line of the \
               centres is the answer",
         sources: &[
@@ -92,6 +99,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "integer",
+        sweep: 6,
         why: "random polytopes with small integer vertices at integer offsets: exact ties and exact touching everywhere",
         sources: &[
             "https://github.com/MattiaMontanari/openGJK/issues/13",

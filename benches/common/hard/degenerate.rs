@@ -11,6 +11,7 @@ use super::{Family, Sequence};
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "needles_plates",
+        sweep: 15,
         why: "aspect ratios of 1e2 to 1e6: simplices are slivers, a small turn changes the nearest feature",
         sources: &[
             "https://github.com/jrouwe/JoltPhysics/issues/2065",
@@ -22,6 +23,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "stretched",
+        sweep: 10,
         why: "up to 1e14 times as long as wide: what was flat is crumpled by the rounding of its length, sides are short beside \
               their faces, and the sides of a needle's tip are parallel up to rounding",
         sources: &[
@@ -32,6 +34,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "slivers",
+        sweep: 12,
         why: "tetrahedra with a height of 1e-6 to 1e-14, points within rounding of a face: normals of faces lose their digits",
         sources: &[
             "https://github.com/flexible-collision-library/fcl/issues/395",
@@ -43,6 +46,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "dihedrals",
+        sweep: 20,
         why: "neighbouring faces that meet at 180° less 1e-8 to 1e-12, or at as little: Voronoi regions of edges are thinner than \
               rounding, and a walk crosses them without noticing",
         sources: &[
@@ -54,12 +58,14 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "coincident",
+        sweep: 6,
         why: "the same object in the same pose, or a hair away: the first direction of a search is zero",
         sources: &["https://github.com/danfis/libccd/issues/68", "https://github.com/bulletphysics/bullet3/issues/889"],
         make: coincident,
     },
     Family {
         name: "containment",
+        sweep: 14,
         why: "one object deep inside the other, concentric or not: all directions nearly tie",
         sources: &[
             "https://github.com/flexible-collision-library/fcl/issues/545",
@@ -69,6 +75,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "depth_ties",
+        sweep: 14,
         why: "several directions of least depth tie exactly: cube centred in cube, prisms, regular solids",
         sources: &[
             "https://github.com/flexible-collision-library/fcl/issues/545",

@@ -23,6 +23,8 @@ use super::random::Random;
 /// A kind of difficulty.
 pub struct Family {
     pub name: &'static str,
+    /// So many sequences take it once through its parameters, or through enough of what is random.
+    pub sweep: usize,
     /// Why it is hard.
     pub why: &'static str,
     /// Where it was seen to fail, or who described it.
@@ -41,7 +43,7 @@ pub struct Sequence {
 }
 
 impl Family {
-    /// The sequence of an index: the first few sweep the parameters, all differ in what is random.
+    /// The sequence of an index: the first [`Family::sweep`] go through the parameters, all differ in what is random.
     pub fn sequence(&self, seed: u64, index: usize) -> Sequence {
         let name_bits = self.name.bytes().fold(seed, |bits, byte| bits.rotate_left(7) ^ u64::from(byte));
         let mut random = Random::new(name_bits.wrapping_mul(0x9e37_79b9_7f4a_7c15) ^ (index as u64) << 32);

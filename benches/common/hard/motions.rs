@@ -13,6 +13,7 @@ use super::{Family, Sequence};
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "teleport",
+        sweep: 8,
         why: "consecutive poses far apart: jumps to the far side, half turns, through each other; a warm start is as wrong as it can \
               be",
         sources: &[
@@ -23,6 +24,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "straight_through",
+        sweep: 6,
         why: "one object flies straight through the other: the separating direction turns over within a step, and on an axis of \
               symmetry it is nowhere defined inside",
         sources: &[
@@ -34,6 +36,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "sliding",
+        sweep: 8,
         why: "contact kept while faces slide over each other or a box rolls over its edge: touching at every step, features change by \
               ties",
         sources: &[
@@ -45,6 +48,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "creeping",
+        sweep: 6,
         why: "steps of a unit in the last place through contact and back: the verdict turns over between neighbouring doubles, and \
               what the last query proved holds no more by a rounding",
         sources: &[
@@ -56,6 +60,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "voronoi_trap",
+        sweep: 6,
         why: "a small object jumps across a plate or sits behind a face: a vertex below a face's plane, yet inside all its Voronoi \
               planes, is the local minimum of walks over features",
         sources: &[
@@ -67,6 +72,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "big_spheres",
+        sweep: 3,
         why: "10,000-vertex spheres nearly touching: thousands of nearly coplanar small faces, many tiny steps",
         sources: &[
             "https://github.com/coal-library/coal/issues/318",

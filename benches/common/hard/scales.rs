@@ -12,6 +12,7 @@ use super::{Family, Sequence};
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "size_ratio",
+        sweep: 12,
         why: "one object 1e-6 to 1e6 times as large as the other: absolute tolerances, and differences of large supports",
         sources: &[
             "https://github.com/danfis/libccd/issues/17",
@@ -23,6 +24,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "far_origin",
+        sweep: 7,
         why: "both objects 1e3 to 1e9 from the world's origin, or one of them: world coordinates lose the digits that the gap needs",
         sources: &[
             "https://github.com/MattiaMontanari/openGJK/issues/52",
@@ -33,6 +35,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "far_local_origin",
+        sweep: 14,
         why: "vertices 1e3 to 1e9 from their own origin, which the pose brings back: every digit of R·v + T cancels",
         sources: &[
             "https://github.com/MattiaMontanari/openGJK/issues/52",
@@ -42,6 +45,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "scales",
+        sweep: 10,
         why: "everything tiny, down to 1e-9, or huge, up to 1e9: absolute epsilons decide the verdict",
         sources: &[
             "https://github.com/bulletphysics/bullet3/issues/2579",
@@ -53,6 +57,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "not_orthonormal",
+        sweep: 20,
         why: "rotation matrices off by 1e-12 to 1e-4, scaled, drifted or rounded: the transpose is not the inverse, and queries in \
               either local frame disagree",
         sources: &[
@@ -63,6 +68,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "combined",
+        sweep: 12,
         why: "thin, far away, of different size and with matrices that drifted, all at once: bounds that hold one by one have to \
               hold together",
         sources: &[

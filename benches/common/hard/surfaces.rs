@@ -14,6 +14,7 @@ use super::{Family, Sequence};
 pub const FAMILIES: &[Family] = &[
     Family {
         name: "coplanar_faces",
+        sweep: 8,
         why: "flat faces cut into many triangles, vertices inside faces and edges: local walks see plateaus, every vertex of a face \
               ties",
         sources: &[
@@ -25,6 +26,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "caps_and_fans",
+        sweep: 12,
         why: "caps with 100 corners and more, vertices with 100 neighbours and more: support maps with tables of neighbours refuse \
               them, walks look at every neighbour, and a rim turned a little passes through all of them",
         sources: &[
@@ -36,6 +38,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "extra_vertices",
+        sweep: 15,
         why: "vertices that a hull should clean: duplicates, inside the hull, on edges, on faces, within 1e-15 of another or of a \
               face",
         sources: &[
@@ -47,6 +50,7 @@ pub const FAMILIES: &[Family] = &[
     },
     Family {
         name: "flat",
+        sweep: 50,
         why: "bodies without interior, points, segments, polygons: no normal, no simplex of full dimension; a library may refuse \
               them, but must not hang or lie",
         sources: &[

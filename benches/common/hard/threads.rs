@@ -13,6 +13,7 @@ use swiftprox::mesh::PolygonMesh;
 
 pub const FAMILIES: &[Family] = &[Family {
     name: "threads",
+    sweep: 25,
     why: "what users of other libraries reported, with the numbers given there, and the same a hair away",
     sources: &["one thread a case, its address in threads.txt"],
     make: threads,
