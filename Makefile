@@ -91,7 +91,7 @@ asan:
 tsan:
 	@scripts/require.sh $(CC_PACKAGES)
 	RUSTFLAGS=-Zsanitizer=thread scripts/nightly.sh rust-src test --locked --profile checked -Zbuild-std --target $(HOST) \
-	    --lib --test c_interface --test threads
+	    --lib --test c_interface --test threads --test lookup
 
 miri:
 	@scripts/require.sh $(CC_PACKAGES)

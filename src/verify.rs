@@ -1,5 +1,5 @@
-//! The independent check of an answer, in O(n), trusting nothing of the solver: supports by brute force over all vertices, the
-//! witness points against all faces, an intersection's proof in integers.
+//! The independent check of an answer, trusting nothing of the solver that made it: supports by brute force over all vertices, the
+//! witness points against all faces, an intersection's proof in integers, and so a gap that rounding hides.
 
 mod witness;
 
@@ -17,7 +17,9 @@ use witness::Witness;
 /// vertex differences hold the origin in their hull, exactly. Where witness points are said they lie in both bodies, world and
 /// local ones are the same, and their features are those of the bodies. Those of a separated answer lie on their features, at a
 /// distance in [`lower`, `upper`]; those of a contact are one point. All but the proof is checked in double precision, which can
-/// see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins.
+/// see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins. Where that hides whether there is a gap
+/// at all, verdict and interval are held against the exact tier, asked afresh. Otherwise it takes time in proportion to the
+/// vertices.
 ///
 /// # Errors
 /// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an
@@ -62,6 +64,13 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     // All that can be said of an upper end without witness points.
     if !(gap <= upper + allowed) {
         return Err(unverified(format!("along the normal the bodies are {gap:e} apart, more than {upper:e}")));
+    }
+    if !(gap > allowed) {
+        let truth = exact::solve(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+        if truth.intersecting || lower > truth.upper || upper < truth.lower {
+            let exact::ExactAnswer { lower, upper, .. } = truth;
+            return Err(unverified(format!("their distance is in [{lower:e}, {upper:e}]")));
+        }
     }
     if answer.proof_count != 0 {
         return Err(unverified("a proof of intersection of objects that are separated".into()));

@@ -1,14 +1,18 @@
 //! What threads may do at once: const calls on one scene, pair queries on shapes that all share, scenes of their own. Under the
 //! thread sanitizer (`make tsan`) a race is an error; `c_tests/threads.c` is the same through C, for helgrind.
 
+#[path = "../benches/common/mod.rs"]
+mod common;
 mod shapes;
 
 use std::sync::{Arc, Barrier};
 
+use common::models::ellipsoid;
 use shapes::{at, cuboid};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{PairAnswer, PairCache, PairConfig, contact};
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
 const THREADS: usize = 4;
@@ -16,7 +20,11 @@ const ROUNDS: usize = 20;
 
 #[test]
 fn threads_share_shapes_and_a_scene() {
-    let shapes = [[0.5; 3], [0.5, 1.0, 0.25], [0.125, 0.5, 0.5]].map(|half| Arc::new(cuboid(half)));
+    let boxes = [[0.5; 3], [0.5, 1.0, 0.25]].map(cuboid);
+    // The first thread that looks into the table of this one makes it.
+    let round = Shape::from_mesh(&ellipsoid([0.5, 0.4, 0.3], 200).unwrap(), &ShapeOptions::default()).unwrap();
+    let [first, second] = boxes;
+    let shapes = [first, second, round].map(Arc::new);
     let mut shared = Scene::new(&SceneOptions::default()).unwrap();
     let ids: Vec<_> = (0..)
         .zip(&shapes)

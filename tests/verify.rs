@@ -5,7 +5,7 @@ mod random;
 mod shapes;
 
 use random::Random;
-use shapes::{at, hull};
+use shapes::{at, cuboid, hull};
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{self, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
@@ -222,4 +222,24 @@ fn what_doubles_cannot_check_is_said() {
     assert!(
         matches!(verify(&line, &pose1, &cube, &pose2, &answer), Err(Error::Argument(m)) if m.contains("too large"))
     );
+}
+
+/// Doubles cannot tell a touch from a gap of 1e-17.
+#[test]
+fn bodies_that_touch_are_not_said_to_be_apart() {
+    let cube = cuboid([0.5; 3]);
+    let here = at(0.0, 0.0, 0.0);
+    let apart = distance(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here);
+    assert_eq!(apart.outcome, Outcome::Separated);
+    verify(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here, &apart).unwrap();
+    let touching = at(1.0, 0.0, 0.0);
+    let mut forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-15, ..apart };
+    (forged.local1, forged.world1) = ([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
+    (forged.local2, forged.world2) = ([0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
+    let refused = verify(&cube, &touching, &cube, &here, &forged);
+    assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
+    // Nor is a true gap said to be another one.
+    let forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-16, ..apart };
+    let refused = verify(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here, &forged);
+    assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
 }

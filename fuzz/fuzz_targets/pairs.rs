@@ -9,7 +9,9 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
-use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, distance};
+use swiftprox::pair::{
+    Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, distance,
+};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
 use swiftprox_fuzz::bodies::Body;
@@ -84,6 +86,7 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
     assert!(session.violations.is_empty(), "see above");
     let Some(cold) = cold else { return Ok(()) };
     check_tolerance(u, placed, session.own, &cold)?;
+    check_levels(u, placed, session.own, &cold)?;
     if placed.bodies.iter().all(|body| body.points.len() <= FEW_POINTS) {
         check_truth(placed, &cold);
     }
@@ -144,6 +147,33 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     match verify(&body1.shape, pose1, &body2.shape, pose2, &answer) {
         Ok(()) | Err(Error::Argument(_)) => {}
         Err(error) => panic!("{error}: {answer:?}"),
+    }
+    Ok(())
+}
+
+/// Through whatever levels the bodies have, to within any error, from where any start says: the verdict of the exact query and a
+/// number in common with its interval.
+fn check_levels(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, cold: &PairAnswer) -> Result<()> {
+    let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
+    let mut last = cold.distance;
+    let config = PairConfig {
+        absolute_error: any_number(u, &mut last)?.abs(),
+        relative_error: *u.choose(&[0.0, 1e-9, 0.1, 10.0])?,
+        levels: Levels::All,
+        start: *u.choose(&[Start::Automatic, Start::Cache, Start::Table, Start::Cold])?,
+        refinement: *u.choose(&[Refinement::Adaptive, Refinement::Single, Refinement::DoubleDouble])?,
+        ..PairConfig::default()
+    };
+    if config.absolute_error.is_nan() {
+        return Ok(());
+    }
+    let mut answer = PairAnswer::default();
+    approximate(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer).expect("accepted poses");
+    let same = (answer.outcome == Outcome::Intersecting) == (cold.outcome == Outcome::Intersecting);
+    assert!(same && answer.lower <= cold.upper && cold.lower <= answer.upper, "{config:?} {answer:?}\n{cold:?}");
+    match verify(&body1.shape, pose1, &body2.shape, pose2, &answer) {
+        Ok(()) | Err(Error::Argument(_)) => {}
+        Err(error) => panic!("{error}: {config:?} {answer:?}"),
     }
     Ok(())
 }

@@ -119,9 +119,10 @@ pub unsafe extern "C" fn swift_pair_approximate(
     unsafe { query(pair::approximate, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// Re-checks an answer in time linear in the number of vertices, trusting nothing of the solver: a separated one by its normal
-/// and its witness points, an intersecting one by the exact position of the origin in its vertex pairs, and of both all points
-/// and features that are said. SWIFT_OK: it holds for these shapes and poses.
+/// Re-checks an answer, trusting nothing of the search that found it: a separated one by its normal and its witness points, an
+/// intersecting one by the exact position of the origin in its vertex pairs, and of both all points and features that are said.
+/// SWIFT_OK: it holds for these shapes and poses. Takes time linear in the number of vertices; where rounding hides whether there
+/// is a gap along the normal, the pair is decided afresh in integers.
 ///
 /// SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
 /// unknown, or the objects are separated and so large or far apart that doubles cannot tell. SWIFT_ERROR_POSE,

@@ -12,8 +12,9 @@ use crate::common::hard::flight::poses;
 use crate::retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly};
 use crate::{Flight, ask, contradiction};
 
-/// Tells every pose of a flight in other ways.
-pub fn check(flight: &mut Flight) {
+/// Tells every pose of a flight in other ways. How many of them could be moved without rounding.
+pub fn check(flight: &mut Flight) -> usize {
+    let mut shifted = 0;
     let mut random = flight.random(0x9000);
     let (shapes, bodies) = (flight.shapes, &flight.sequence.bodies);
     let [other1, other2] = bodies.each_ref().map(|body| shape(&renumbered(body, &mut random)));
@@ -39,6 +40,7 @@ pub fn check(flight: &mut Flight) {
         let step = exact_step(placed, &mut random);
         if let [Some(moved1), Some(moved2)] = [pose1, pose2].map(|pose| shifted_exactly(pose, &step)) {
             compare("a translation", shapes, [&moved1, &moved2]);
+            shifted += 1;
         }
         // Any other motion, which rounds.
         let turn = random.rotation();
@@ -53,6 +55,7 @@ pub fn check(flight: &mut Flight) {
             flight.violated(number, format!("a motion changes more than {band:e}: {answer:?}\nto {other:?}"));
         }
     }
+    shifted
 }
 
 fn points(bodies: &[PolygonMesh; 2]) -> [&[Vector]; 2] {
