@@ -77,7 +77,7 @@ fuzz:
 
 # What needs nightly Rust, or a component of it, is skipped where that is missing; scripts/nightly.sh says so. The tests are those
 # of unsafe code and of everything that reads what others wrote; C programs are compiled for both sanitizers, the library is not.
-ASAN_TESTS = --lib --test c_interface --test mesh_io --test hull --test hull_check --test verify --test flat_edges
+ASAN_TESTS = --lib --test c_interface --test mesh_io --test shape_file --test hull --test hull_check --test verify --test flat_edges
 HOST = $(shell rustc -vV | sed -n 's/^host: //p')
 asan:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake

@@ -205,6 +205,8 @@ class Judge:
         """Holds the interval of this library against the truth as scripts/cases.py does."""
         row = cases.Row()
         distance, lower, upper = (Decimal(float(word)) for word in words[1:4])
+        if any(number.is_nan() for number in (distance, lower, upper)):
+            return "nan"
         cases.judge_pose(row, [distance] + ["nan"] * 10 + [lower, upper, ""], self.truths[i], self.poses[i], None,
                          lambda what: print("%s pose %d: %s" % (self.name, i + 1, what), file=sys.stderr))
         return next((fault for fault in ("wrong", "missed") if row.counts[fault]), None)
@@ -327,6 +329,8 @@ def main():
     write_counts(arguments.csv, rows, methods)
     write_costs(arguments.cost, rows)
     print_table(rows, methods)
+    if any(row.counts[failure] for (_, name), row in rows.items() for failure in FAILURES if name == "swiftprox"):
+        sys.exit("this library failed")
 
 
 if __name__ == "__main__":

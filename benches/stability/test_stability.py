@@ -5,8 +5,11 @@ A runner that fails in every way there is gets every failure counted; the runner
 without any; and the committed chart and page are what the committed CSV files say.
 """
 import contextlib
+import csv
+import glob
 import io
 import os
+import re
 import subprocess
 import sys
 import tempfile
@@ -104,6 +107,7 @@ class Families(unittest.TestCase):
         with contextlib.redirect_stderr(io.StringIO()) as complaint:
             self.assertEqual(self.counts(missed, own=True)[0], {"missed": 1})
         self.assertIn("apart c0 pose 4: missed", complaint.getvalue())
+        self.assertEqual(self.counts({**own, "2": "separated 2 2 nan 1 0 0 100"}, own=True)[0], {"wrong": 1, "nan": 1})
 
     def test_the_runners_that_are_built_answer_easy_poses(self):
         methods = [method for method in stability.all_methods(BUILD, "", "") if os.path.exists(method.command[0])]
@@ -113,12 +117,12 @@ class Families(unittest.TestCase):
             counts = {name: number for name, number in row.counts.items() if number}
             self.assertEqual(counts, {"poses": 4 if key[0] == "apart" else 2}, key)
         self.assertEqual(len(rows["apart", "swiftprox"].costs), 4)
-        csv, cost = (os.path.join(self.folder.name, name) for name in ("counts.csv", "cost.csv"))
-        stability.write_counts(csv, rows, methods)
+        counts_csv, cost = (os.path.join(self.folder.name, name) for name in ("counts.csv", "cost.csv"))
+        stability.write_counts(counts_csv, rows, methods)
         stability.write_costs(cost, rows)
         svg, page = os.path.join(self.folder.name, "chart.svg"), os.path.join(self.folder.name, "page.md")
         self.write("page.md", "<!-- table: totals -->\n<!-- end -->\n<!-- table: cost -->\n<!-- end -->\n")
-        chart = [sys.executable, os.path.join(HERE, "chart.py"), csv, cost, svg, page]
+        chart = [sys.executable, os.path.join(HERE, "chart.py"), counts_csv, cost, svg, page]
         subprocess.run(chart, check=True, stdout=subprocess.DEVNULL)
         subprocess.run(chart + ["--check"], check=True)
         with open(page) as file:
@@ -128,6 +132,16 @@ class Families(unittest.TestCase):
         made = [os.path.join(ROOT, *path.split("/")) for path in
                 ("benches/results/stability.csv", "benches/results/stability-cost.csv", "docs/charts/failures.svg", "docs/stability.md")]
         subprocess.run([sys.executable, os.path.join(HERE, "chart.py"), *made, "--check"], check=True)
+
+    def test_the_committed_counts_are_of_all_families_and_this_library_failed_in_none(self):
+        sources = glob.glob(os.path.join(ROOT, "benches", "common", "hard", "*.rs"))
+        families = {name for path in sources for name in re.findall(r'^ *name: "(\w+)",$', open(path).read(), re.M)}
+        with open(os.path.join(ROOT, "benches", "results", "stability.csv")) as file:
+            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
+        ours = [row for row in rows if row["method"] == "swiftprox"]
+        self.assertEqual({row["family"] for row in ours}, families)
+        for row in ours:
+            self.assertEqual([row[failure] for failure in stability.FAILURES], ["0"] * len(stability.FAILURES), row["family"])
 
 
 if __name__ == "__main__":
