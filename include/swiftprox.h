@@ -278,7 +278,7 @@ typedef struct swift_shape_options {
   double scale;
   /**
    * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-   * which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+   * which means 1e-9, and 1e-6 for meshes that went through single precision (STL).
    */
   double convexity_tolerance;
   /** A swift_hierarchy: how levels of detail are made. Default: automatic. */
@@ -711,7 +711,8 @@ swift_status swift_shape_create_from_points(const double *points,
 
 /**
  * Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
- * system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file.
+ * system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file,
+ * of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults.

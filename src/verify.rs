@@ -16,10 +16,10 @@ use witness::Witness;
 /// Separated: along the normal the bodies are at least `lower` apart, by supports over all vertices. Intersecting: the proof's
 /// vertex differences hold the origin in their hull, exactly. Where witness points are said they lie in both bodies, world and
 /// local ones are the same, and their features are those of the bodies. Those of a separated answer lie on their features, at a
-/// distance in [`lower`, `upper`]; those of a contact are one point. All but the proof is checked in double precision, which can
-/// see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins. Where that hides whether there is a gap
-/// at all, verdict and interval are held against the exact tier, asked afresh. Otherwise it takes time in proportion to the
-/// vertices.
+/// distance in [`lower`, `upper`]; those of a contact are one point. All but the proof is checked in double precision, which
+/// can see a miss of more than about 64u·(ρ₁ + ρ₂ + |Δ|), Δ the distance of the bodies' origins. Where that hides whether there
+/// is a gap at all, verdict and interval are held against the exact tier, asked afresh. Otherwise it takes time in proportion
+/// to the vertices.
 ///
 /// # Errors
 /// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an

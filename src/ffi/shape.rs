@@ -121,7 +121,8 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 }
 
 /// Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
-/// system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file.
+/// system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file,
+/// of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults.

@@ -31,7 +31,7 @@ pub struct CShapeOptions {
     /// See rotation; positive. Default: 1.
     pub scale: f64,
     /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-    /// which means 1e-9, and 1e-6 for meshes that went through single precision (binary STL).
+    /// which means 1e-9, and 1e-6 for meshes that went through single precision (STL).
     pub convexity_tolerance: f64,
     /// A swift_hierarchy: how levels of detail are made. Default: automatic.
     pub hierarchy: i32,
