@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Holds swiftprox-query against exact truth: every verdict, every interval, in exact decimals and without any tolerance.
 
-  cases.py TOOL DIR [--query contact|distance|intersection] [--bounds tight|verdict] [--answers OUT] [--timeout SECONDS]
+  cases.py TOOL DIR [--query contact|distance|intersection|approximate] [--bounds tight|verdict] [--error E] [--levels ...]
+           [--start ...] [--answers OUT] [--timeout SECONDS]
 
 DIR holds folders of one of two forms; both may occur:
 
@@ -21,7 +22,8 @@ The tool runs with --input hull. What is counted, a family a row:
   wide    disjoint pairs with upper - lower above the promise: 2e-14 max(r1 + r2, distance), r the largest distance of a
           vertex from the local centre; in families of cases, which are hard, also 1e-13 (L + 2e-3 W) where that is more, L the
           larger bounding-box diagonal and W the largest world coordinate. `width` is the largest as a fraction of that promise,
-          less what printing added. Not looked at with --bounds verdict and --query intersection
+          less what printing added; of --query approximate E (r1 + r2) where that is more. Not looked at with --bounds verdict
+          and --query intersection
   refused, failed, hung: poses left without an answer by an exit status of 2, another end, or no end in time
 
 Exit status 0 when all of these are 0. With --answers, OUT/FAMILY/CASE.ans is written for judges that read 11 numbers a
@@ -120,15 +122,16 @@ def largest_world_coordinate(vertices, pose):
 class Promise:
     """How wide the interval of a case's pose may be."""
 
-    def __init__(self, case):
+    def __init__(self, case, error):
         self.workload = case.workload
         self.first = read_off_vertices(case.first)
         self.second = read_off_vertices(case.second)
         self.radii = local_radius(self.first) + local_radius(self.second)
         self.size = max(diagonal(self.first), diagonal(self.second))
+        self.error = error * self.radii
 
     def width(self, pose, distance):
-        ordinary = 2e-14 * max(self.radii, distance)
+        ordinary = max(2e-14 * max(self.radii, distance), self.error)
         if self.workload:
             return ordinary
         world = max(largest_world_coordinate(self.first, pose[:12]), largest_world_coordinate(self.second, pose[12:]))
@@ -149,10 +152,12 @@ class Row:
         self.widest = max(self.widest, other.widest)
 
 
-def run_tool(arguments, case):
+def run_tool(arguments, case, promise):
     """The answers as lists of words, and what cut them short: None, or one of `refused`, `failed`, `hung`."""
     command = [arguments.tool, case.first, case.second, case.poses, "--input", "hull", "--query", arguments.query,
-               "--bounds", arguments.bounds]
+               "--bounds", arguments.bounds, "--levels", arguments.levels, "--start", arguments.start]
+    if arguments.query == "approximate":
+        command += ["--error", repr(promise.error)]
     try:
         done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, timeout=arguments.timeout)
     except subprocess.TimeoutExpired as expired:
@@ -201,8 +206,8 @@ def judge_case(arguments, case):
     if len(poses) != len(truths):
         sys.exit("%s: %d lines of truth for %d poses" % (case.truth, len(truths), len(poses)))
     tight = arguments.bounds == "tight" and arguments.query != "intersection"
-    promise = Promise(case) if tight else None
-    answers, cut, message = run_tool(arguments, case)
+    promise = Promise(case, arguments.error if arguments.query == "approximate" else 0.0)
+    answers, cut, message = run_tool(arguments, case, promise)
     if cut is None and len(answers) != len(poses):
         cut, message = "failed", "%d answers" % len(answers)
 
@@ -212,7 +217,7 @@ def judge_case(arguments, case):
     answers = answers[:len(poses)]
     row.counts["poses"] += len(poses)
     for i, (answer, truth, pose) in enumerate(zip(answers, truths, poses)):
-        judge_pose(row, answer, truth, pose, promise, lambda what, i=i: complain(i, what))
+        judge_pose(row, answer, truth, pose, promise if tight else None, lambda what, i=i: complain(i, what))
     if cut:
         row.counts[cut] += max(1, len(poses) - len(answers))
         complain(len(answers), "%s: %s" % (cut, message))
@@ -251,8 +256,11 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tool", help="the swiftprox-query to run")
     parser.add_argument("directory", metavar="DIR")
-    parser.add_argument("--query", default="contact", choices=("contact", "distance", "intersection"))
+    parser.add_argument("--query", default="contact", choices=("contact", "distance", "intersection", "approximate"))
     parser.add_argument("--bounds", default="tight", choices=("tight", "verdict"))
+    parser.add_argument("--error", metavar="E", type=float, default=0.01, help="of --query approximate, over r1 + r2 (0.01)")
+    parser.add_argument("--levels", default="auto", choices=("auto", "none", "quadric", "dk", "outer"))
+    parser.add_argument("--start", default="auto", choices=("auto", "cache", "table", "cold"))
     parser.add_argument("--answers", metavar="OUT")
     parser.add_argument("--timeout", metavar="SECONDS", type=float, default=120)
     arguments = parser.parse_args()

@@ -184,7 +184,7 @@ class Cases(unittest.TestCase):
 
     ROOT_2 = "1.4142135623730950488016887242096980785697"
 
-    def judge(self, lo, hi, poses=HERE + " 1 0 0 2 0 1 0 2 0 0 1 0", mesh="0 0 0\n1 0 0\n0 1 0\n1 1 0\n"):
+    def judge(self, lo, hi, poses=HERE + " 1 0 0 2 0 1 0 2 0 0 1 0", mesh="0 0 0\n1 0 0\n0 1 0\n1 1 0\n", options=()):
         with tempfile.TemporaryDirectory() as root:
             family = os.path.join(root, "family")
             os.mkdir(family)
@@ -194,11 +194,18 @@ class Cases(unittest.TestCase):
                 with open(os.path.join(family, name), "w") as out:
                     out.write(text)
             script = os.path.join(ROOT, "scripts", "cases.py")
-            return subprocess.run([sys.executable, script, TOOL, root], capture_output=True, text=True, timeout=60)
+            return subprocess.run([sys.executable, script, TOOL, root, *options], capture_output=True, text=True, timeout=60)
 
     def test_the_truth_passes(self):
         done = self.judge(self.ROOT_2, self.ROOT_2)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
+
+    def test_approximate_answers_are_judged_by_the_error_asked_for(self):
+        for options in (("--error", "0.1", "--levels", "quadric"), ("--error", "0", "--start", "cold")):
+            done = self.judge(self.ROOT_2, self.ROOT_2, options=("--query", "approximate", *options))
+            self.assertEqual((done.returncode, done.stderr), (0, ""))
+        done = self.judge("0", "0", options=("--query", "approximate"))
+        self.assertEqual(done.returncode, 1)
 
     def test_a_wrong_verdict_fails(self):
         done = self.judge("0", "0")
