@@ -115,9 +115,9 @@ typedef int32_t swift_start;
 /** Which levels of detail a query goes through, of those that the shapes have. */
 enum {
   /**
-   * Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
-   * intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-   * of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
+   * Those that save time: of large bodies, for approximate queries that they may answer (60,000 vertices, both together) and
+   * for intersection (200,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such
+   * query of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
    */
   SWIFT_LEVELS_AUTOMATIC = 0,
   /** None. */
@@ -298,7 +298,7 @@ typedef struct swift_shape_options {
   void *progress_user;
   /**
    * A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the first
-   * query that looks into it: about a quarter of the time that making the shape took. A body
+   * query that looks into it: less than a quarter of the time that making the shape took. A body
    * smaller than 2^-200 or larger than 2^200 has none. Default: automatic.
    */
   int32_t lookup;

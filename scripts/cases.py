@@ -122,7 +122,7 @@ def largest_world_coordinate(vertices, pose):
 class Promise:
     """How wide the interval of a case's pose may be."""
 
-    def __init__(self, case, error):
+    def __init__(self, case, error=0.0):
         self.workload = case.workload
         self.first = read_off_vertices(case.first)
         self.second = read_off_vertices(case.second)

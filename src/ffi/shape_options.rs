@@ -47,7 +47,7 @@ pub struct CShapeOptions {
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
     /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the first
-    /// query that looks into it: about a quarter of the time that making the shape took. A body
+    /// query that looks into it: less than a quarter of the time that making the shape took. A body
     /// smaller than 2^-200 or larger than 2^200 has none. Default: automatic.
     pub lookup: i32,
     /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two

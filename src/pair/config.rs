@@ -41,9 +41,9 @@ impl Start {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum Levels {
-    /// Those that save time: of large bodies, for approximate queries that they may answer (30,000 vertices each) and for
-    /// intersection (100,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such query
-    /// of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
+    /// Those that save time: of large bodies, for approximate queries that they may answer (60,000 vertices, both together) and
+    /// for intersection (200,000). Smaller bodies themselves answer about as quickly, from their look-up tables. The first such
+    /// query of a shape with automatic levels makes them, which takes about twice as long as making the shape did.
     #[default]
     Automatic = 0,
     /// None.
