@@ -43,6 +43,8 @@ pub(super) fn approximate(
     if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
     }
+    // Arrays of their own, see below.
+    let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
     through_levels(Query::Approximate, shapes, poses, cache, config, answer)
 }
 
@@ -99,16 +101,18 @@ fn of_large(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     check_config(config)?;
+    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
+    // Nothing is made for a query that is answered without.
+    if pair.is_farther_than(enough(query, config)) {
+        return Ok(());
+    }
     let error = if query == Query::Approximate { config.absolute_error } else { f64::INFINITY };
     let are_worth_it = are_worth_it(shapes, error);
     if are_worth_it && shapes.iter().any(|shape| shape.lacks_levels()) {
-        let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-        let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-        if pair.is_farther_than(enough(query, config)) {
-            return Ok(());
-        }
         pair.make_levels(shapes)?;
     }
+    let PairQuery { cache, answer, .. } = pair;
     if are_worth_it && may_answer(shapes, error) {
         let config = &PairConfig { levels: Levels::All, ..*config };
         return through_levels(query, shapes, poses, cache, config, answer);
