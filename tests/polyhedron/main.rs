@@ -191,11 +191,12 @@ fn masses_are_those_of_the_textbook() {
     assert!((mass.volume - 1.0 / 6.0).abs() < 1e-16 && (mass.centre_of_mass - Vector::repeat(0.25)).norm() < 1e-16);
     assert!((mass.radius - 11.0_f64.sqrt() / 4.0).abs() < 1e-15);
     let base = [[0.0, 0.0], [4.0, 0.0], [4.0, 2.0], [0.0, 2.0]].map(|[x, y]| Vector::new(x, y, 5.0));
-    let pyramid = hull(&[&base[..], &[Vector::new(1.0, 0.5, 11.0)]].concat());
+    let corners = [&base[..], &[Vector::new(1.0, 0.5, 11.0)]].concat();
+    let pyramid = hull(&corners);
     let mass = &pyramid.mass;
     assert!((mass.volume - 16.0).abs() < 1e-14);
     assert!((mass.centre_of_mass - Vector::new(1.75, 0.875, 6.5)).norm() < 1e-14, "{mass:?}");
-    let farthest = base.iter().chain([&Vector::new(1.0, 0.5, 11.0)]).map(|p| (p - mass.centre_of_mass).norm());
+    let farthest = corners.iter().map(|p| (p - mass.centre_of_mass).norm());
     assert!((mass.radius - farthest.fold(0.0, f64::max)).abs() < 1e-14, "{mass:?}");
 }
 
