@@ -122,8 +122,8 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
     contradiction(exact, answer).or_else(|| is_wide.then(|| format!("wider than {asked:e}")))
 }
 
-/// At every pair of levels 64 steps and one for each vertex of the larger one, there are at most as many pairs as levels of both, and
-/// at the bodies themselves what every query may take (`properties::check_work`).
+/// At every pair of levels 64 steps and one for each vertex of the larger one, there are at most as many pairs as levels of
+/// both, and at the bodies themselves what every query may take (`properties::check_work`).
 fn beyond_bounds(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
     let larger = |vertices: [usize; 2]| vertices[0].max(vertices[1]) as u32;
     let finest =
