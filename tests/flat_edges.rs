@@ -3,15 +3,10 @@
 
 #[path = "../benches/common/mod.rs"]
 mod common;
-#[path = "oracle/cases.rs"]
-#[allow(dead_code)] // the cases themselves: only their random numbers are drawn here
-mod cases;
-#[allow(dead_code)] // what other tests ask of it
-mod oracle;
 mod shapes;
 
-use cases::Random;
 use common::caches::cache_of_features;
+use common::random::Random;
 use shapes::hull;
 use swiftprox::exact::solve;
 use swiftprox::math::{Matrix, Pose, Vector};
