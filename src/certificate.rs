@@ -197,13 +197,14 @@ pub fn of_edge_in_cone(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64
 /// A quick δ/|U| of a point in a face, projected from `height` over it, for g = RᵀU equal to the face's unit normal up to `misfit`.
 #[inline(always)]
 pub fn of_facing_face(polyhedron: &Polyhedron, face: &Face, height: f64, misfit: f64) -> f64 {
-    face.slack + face_rounding(polyhedron, height) + 2.0 * polyhedron.radius * misfit
+    face.slack + face_rounding(polyhedron.radius, height) + 2.0 * polyhedron.radius * misfit
 }
 
-/// The point projected on a face from `height` over it misses the plane by the rounding of height and product.
+/// The point projected on a face from `height` over it misses the plane by the rounding of height and product; `reach` is the
+/// larger of the body's radius and the length of the point.
 #[inline(always)]
-pub fn face_rounding(polyhedron: &Polyhedron, height: f64) -> f64 {
-    16.0 * U * (polyhedron.radius + height)
+pub fn face_rounding(reach: f64, height: f64) -> f64 {
+    16.0 * U * (reach + height)
 }
 
 /// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which
@@ -361,7 +362,7 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     // A point that is not in the face may be far out of the body.
     let apart = point.norm();
     let reach = if apart > polyhedron.radius { apart } else { polyhedron.radius };
-    let rounding = 16.0 * U * (reach + height);
+    let rounding = face_rounding(reach, height);
     let beyond = c * (record.slack + rounding)
         + (polyhedron.radius + reach) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
     // On the rim of the face nothing is proved about the point; the fallback finds another.

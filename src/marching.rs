@@ -280,7 +280,7 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
         distance: difference.dot(difference).sqrt(),
         reach: direction.dot(difference) * inverse,
         beyond: beyond + beyond_vertex(test),
-        outside: record.slack + face_rounding(far.polyhedron, height),
+        outside: record.slack + face_rounding(far.polyhedron.radius, height),
         height,
     };
     judge.certify(frame, State::vertex_face(NEAR, vertex, face), &minimum);
