@@ -58,7 +58,7 @@ pub enum Levels {
 pub struct PairConfig {
     /// The size of this struct, so that it can grow; set by swift_pair_config_init.
     pub struct_size: usize,
-    /// Pairs farther apart than this are answered with [`Outcome::Beyond`]; +∞ (the default): none.
+    /// Of pairs farther apart than this only that is said, with a lower bound; +∞ (the default): of none.
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2.
     pub rotation_limit: f64,

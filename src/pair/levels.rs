@@ -43,7 +43,7 @@ pub(super) fn approximate(
     if config.step_budget == u32::MAX && config.levels != Levels::All {
         return super::query(Query::Approximate, shapes, poses, cache, config, answer);
     }
-    // Arrays of their own, see below.
+    // Arrays of their own: those lent to it would have to live in memory here, too.
     let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
     through_levels(Query::Approximate, shapes, poses, cache, config, answer)
 }
@@ -58,7 +58,7 @@ pub(super) fn intersection(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic) {
-        // Arrays of their own: those lent to it would have to live in memory here, too.
+        // As above.
         let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return of_large(Query::Intersection, shapes, poses, cache, config, answer);
     }

@@ -81,7 +81,7 @@ fn edge_between(
 /// for the cone of the normals are the directions across the edge between the normals' parts across it, n − (n·ê)ê; as
 /// combinations of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. What an edge
 /// of a triangle leans by rounding, the looks allow for: the product is right to 3u, and s up to 5u is within the 12u that they
-/// have for this (`certificate::of_edge_in_cone`).
+/// have for this.
 fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
     let along = plane_normal(&edge.planes, 0);
     let leaning = edge.normals.map(|normal| normal.dot(&along).abs()).into_iter().fold(0.0, f64::max);
