@@ -394,7 +394,7 @@ typedef struct swift_level_info {
 typedef struct swift_pair_config {
   /** The size of this struct, so that it can grow; set by swift_pair_config_init. */
   size_t struct_size;
-  /** Pairs farther apart than this are answered with SWIFT_OUTCOME_BEYOND; +infinity (the default): none. */
+  /** Of pairs farther apart than this only that is said, with a lower bound; +infinity (the default): of none. */
   double distance_tolerance;
   /** Largest accepted |R^T R - I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2. */
   double rotation_limit;
@@ -537,10 +537,7 @@ typedef struct swift_scene_query {
   double distance_tolerance;
   /** Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0. */
   int32_t early_exit;
-  /**
-   * A swift_bounds: which interval the answers carry; with a finite distance tolerance the tight one always. Default: the
-   * tight one.
-   */
+  /** A swift_bounds: which interval the answers carry. Default: the tight one. */
   int32_t bounds;
   /** swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0. */
   double absolute_error;

@@ -36,7 +36,7 @@ pub struct SceneQuery {
     /// List pairs up to this distance, intersecting ones always; from 0 to +∞ (the default: all pairs). A pair whose
     /// interval does not exclude it is listed, so that none is missed. [`Scene::query_intersection`] does not look at it.
     pub distance_tolerance: f64,
-    /// Which interval the answers carry; with a finite distance tolerance the tight one always.
+    /// Which interval the answers carry.
     pub bounds: Bounds,
     /// [`Scene::query_approximate_distance`]: `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
@@ -509,8 +509,7 @@ impl Scene {
             levels: query.levels,
             refinement: query.refinement,
             start: query.start,
-            // The cheapest bounds prove that a pair is disjoint, which need not tell on which side of a tolerance it is.
-            bounds: if tolerance < f64::INFINITY { Bounds::Tight } else { query.bounds },
+            bounds: query.bounds,
             ..PairConfig::default()
         };
         let mut intersecting = false;

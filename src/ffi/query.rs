@@ -17,8 +17,7 @@ pub struct CSceneQuery {
     pub distance_tolerance: f64,
     /// Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0.
     pub early_exit: i32,
-    /// A swift_bounds: which interval the answers carry; with a finite distance tolerance the tight one always. Default: the
-    /// tight one.
+    /// A swift_bounds: which interval the answers carry. Default: the tight one.
     pub bounds: i32,
     /// swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
