@@ -146,7 +146,7 @@ enum {
   SWIFT_OUTCOME_NONE = 0,
   /** The objects are disjoint, `0 < lower <= distance <= upper`; `lower` is 0 only for a distance below the smallest double. */
   SWIFT_OUTCOME_SEPARATED = 1,
-  /** The objects are disjoint and farther apart than the distance tolerance: only `lower` is said. */
+  /** The objects are disjoint and farther apart than the distance tolerance: only `lower` is said, which is at least that. */
   SWIFT_OUTCOME_BEYOND = 2,
   /** The closed objects have a common point (touching included). */
   SWIFT_OUTCOME_INTERSECTING = 3,
@@ -531,8 +531,8 @@ typedef struct swift_scene_query {
   /** Set by swift_scene_query_init. */
   size_t struct_size;
   /**
-   * List pairs up to this distance, intersecting ones always; from 0 to infinity (the default: all pairs). A pair whose
-   * interval does not exclude it is listed, so that none is missed. swift_scene_query_intersection does not look at it.
+   * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
+   * to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
    */
   double distance_tolerance;
   /** Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0. */

@@ -36,6 +36,12 @@ impl Interval {
         let scale = if self.lower > size { self.lower } else { size };
         self.lower > 0.0 && self.upper - self.lower <= 2e-14 * scale
     }
+
+    /// Whether it is wholly on one side of a distance tolerance: then no other start would say otherwise.
+    #[inline(always)]
+    pub fn settles(&self, distance_tolerance: f64) -> bool {
+        (self.lower > distance_tolerance) | (self.upper <= distance_tolerance)
+    }
 }
 
 /// Features whose optimality conditions hold up to the frame's tolerance, and the nearest points.

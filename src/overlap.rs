@@ -63,20 +63,36 @@ pub struct Work {
     pub exact_iterations: u32,
 }
 
+/// What an interval is to tell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Wanted {
+    /// It is as narrow as answers are to be, else it need only prove the verdict.
+    pub tight: bool,
+    /// It is on one side of this, as far as doubles can tell: the integers' interval always tells, as its ends are neighbours and
+    /// the true distance is between them, or both are it. `upper` is at most the tolerance just where the true distance is.
+    pub distance_tolerance: f64,
+}
+
+impl Wanted {
+    fn is_met_by(&self, interval: &Interval, size: f64) -> bool {
+        let is_narrow = if self.tight { interval.is_tight(size) } else { interval.lower > 0.0 };
+        is_narrow && interval.settles(self.distance_tolerance)
+    }
+}
+
 /// Decides a pair from a hint of one to four vertex pairs (indices in range). Unless `usual` (see [`Frame`]) the magnitudes are
-/// beyond the error bounds of double precision, and integers decide at once. With `tight` the interval is as narrow as answers
-/// are to be.
+/// beyond the error bounds of double precision, and integers decide at once.
 pub fn decide(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     usual: bool,
     hint: &[VertexPair],
-    tight: bool,
+    wanted: Wanted,
 ) -> (Decision, Work) {
     let mut work = Work::default();
     let mut start = Pairs::new(hint);
     if usual {
-        let (proposal, iterations) = simd::dispatch(&mut Propose { polyhedra, poses, hint, tight });
+        let (proposal, iterations) = simd::dispatch(&mut Propose { polyhedra, poses, hint, wanted });
         work.fallback_iterations = iterations;
         match proposal {
             Proposal::Separated(nearest) => {
@@ -125,7 +141,7 @@ struct Propose<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
     hint: &'a [VertexPair],
-    tight: bool,
+    wanted: Wanted,
 }
 
 impl Kernel for Propose<'_> {
@@ -133,14 +149,13 @@ impl Kernel for Propose<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> (Proposal, u32) {
-        let &mut Propose { polyhedra, poses, hint, tight } = self;
+        let &mut Propose { polyhedra, poses, hint, wanted } = self;
         let frame = Frame::<L>::new(polyhedra, poses, ROTATION_LIMIT);
         let mut supports = Supports::new(hint);
-        let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, tight);
+        let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, wanted.tight);
         let simplex = match outcome {
             gjk::Outcome::Nearest(nearest) => {
-                let interval = nearest.interval;
-                if interval.is_tight(frame.size) || (!tight && interval.lower > 0.0) {
+                if wanted.is_met_by(&nearest.interval, frame.size) {
                     return (Proposal::Separated(nearest), iterations);
                 }
                 nearest.simplex

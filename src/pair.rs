@@ -19,7 +19,7 @@ use crate::error::Result;
 use crate::frame::{Frame, RIGID_TOGETHER};
 use crate::marching::{self, March, Step};
 use crate::math::{Pose, ROTATION_LIMIT, Vector, clamp};
-use crate::overlap::{self, Decision, Pairs};
+use crate::overlap::{self, Decision, Pairs, Wanted};
 use crate::polyhedron::Polyhedron;
 use crate::separating_axis::{self, NUDGE, Search, Trial};
 use crate::shape::Shape;
@@ -272,7 +272,7 @@ impl Kernel for Spheres<'_, '_> {
         }
         answer.status = Status::BoundingSpheres;
         answer.statistics = Statistics::default();
-        set_interval(answer, &interval, frame.separation, config);
+        set_interval(answer, &interval, frame.separation, config.distance_tolerance);
         let offset = frame.bodies[0].offset;
         contact::fill_normal(answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
         true
@@ -296,7 +296,7 @@ impl Kernel for Separation<'_, '_> {
             return false;
         }
         let trial = Trial::of_axis(&frame, &axis);
-        if trial.separates() && settles(&trial.interval, config) {
+        if trial.separates() && trial.interval.settles(config.distance_tolerance) {
             cache.pairs[0] = trial.vertices;
             fill_trial(&trial, config, answer);
             return true;
@@ -304,7 +304,7 @@ impl Kernel for Separation<'_, '_> {
         let mut search = Search { frame: &frame, trial };
         L::out_of_line(&mut search);
         let trial = &search.trial;
-        let is_answer = trial.separates() && settles(&trial.interval, config);
+        let is_answer = trial.separates() && trial.interval.settles(config.distance_tolerance);
         if is_answer {
             let unit = trial.direction.mul(L::splat(trial.inverse));
             cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
@@ -314,18 +314,12 @@ impl Kernel for Separation<'_, '_> {
     }
 }
 
-/// Whether an interval, however wide, is on one side of the distance tolerance: another start would not say otherwise.
-#[inline(always)]
-fn settles(interval: &Interval, config: &PairConfig) -> bool {
-    (interval.lower > config.distance_tolerance) | (interval.upper <= config.distance_tolerance)
-}
-
 /// The answer of an axis that separates.
 #[inline(always)]
 fn fill_trial<L: Lanes>(trial: &Trial<L>, config: &PairConfig, answer: &mut PairAnswer) {
     answer.status = Status::Coherent;
     answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
-    set_interval(answer, &trial.interval, trial.distance, config);
+    set_interval(answer, &trial.interval, trial.distance, config.distance_tolerance);
     contact::fill_normal(answer, trial.direction.mul(L::splat(trial.inverse)));
 }
 
@@ -445,20 +439,18 @@ impl Acceptance<'_> {
     /// Whether an interval answers the query.
     #[inline(always)]
     fn is_enough(&self, size: f64, interval: &Interval) -> bool {
-        interval.is_tight(size)
+        let is_narrow = interval.is_tight(size)
             || match self.query {
                 // Without an upper bound a witness point may lie out of its body.
                 Query::Approximate => {
                     interval.upper < f64::INFINITY && self.config.accuracy().is_met_by(interval.lower, interval.upper)
                 }
-                Query::Intersection => interval.lower > 0.0 && settles(interval, self.config),
+                Query::Intersection => interval.lower > 0.0,
                 Query::Distance | Query::Contact => {
-                    self.config.bounds == Bounds::Verdict
-                        && interval.lower > 0.0
-                        && interval.upper < f64::INFINITY
-                        && settles(interval, self.config)
+                    self.config.bounds == Bounds::Verdict && interval.lower > 0.0 && interval.upper < f64::INFINITY
                 }
-            }
+            };
+        is_narrow && interval.settles(self.config.distance_tolerance)
     }
 
     /// Answer, but for the statistics, and cache from a minimum.
@@ -468,7 +460,7 @@ impl Acceptance<'_> {
         let normal = minimum.direction.mul(L::splat(minimum.inverse));
         self.cache.remember_state(state);
         answer.status = Status::Marched;
-        set_interval(answer, &gap.interval, gap.distance, self.config);
+        set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
         if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
             contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
         } else {
@@ -539,12 +531,13 @@ fn has_moved<L: Lanes>(frame: &Frame<L>, last: &[u32; 3], square: f64) -> bool {
     moved.dot(moved) > lever * lever * square
 }
 
-/// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair.
+/// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair. The interval settles the
+/// tolerance: its upper end is beyond it just where the true distance is.
 #[inline(always)]
-fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, config: &PairConfig) {
+fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, distance_tolerance: f64) {
     answer.lower = interval.lower;
     answer.proof_count = 0;
-    if interval.lower > config.distance_tolerance {
+    if interval.upper > distance_tolerance {
         answer.outcome = Outcome::Beyond;
         answer.upper = f64::INFINITY;
         answer.distance = interval.lower;
@@ -662,7 +655,8 @@ impl PairQuery<'_> {
         }
         // Cheap bounds or not, nearest points are to be nearest.
         let tight = query != Query::Intersection || config.distance_tolerance < f64::INFINITY;
-        let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), tight);
+        let wanted = Wanted { tight, distance_tolerance: config.distance_tolerance };
+        let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), wanted);
         let overlap::Work { fallback_iterations, exact_iterations } = work;
         statistics.fallback_iterations = fallback_iterations;
         statistics.exact_iterations = exact_iterations;
@@ -706,7 +700,7 @@ impl PairQuery<'_> {
         let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self;
         match decision {
             Decision::Separated { points, direction, interval, pairs } => {
-                set_interval(answer, interval, 0.5 * interval.lower + 0.5 * interval.upper, config);
+                set_interval(answer, interval, 0.5 * interval.lower + 0.5 * interval.upper, config.distance_tolerance);
                 let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
                 let vertices = State::vertex_vertex(pairs.as_slice()[0]);
                 cache.remember_state(State::of_features(features).unwrap_or(vertices));

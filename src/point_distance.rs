@@ -12,7 +12,7 @@
 
 use crate::error::Result;
 use crate::math::{Pose, UNIT_ROUNDOFF, Vector, clamp};
-use crate::overlap::{self, Decision};
+use crate::overlap::{self, Decision, Wanted};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::polyhedron_build::build;
 use crate::triangulation::{Triangulation, next};
@@ -136,7 +136,9 @@ impl<'a> PointDistance<'a> {
         let usual = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
         let hint = corners.map(|v| [0, v]);
         let poses = [&pose, &Pose::IDENTITY];
-        let (pairs, found, upper) = match overlap::decide([&self.probe, self.polyhedron], poses, usual, &hint, true).0 {
+        let wanted = Wanted { tight: true, distance_tolerance: f64::INFINITY };
+        let (pairs, found, upper) = match overlap::decide([&self.probe, self.polyhedron], poses, usual, &hint, wanted).0
+        {
             Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
             Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
         };

@@ -33,8 +33,8 @@ impl Default for SceneOptions {
 pub struct SceneQuery {
     /// Stop at the first intersecting pair, and then list no pairs at all.
     pub early_exit: bool,
-    /// List pairs up to this distance, intersecting ones always; from 0 to +∞ (the default: all pairs). A pair whose
-    /// interval does not exclude it is listed, so that none is missed. [`Scene::query_intersection`] does not look at it.
+    /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
+    /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does not look at it.
     pub distance_tolerance: f64,
     /// Which interval the answers carry.
     pub bounds: Bounds,
@@ -448,8 +448,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`].
     pub fn query_exact_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        let tolerance = query.distance_tolerance;
-        self.run(query, tolerance, pair::distance, |answer| within(answer, tolerance))
+        self.run(query, query.distance_tolerance, pair::distance, is_within)
     }
 
     /// As [`Scene::query_exact_distance`], and intersecting pairs have finite witness points and a unit normal as well
@@ -458,8 +457,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`].
     pub fn query_contacts(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        let tolerance = query.distance_tolerance;
-        self.run(query, tolerance, pair::contact, |answer| within(answer, tolerance))
+        self.run(query, query.distance_tolerance, pair::contact, is_within)
     }
 
     /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower
@@ -473,7 +471,7 @@ impl Scene {
         let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
         pair::check_accuracy(absolute_error, relative_error, step_budget)?;
         check_range("error_budget", error_budget, 0.0..=f64::INFINITY)?;
-        self.run(query, distance_tolerance, pair::approximate, |answer| within(answer, distance_tolerance))
+        self.run(query, distance_tolerance, pair::approximate, is_within)
     }
 
     /// What the queries did.
@@ -545,12 +543,11 @@ impl Scene {
     }
 }
 
-/// Whether a query with this distance tolerance lists the pair: unless its interval excludes it.
-fn within(answer: &PairAnswer, tolerance: f64) -> bool {
+/// Whether a query lists the pair: unless it is beyond the distance tolerance.
+fn is_within(answer: &PairAnswer) -> bool {
     match answer.outcome {
-        Outcome::Intersecting => true,
-        Outcome::Separated | Outcome::Beyond | Outcome::Undecided => answer.lower <= tolerance,
-        Outcome::None => false,
+        Outcome::Intersecting | Outcome::Separated | Outcome::Undecided => true,
+        Outcome::Beyond | Outcome::None => false,
     }
 }
 

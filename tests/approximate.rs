@@ -161,7 +161,7 @@ impl Session<'_> {
             Outcome::Undecided if answer.status == Status::BudgetSpent && answer.lower == 0.0 => {}
             Outcome::Intersecting if is_intersecting => return self.verify_some(answer),
             Outcome::Separated if !is_intersecting && answer.lower <= config.distance_tolerance => {}
-            Outcome::Beyond if !is_intersecting && answer.lower > config.distance_tolerance => {}
+            Outcome::Beyond if !is_intersecting && answer.lower >= config.distance_tolerance => {}
             _ => return Err("the verdict is wrong".into()),
         }
         // Both intervals hold the true distance.
@@ -178,9 +178,8 @@ impl Session<'_> {
         if is_answered && !(answer.upper - answer.lower <= tolerance) {
             return Err("the interval is too wide".into());
         }
-        // Whatever is asked, a distance tolerance is decided as far as rounding lets it be.
-        let is_open = answer.lower <= config.distance_tolerance && answer.upper > config.distance_tolerance;
-        if is_answered && is_open && config.distance_tolerance < f64::INFINITY && answer.upper - answer.lower > widest {
+        // Whatever is asked, a distance tolerance is decided.
+        if is_answered && answer.upper > config.distance_tolerance {
             return Err("the interval leaves the distance tolerance open".into());
         }
         let [level1, level2] = answer.statistics.levels.map(usize::from);

@@ -10,6 +10,7 @@ use std::sync::Arc;
 use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use shapes::at;
 use swiftprox::error::Error;
+use swiftprox::exact::solve;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
@@ -81,9 +82,9 @@ fn each_query_lists_what_it_promises() {
 
     // At most the tolerance: the pair exactly that far apart is listed, too.
     assert_eq!(listed(scene.query_tolerance(&up_to(1.5)).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
-    assert_eq!(listed(scene.query_tolerance(&up_to(1.499)).unwrap().pairs), [pair(0, 1)]);
+    assert_eq!(listed(scene.query_tolerance(&up_to(1.5_f64.next_down())).unwrap().pairs), [pair(0, 1)]);
     assert_eq!(distances(&mut scene, &up_to(1.5)), [pair(0, 1), pair(1, 2)]);
-    // The cheap bounds of a pair need not tell on which side of the tolerance it is; the list is the same.
+    // The cheapest bounds list the same pairs.
     let cheap = SceneQuery { bounds: Bounds::Verdict, ..up_to(1.75) };
     assert_eq!(listed(scene.query_tolerance(&cheap).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
 
@@ -95,6 +96,33 @@ fn each_query_lists_what_it_promises() {
         let witnesses = answer.world1.iter().chain(&answer.world2).chain(&answer.local1).chain(&answer.local2);
         assert!(witnesses.into_iter().all(|x| x.is_finite()), "{answer:?}");
     }
+}
+
+/// A distance that is no double is beyond the next one below it and not beyond the next one above.
+#[test]
+fn a_tolerance_is_decided_to_the_last_digit() {
+    let mut random = Random::new(0x701e);
+    let mut exact = 0;
+    for _ in 0..300 {
+        let mut scene = scene();
+        let ids = cubes(&mut scene, &[0.0, 3.0]);
+        for (k, id) in ids.iter().enumerate() {
+            let pose = random_pose(&mut random, 0.3);
+            let along = Vector::new(3.0 * k as f64, 0.0, 0.0);
+            scene.set_pose(*id, &Pose::new(&pose.rotation(), &(pose.translation() + along))).unwrap();
+        }
+        let [one, other] = [scene.object(ids[0]).unwrap(), scene.object(ids[1]).unwrap()];
+        let polyhedra = [one, other].map(|object| object.pieces()[0].polyhedron());
+        let truth = solve(polyhedra[0], one.pose(), polyhedra[1], other.pose(), &[]);
+        assert!(truth.lower < truth.upper && truth.lower.next_up() == truth.upper, "{truth:?}");
+        for query in [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts] {
+            assert_eq!(listed(query(&mut scene, &up_to(truth.lower)).unwrap().pairs).len(), 0);
+            assert_eq!(listed(query(&mut scene, &up_to(truth.upper)).unwrap().pairs), [[ids[0], ids[1]]]);
+        }
+        exact += scene.statistics().exact;
+    }
+    // Intervals in doubles are too wide for this.
+    assert!(exact > 300);
 }
 
 #[test]

@@ -80,7 +80,8 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     let truth = solve(polyhedra[0], &poses[0], polyhedra[1], &poses[1], &[]);
     let mut config = PairConfig::default();
     if random.below(4) == 0 {
-        config.distance_tolerance = truth.lower * random.power(-2, 2);
+        config.distance_tolerance =
+            [truth.lower, truth.upper][random.below(2)] * [1.0, random.power(-2, 2)][random.below(2)];
     }
     for start in 0..3 + STARTS {
         let forced = if start < 3 { Some(PairCache::default()) } else { any_features(random, polyhedra) };
@@ -93,7 +94,7 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
         tally.queries += 1;
         tally.separated += u64::from(is_separated);
         tally.marched += u64::from(is_separated && answer.status == Status::Marched);
-        if let Err(what) = check_answer(&answer, &truth) {
+        if let Err(what) = check_answer(&answer, &truth, config.distance_tolerance) {
             tally.violations.push(format!("{name}: {what}: {answer:?}, the truth is {truth:?}"));
         }
         if let Err(error) = verify(&shapes[0], &poses[0], &shapes[1], &poses[1], &answer) {
@@ -102,9 +103,12 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     }
 }
 
-fn check_answer(answer: &PairAnswer, truth: &ExactAnswer) -> Result<(), &'static str> {
+fn check_answer(answer: &PairAnswer, truth: &ExactAnswer, distance_tolerance: f64) -> Result<(), &'static str> {
     if (answer.outcome == Outcome::Intersecting) != truth.intersecting {
         return Err("the verdict is wrong");
+    }
+    if (answer.outcome == Outcome::Beyond) != (truth.upper > distance_tolerance) {
+        return Err("the distance tolerance is decided wrongly");
     }
     if answer.lower > truth.upper || answer.upper < truth.lower {
         return Err("the interval is wrong");

@@ -137,7 +137,9 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     asked.expect("accepted poses and a tolerance");
     let intersecting = answer.outcome == Outcome::Intersecting;
     assert_eq!(intersecting, cold.outcome == Outcome::Intersecting, "{answer:?}\n{cold:?}");
-    assert!(intersecting || (answer.outcome == Outcome::Beyond) == (answer.lower > distance_tolerance), "{answer:?}");
+    let is_beyond = answer.outcome == Outcome::Beyond;
+    let is_so = if is_beyond { answer.lower >= distance_tolerance } else { answer.upper <= distance_tolerance };
+    assert!(is_so, "{distance_tolerance:e}: {answer:?}");
     assert!(answer.lower <= cold.upper && cold.lower <= answer.upper, "{answer:?}\n{cold:?}");
     if answer.outcome == Outcome::Beyond {
         let points = [answer.local1, answer.local2, answer.world1, answer.world2];

@@ -12,8 +12,8 @@ use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 pub struct CSceneQuery {
     /// Set by swift_scene_query_init.
     pub struct_size: usize,
-    /// List pairs up to this distance, intersecting ones always; from 0 to infinity (the default: all pairs). A pair whose
-    /// interval does not exclude it is listed, so that none is missed. swift_scene_query_intersection does not look at it.
+    /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
+    /// to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
     pub distance_tolerance: f64,
     /// Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0.
     pub early_exit: i32,

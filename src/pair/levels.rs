@@ -328,7 +328,11 @@ impl PairQuery<'_> {
         let answer = &mut *self.answer;
         answer.status = status;
         answer.statistics = Statistics { marching_steps: steps, levels: found.place.levels, ..Statistics::default() };
-        set_interval(answer, &Interval { lower: found.lower, upper: found.upper }, found.lower, self.config);
+        let interval = Interval { lower: found.lower, upper: found.upper };
+        // What a budget leaves open is not beyond.
+        let tolerance = self.config.distance_tolerance;
+        let tolerance = if interval.settles(tolerance) { tolerance } else { f64::INFINITY };
+        set_interval(answer, &interval, found.lower, tolerance);
         contact::fill_nothing(answer);
         answer.normal = found.normal.into();
     }

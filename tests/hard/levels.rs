@@ -114,8 +114,9 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
         Outcome::Undecided if is_spent && answer.lower == 0.0 => {
             return (answer.upper < exact.lower).then(|| "an interval that misses".to_string());
         }
-        Outcome::Intersecting | Outcome::Separated if !(answer.lower > config.distance_tolerance) => {}
-        Outcome::Beyond if answer.lower > config.distance_tolerance => {}
+        Outcome::Intersecting => {}
+        Outcome::Separated if answer.upper <= config.distance_tolerance || is_spent => {}
+        Outcome::Beyond if answer.lower >= config.distance_tolerance => {}
         _ => return Some("an outcome that is none".to_string()),
     }
     let is_wide = answer.outcome == Outcome::Separated && !is_spent && !(answer.upper - answer.lower <= asked);
@@ -123,7 +124,7 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
 }
 
 /// At every pair of levels 64 steps and one for each vertex of the larger one, there are at most as many pairs as levels of
-/// both, and at the bodies themselves what every query may take (`properties::check_work`).
+/// both, and at the bodies themselves what every query may take (`properties::beyond_bounds`).
 fn beyond_bounds(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
     let larger = |vertices: [usize; 2]| vertices[0].max(vertices[1]) as u32;
     let finest =
