@@ -41,13 +41,14 @@ pub mod mesh_io;
 pub mod lookup;
 #[doc(hidden)]
 pub mod polyhedron;
+mod triangulation;
+mod surface_walk;
 #[doc(hidden)]
 pub mod lookup_build;
 #[doc(hidden)]
 pub mod hull_build;
 #[doc(hidden)]
 pub mod hull_check;
-mod triangulation;
 mod slack;
 mod face_merge;
 mod face_labels;

@@ -73,6 +73,8 @@ pub struct Shells {
     pub cells: Cells,
     /// The vertices relative to the centre of mass, as multiples of the body's radius; the fourth number is 0.
     pub positions: Vec<[f32; 4]>,
+    /// Turns a vertex, seen from the centre of mass, outwards where the body is thin.
+    pub outward: [[f32; 3]; 3],
     /// Where the cells begin that serve points of a squared distance whose exponent and leading bits are the index.
     first_cells: [u32; DISTANCES],
 }
@@ -83,8 +85,14 @@ const MANTISSA_BITS: u32 = 2;
 const LEAST: i32 = (127 - 8) << MANTISSA_BITS;
 
 impl Shells {
-    /// From the radii (ascending), the vertices' positions and the cells' vertices.
-    pub fn new(resolution: usize, radii: Vec<f64>, positions: Vec<[f32; 4]>, cells: &[u32]) -> Shells {
+    /// From the radii (ascending), the vertices' positions, the cells' vertices and what turns outwards.
+    pub fn new(
+        resolution: usize,
+        radii: Vec<f64>,
+        positions: Vec<[f32; 4]>,
+        cells: &[u32],
+        outward: [[f32; 3]; 3],
+    ) -> Shells {
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
         let mut first_cells = [0; DISTANCES];
@@ -94,7 +102,8 @@ impl Shells {
             let shell = radii.windows(2).take_while(|pair| 0.5 / pair[0] + 0.5 / pair[1] > reciprocal).count();
             *first = (shell * resolution * resolution) as u32;
         }
-        Shells { resolution, radii, cells: Cells::new(cells, positions.len()), positions, first_cells }
+        let cells = Cells::new(cells, positions.len());
+        Shells { resolution, radii, cells, positions, outward, first_cells }
     }
 
     /// A vertex near a point, given as [`Shells::positions`] are.

@@ -5,8 +5,9 @@ use std::sync::OnceLock;
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup::{Lookup, Plan, Shells, Spherical, Table};
-use crate::math::Vector;
+use crate::math::{Matrix, Vector};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
+use crate::surface_walk::{Surface, nearest_of};
 
 /// Which look-up table a body has.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -152,6 +153,8 @@ fn inner_radius(polyhedron: &Polyhedron, centre: &Vector) -> f64 {
 
 fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
     let search = Search::new(polyhedron);
+    let thickness = Thickness::of(&search);
+    let surface = if thickness.is_needle() { Surface::new(polyhedron).ok() } else { None };
     let inner = inner_radius(polyhedron, &search.centre) / search.radius;
     let radii: Vec<f64> = RADII.into_iter().filter(|r| *r > 1.0 || *r > inner).collect();
     let directions: Vec<Vector> = (0..resolution * resolution)
@@ -164,7 +167,12 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
         for (cell, direction) in directions.iter().enumerate() {
             let left = if cell % resolution > 0 { shell[cell - 1] } else { outer[cell] };
             let above = if cell >= resolution { shell[cell - resolution] } else { outer[cell] };
-            shell[cell] = search.near(&search.sample(*factor, direction), [outer[cell], left, above]);
+            let sample = search.sample(*factor, direction);
+            shell[cell] = search.near(&sample, [outer[cell], left, above]);
+            if let Some(surface) = &surface {
+                let corners = surface.corners(surface.nearest(&sample, shell[cell]).place);
+                shell[cell] = nearest_of(polyhedron, &sample, &corners);
+            }
         }
         outer.copy_from_slice(shell);
     }
@@ -172,8 +180,53 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
         let p = (v - search.centre) / search.radius;
         [p.x as f32, p.y as f32, p.z as f32, 0.0]
     };
-    Shells::new(resolution, radii, search.positions.iter().map(position).collect(), &cells)
+    let positions = search.positions.iter().map(position).collect();
+    Shells::new(resolution, radii, positions, &cells, thickness.outward())
 }
+
+/// How the vertices spread around the centre of mass.
+struct Thickness {
+    /// The axes of the covariance, in columns.
+    axes: Matrix,
+    /// The standard deviations along them, as multiples of the largest.
+    spreads: Vector,
+}
+
+impl Thickness {
+    fn of(search: &Search) -> Thickness {
+        let relative = |p: &Vector| (p - search.centre) / search.radius;
+        let square = |p: &Vector| relative(p) * relative(p).transpose();
+        let eigen = search.positions.iter().map(square).sum::<Matrix>().symmetric_eigen();
+        let largest = eigen.eigenvalues.amax();
+        Thickness {
+            axes: eigen.eigenvectors,
+            spreads: eigen.eigenvalues.map(|value| (value.max(0.0) / largest).sqrt()),
+        }
+    }
+
+    /// Whether the body is thin in two directions. The vertices nearest to a point are then those next to it along the needle, on
+    /// whatever side, while the nearest feature, which reaches farther along it, is on the near side. A vertex of that is the
+    /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 19, 23 and 25 steps of 31, 56 and 61.
+    /// Finding it takes fifteen times as long.
+    fn is_needle(&self) -> bool {
+        self.spreads.iter().filter(|spread| **spread < NEEDLE).count() == 2
+    }
+
+    /// The inverse root of the covariance, which turns a vertex half-way from the direction away from the centre of mass to the
+    /// normal of an ellipsoid so thick. Of both, and what is between, it mistakes the fewest pairs that are disjoint for
+    /// overlapping: of needles a third of those that the former does, of wafers half of those that the latter does.
+    fn outward(&self) -> [[f32; 3]; 3] {
+        let reciprocals = self.spreads.map(|spread| LEAST_SPREAD / spread.max(LEAST_SPREAD));
+        let matrix = self.axes * Matrix::from_diagonal(&reciprocals) * self.axes.transpose();
+        [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)] as f32))
+    }
+}
+
+/// Bodies with two spreads of less than this are needles. Those of 1:10 gain a tenth of the steps, which does not pay.
+const NEEDLE: f64 = 1.0 / 30.0;
+
+/// Positions are not rounder than this in single precision.
+const LEAST_SPREAD: f64 = 1e-6;
 
 fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> Spherical {
     let search = Search::new(polyhedron);

@@ -1,28 +1,21 @@
 //! How far a point lies from a polyhedron: a walk over its surface, and where that leads to the far side the pair machinery.
 //!
-//! Let the surface have no way down from p in distance to a point w. If p is on an edge or a vertex, the directions of the
-//! edges and faces there span the whole cone in which the convex body lies, seen from p; all lead away from w to first order,
-//! so no point of the body is nearer. If p is inside a face, it is nearest if w is on the outer side of that face. So it is
-//! enough to go from vertex to nearer neighbour, then from triangle to nearer triangle across an edge or around a vertex. Only
-//! inside a face that looks the other way it has gone wrong: that of a thin body seen from its other side, or of any body seen
-//! from inside.
-//!
 //! What is found is a convex combination of vertices, so that its distance bounds that of the body from above, rounding included,
 //! wherever the search ends.
 
 use crate::error::Result;
-use crate::math::{Pose, UNIT_ROUNDOFF, Vector, clamp};
+use crate::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::overlap::{self, Decision, Wanted};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::polyhedron_build::build;
-use crate::triangulation::{Triangulation, next};
+use crate::surface_walk::{Candidate, Place, Surface, nearest_of, on_segment};
 
 /// A polyhedron to which points are asked for their distance. All is said in its centred coordinates.
 #[derive(Debug, Clone)]
 pub struct PointDistance<'a> {
     polyhedron: &'a Polyhedron,
     /// `None` for a segment or a point.
-    surface: Option<Triangulation>,
+    surface: Option<Surface<'a>>,
     /// One vertex at the origin; its pose carries it to the point, exactly.
     probe: Polyhedron,
 }
@@ -38,36 +31,13 @@ pub struct NearestPoint {
     pub vertex: u32,
 }
 
-/// A candidate for the nearest point.
-#[derive(Clone, Copy)]
-struct Candidate {
-    point: Vector,
-    /// Of its distance.
-    square: f64,
-    place: Place,
-}
-
-#[derive(Clone, Copy)]
-enum Place {
-    Vertex(u32),
-    /// A half-edge.
-    Edge(u32),
-    Triangle(u32),
-}
-
 impl<'a> PointDistance<'a> {
     /// Prepares a polyhedron.
     ///
     /// # Errors
     /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface.
     pub fn new(polyhedron: &'a Polyhedron) -> Result<PointDistance<'a>> {
-        let surface = if polyhedron.dimension >= 2 {
-            let normal = |face: &u32| polyhedron.faces[*face as usize].normal;
-            let normals: Vec<Vector> = polyhedron.face_of_triangle.iter().map(normal).collect();
-            Some(Triangulation::new(polyhedron.triangles.clone(), &normals, polyhedron.vertices.len())?)
-        } else {
-            None
-        };
+        let surface = if polyhedron.dimension >= 2 { Some(Surface::new(polyhedron)?) } else { None };
         Ok(PointDistance { polyhedron, surface, probe: build(&[Vector::zeros()], None)? })
     }
 
@@ -81,31 +51,21 @@ impl<'a> PointDistance<'a> {
     pub fn nearest(&self, point: &Vector, hint: u32) -> NearestPoint {
         let ends = [0, self.polyhedron.vertices.len() as u32 - 1];
         let Some(surface) = &self.surface else {
-            let found = self.on_segment(point, ends, NONE);
-            return self.answer(point, &found, &ends);
+            return self.answer(point, &on_segment(self.polyhedron, point, ends, NONE), &ends);
         };
-        let found = self.walk(surface, point, hint);
+        let found = surface.nearest(point, hint);
+        let corners = surface.corners(found.place);
+        let answer = self.answer(point, &found, &corners);
         match found.place {
-            Place::Vertex(v) => self.answer(point, &found, &[v]),
-            Place::Edge(h) => self.answer(point, &found, &[surface.tail(h), surface.head(h)]),
-            Place::Triangle(t) => {
-                let corners = surface.triangles[t as usize];
-                let answer = self.answer(point, &found, &corners);
-                if self.looks_away(t, point, answer.upper) { self.search(point, &corners) } else { answer }
-            }
+            Place::Triangle(t) if self.looks_away(t, point, answer.upper) => self.search(point, &corners),
+            _ => answer,
         }
     }
 
     /// A convex combination of the vertices `corners` as the nearest point.
     fn answer(&self, point: &Vector, found: &Candidate, corners: &[u32]) -> NearestPoint {
         let upper = self.rounded_up(found.square.sqrt());
-        NearestPoint { point: found.point, upper, vertex: self.nearest_of(point, corners) }
-    }
-
-    /// The vertex nearest to a point.
-    fn nearest_of(&self, point: &Vector, vertices: &[u32]) -> u32 {
-        let square = |v: u32| (self.position(v) - point).norm_squared();
-        vertices.iter().copied().min_by(|v, w| square(*v).total_cmp(&square(*w))).unwrap_or(0)
+        NearestPoint { point: found.point, upper, vertex: nearest_of(self.polyhedron, point, corners) }
     }
 
     /// A combination a + s·e + t·f of points within ρ, with |e|, |f| ≤ 2ρ, errs by u each for e and f, for the products and the
@@ -143,104 +103,6 @@ impl<'a> PointDistance<'a> {
             Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
         };
         let corners: Vec<u32> = pairs.as_slice().iter().map(|pair| pair[1]).collect();
-        NearestPoint { point: found, upper, vertex: self.nearest_of(point, &corners) }
-    }
-
-    fn position(&self, vertex: u32) -> Vector {
-        self.polyhedron.vertices[vertex as usize].position
-    }
-
-    /// Every step is to a place that is strictly nearer as computed, and each triangle, edge and vertex has one nearest point as
-    /// computed, so that none comes twice.
-    fn walk(&self, surface: &Triangulation, point: &Vector, hint: u32) -> Candidate {
-        let mut best = self.at_vertex(point, hint);
-        loop {
-            let before = best.square;
-            let Place::Vertex(vertex) = best.place else { break };
-            for &h in surface.around(vertex) {
-                let neighbour = self.at_vertex(point, surface.head(h));
-                if neighbour.square < best.square {
-                    best = neighbour;
-                }
-            }
-            if !(best.square < before) {
-                break;
-            }
-        }
-        loop {
-            let Candidate { square: before, place, .. } = best;
-            let mut look = |triangle: u32| {
-                let other = self.on_triangle(surface, point, triangle);
-                if other.square < best.square {
-                    best = other;
-                }
-            };
-            match place {
-                Place::Vertex(vertex) => surface.around(vertex).iter().for_each(|h| look(h / 3)),
-                Place::Edge(h) => [h, surface.twins[h as usize]].iter().for_each(|h| look(h / 3)),
-                Place::Triangle(_) => {}
-            }
-            if !(best.square < before) {
-                return best;
-            }
-        }
-    }
-
-    fn at_vertex(&self, point: &Vector, vertex: u32) -> Candidate {
-        let position = self.position(vertex);
-        Candidate { point: position, square: (position - point).norm_squared(), place: Place::Vertex(vertex) }
-    }
-
-    /// The nearest point of the segment between two vertices, named `half_edge` unless it is an end.
-    fn on_segment(&self, point: &Vector, [tail, head]: [u32; 2], half_edge: u32) -> Candidate {
-        let (start, end) = (self.position(tail), self.position(head));
-        let along = end - start;
-        // From the nearer end, so that an end is not missed by rounding. A NaN (no length) becomes 0.
-        let (from_start, from_end) = (point - start, point - end);
-        let square = along.norm_squared();
-        let place = if from_start.norm_squared() <= from_end.norm_squared() {
-            let t = clamp(from_start.dot(&along) / square, 0.0, 1.0);
-            if t == 0.0 {
-                return self.at_vertex(point, tail);
-            }
-            start + along * t
-        } else {
-            let t = clamp(-from_end.dot(&along) / square, 0.0, 1.0);
-            if t == 0.0 {
-                return self.at_vertex(point, head);
-            }
-            end - along * t
-        };
-        Candidate { point: place, square: (place - point).norm_squared(), place: Place::Edge(half_edge) }
-    }
-
-    /// The nearest point of a triangle: its projection or one of a side. All are tried: for a sliver the test whether the
-    /// projection is inside is noise, but then its sides are as near.
-    fn on_triangle(&self, surface: &Triangulation, point: &Vector, triangle: u32) -> Candidate {
-        let corners = surface.triangles[triangle as usize];
-        let mut best = self.inside_triangle(point, corners, triangle);
-        for h in 3 * triangle..3 * triangle + 3 {
-            let side = self.on_segment(point, [surface.tail(h), surface.tail(next(h))], h);
-            if best.is_none_or(|best| side.square < best.square) {
-                best = Some(side);
-            }
-        }
-        best.unwrap_or_else(|| self.at_vertex(point, corners[0]))
-    }
-
-    /// The projection of the point on a triangle's plane, if it is inside.
-    fn inside_triangle(&self, point: &Vector, corners: [u32; 3], triangle: u32) -> Option<Candidate> {
-        let [a, b, c] = corners.map(|v| self.position(v));
-        let (along, aside, from) = (b - a, c - a, point - a);
-        let normal = along.cross(&aside);
-        let square = normal.norm_squared();
-        let s = from.cross(&aside).dot(&normal) / square;
-        let t = along.cross(&from).dot(&normal) / square;
-        // Nor is it inside a triangle without area, where both are NaN.
-        if !(s >= 0.0 && t >= 0.0 && s + t <= 1.0) {
-            return None;
-        }
-        let place = a + along * s + aside * t;
-        Some(Candidate { point: place, square: (place - point).norm_squared(), place: Place::Triangle(triangle) })
+        NearestPoint { point: found, upper, vertex: nearest_of(self.polyhedron, point, &corners) }
     }
 }

@@ -21,7 +21,7 @@ pub struct Beginning {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum Guess {
-    /// Each of the two vertices is on the side of its body that faces the other vertex: 97 of 100 such pairs are disjoint.
+    /// Each of the two vertices is on the side of its body that faces the other vertex: most such pairs are disjoint.
     Apart,
     /// Only one is, or nobody looked.
     Unclear,
@@ -98,8 +98,8 @@ fn alternate(tables: [&Shells; 2], polyhedra: [&Polyhedron; 2], poses: [&Pose; 2
         vertex1 = tables[0].nearest(back.apply(position(1, vertex2)));
         vertex2 = tables[1].nearest(there.apply(position(0, vertex1)));
     }
-    let faces1 = is_facing(position(0, vertex1), back.apply(position(1, vertex2)));
-    let faces2 = is_facing(position(1, vertex2), there.apply(position(0, vertex1)));
+    let faces1 = is_facing(&tables[0].outward, position(0, vertex1), back.apply(position(1, vertex2)));
+    let faces2 = is_facing(&tables[1].outward, position(1, vertex2), there.apply(position(0, vertex1)));
     let guess = match (faces1, faces2) {
         (true, true) => Guess::Apart,
         (false, false) => Guess::Overlapping,
@@ -108,12 +108,13 @@ fn alternate(tables: [&Shells; 2], polyhedra: [&Polyhedron; 2], poses: [&Pose; 2
     Beginning { vertices: [vertex1, vertex2], guess }
 }
 
-/// Whether a vertex looks away from the centre of mass when it looks at a point.
+/// Whether a vertex looks out of its body when it looks at a point.
 #[inline(always)]
-fn is_facing(vertex: [f32; 4], point: [f32; 3]) -> bool {
+fn is_facing(outward: &[[f32; 3]; 3], vertex: [f32; 4], point: [f32; 3]) -> bool {
+    let [a, b, c] = outward;
     let mut sum = 0.0;
     for i in 0..3 {
-        sum += (point[i] - vertex[i]) * vertex[i];
+        sum += (point[i] - vertex[i]) * (a[i] * vertex[0] + (b[i] * vertex[1] + c[i] * vertex[2]));
     }
     sum > 0.0
 }
