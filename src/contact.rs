@@ -1,6 +1,7 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
 use crate::answer::{Feature, FeatureKind, PairAnswer};
+use crate::contact_direction::Overlap;
 use crate::exact::VertexPair;
 use crate::frame::Frame;
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
@@ -135,6 +136,35 @@ pub fn features_of_pairs(
     points: &[Vector; 2],
     direction: &Vector,
 ) -> [FeatureId; 2] {
+    features(polyhedra, poses, pairs, points, direction, None)
+}
+
+/// The features of a contact: those that hold the points; of points deep inside the faces at the vertices that reach farthest along
+/// the overlap's direction, which look most towards the other body.
+pub fn features_of_overlap(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    points: &[Vector; 2],
+    overlap: &Overlap,
+) -> [FeatureId; 2] {
+    let size = polyhedra[0].radius.min(polyhedra[1].radius);
+    let ends = (overlap.depth > DEEP * size).then_some(overlap.ends);
+    features(polyhedra, poses, pairs, points, &overlap.direction, ends)
+}
+
+/// As a multiple of the smaller radius, the depth from which on the faces of all sides are not searched for a point between them:
+/// that takes far longer than the rest. Touching bodies overlap by rounding.
+const DEEP: f64 = 1e-6;
+
+fn features(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    points: &[Vector; 2],
+    direction: &Vector,
+    ends: Option<VertexPair>,
+) -> [FeatureId; 2] {
     std::array::from_fn(|i| {
         let towards = poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
         let mut vertices = [0; 4];
@@ -145,11 +175,18 @@ pub fn features_of_pairs(
                 count += 1;
             }
         }
-        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards)
+        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards, ends.map(|pair| pair[i]))
     })
 }
 
-fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector, towards: &Vector) -> FeatureId {
+/// `end` is the vertex that reaches farthest towards the other body, if the point may be deep inside.
+fn feature_of_vertices(
+    polyhedron: &Polyhedron,
+    vertices: &[u32],
+    point: &Vector,
+    towards: &Vector,
+    end: Option<u32>,
+) -> FeatureId {
     let &[first, ref others @ ..] = vertices else { return FeatureId::Vertex(0) };
     if others.is_empty() {
         return FeatureId::Vertex(first);
@@ -166,16 +203,20 @@ fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector
             return FeatureId::Edge(edge);
         }
     }
-    if vertices.iter().any(|&v| polyhedron.neighbour_capacity(v) > MOST_NEIGHBOURS) {
-        return nearest_face(polyhedron, point, towards).map_or(FeatureId::Vertex(first), FeatureId::Face);
-    }
-    let around = vertices.iter().flat_map(|&v| edges_at(polyhedron, v)).flat_map(|edge| {
-        let edge = &polyhedron.edges[edge as usize];
-        [edge.left, edge.right]
-    });
-    // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
-    let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
+    // The faces around the vertices hold the point, but for points inside, vertices inside a merged face and slivers that rounding
+    // shuffles.
+    let has_many = vertices.iter().any(|&v| polyhedron.neighbour_capacity(v) > MOST_NEIGHBOURS);
+    let around = vertices.iter().flat_map(|&v| faces_at(polyhedron, v));
+    let face = if has_many { None } else { face_holding(polyhedron, around, point, towards) };
+    let face = face.or_else(|| steepest_face(polyhedron, end?, towards));
+    let face = face.or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
+}
+
+/// The face at a vertex that looks most in a direction.
+fn steepest_face(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
+    let slope = |face: &u32| polyhedron.faces[*face as usize].normal.dot(towards);
+    faces_at(polyhedron, vertex).max_by(|face, other| slope(face).total_cmp(&slope(other)))
 }
 
 /// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
@@ -222,6 +263,14 @@ fn rounding(polyhedron: &Polyhedron) -> f64 {
 /// The edges at a vertex.
 fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
     polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|&edge| edge != NONE)
+}
+
+/// The faces at a vertex, each twice.
+fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
+    edges_at(polyhedron, vertex).flat_map(|edge| {
+        let edge = &polyhedron.edges[edge as usize];
+        [edge.left, edge.right]
+    })
 }
 
 /// The distance of a point from a face; 0 within the rounding of its planes. At the sharp corner of a sliver a point may

@@ -25,31 +25,38 @@ const STEEPEST_NEIGHBOURS: usize = 12;
 /// How far, as a sine, a cross product of edges may miss a normal cone to be looked at; the overlap itself then decides.
 const CONE_TOLERANCE: f64 = 1e-9;
 
+/// How two bodies that intersect overlap along a direction.
+#[derive(Debug, Clone, Copy)]
+pub struct Overlap {
+    /// In the world, from body 2 to body 1, a unit vector.
+    pub direction: Vector,
+    /// By how much body 2 would have to move against it to come free.
+    pub depth: f64,
+    /// The vertices that reach farthest along it.
+    pub ends: VertexPair,
+}
+
 /// Two placed bodies, and the least overlap found.
 struct Search<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
-    /// World, from body 2 to body 1, a unit vector.
-    direction: Vector,
-    overlap: f64,
-    /// The vertices that reach farthest along it.
-    ends: VertexPair,
-    /// Vertices that reach far along other directions.
-    met: [VertexPair; 8],
+    least: Overlap,
+    /// Vertices that reach far along other directions, and where they are in their bodies.
+    met: [(VertexPair, [Vector; 2]); 8],
     /// The entry of `met` to be overwritten next.
     oldest: usize,
 }
 
-/// A world unit direction from body 2 to body 1 for a pair that intersects. `pairs` are vertex pairs whose differences hold the
-/// origin in their hull.
-pub fn contact_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: &[VertexPair]) -> Vector {
+/// The least overlap found of a pair that intersects. `pairs` are vertex pairs whose differences hold the origin in their hull.
+pub fn contact_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: &[VertexPair]) -> Overlap {
     let ends = pairs.first().copied().unwrap_or_default();
-    let mut met = [ends; 8];
+    let mut met = [(ends, positions(polyhedra, ends)); 8];
     for (known, pair) in met.iter_mut().zip(pairs) {
-        *known = *pair;
+        *known = (*pair, positions(polyhedra, *pair));
     }
     let oldest = pairs.len().min(7);
-    let mut search = Search { polyhedra, poses, direction: Vector::x(), overlap: f64::INFINITY, ends, met, oldest };
+    let least = Overlap { direction: Vector::x(), depth: f64::INFINITY, ends };
+    let mut search = Search { polyhedra, poses, least, met, oldest };
     let world_centre = |i: usize| poses[i].transform(&polyhedra[i].mass.centre_of_mass);
     search.consider(&(world_centre(0) - world_centre(1)));
     let has_many = |i: usize| pairs.iter().any(|pair| has_many_neighbours(polyhedra[i], pair[i]));
@@ -67,17 +74,22 @@ pub fn contact_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: 
         }
     }
     search.consider_cross_products(ends);
-    let mut from = search.ends;
+    let mut from = search.least.ends;
     for _ in 0..ROUND_LIMIT {
         search.consider_normals(0, from[0]);
         search.consider_normals(1, from[1]);
         search.consider_cross_products(from);
-        if search.ends == from {
+        if search.least.ends == from {
             break;
         }
-        from = search.ends;
+        from = search.least.ends;
     }
-    search.direction
+    search.least
+}
+
+/// Where two vertices are in their bodies.
+fn positions(polyhedra: [&Polyhedron; 2], pair: VertexPair) -> [Vector; 2] {
+    [0, 1].map(|i| polyhedra[i].local_position(pair[i]))
 }
 
 impl Search<'_> {
@@ -90,17 +102,18 @@ impl Search<'_> {
         let direction = direction / length;
         let apart = -direction.dot(&(self.poses[0].translation() - self.poses[1].translation()));
         let towards = [self.towards(0, &direction), self.towards(1, &direction)];
-        let height = |i: usize, vertex: u32| towards[i].dot(&self.polyhedra[i].local_position(vertex));
         // No body reaches less far than a vertex of it, which rules most directions out at once.
-        let mut ends = self.ends;
-        for (i, end) in ends.iter_mut().enumerate() {
-            for pair in &self.met {
-                if height(i, pair[i]) > height(i, *end) {
-                    *end = pair[i];
+        let mut ends = self.least.ends;
+        let mut reach = [0, 1].map(|i| towards[i].dot(&self.polyhedra[i].local_position(ends[i])));
+        for (pair, positions) in &self.met {
+            for i in 0..2 {
+                let height = towards[i].dot(&positions[i]);
+                if height > reach[i] {
+                    (ends[i], reach[i]) = (pair[i], height);
                 }
             }
         }
-        if apart + height(0, ends[0]) + height(1, ends[1]) >= self.overlap {
+        if apart + reach[0] + reach[1] >= self.least.depth {
             return;
         }
         for (i, end) in ends.iter_mut().enumerate() {
@@ -109,22 +122,40 @@ impl Search<'_> {
             let start = if is_flat(polyhedron, *end) { polyhedron.edges[0].tail } else { *end };
             (*end, _) = polyhedron.support(&towards[i], start);
         }
-        self.met[self.oldest] = ends;
+        let positions = positions(self.polyhedra, ends);
+        self.met[self.oldest] = (ends, positions);
         self.oldest = (self.oldest + 1) % self.met.len();
-        let overlap = apart + height(0, ends[0]) + height(1, ends[1]);
-        if overlap < self.overlap {
-            (self.direction, self.overlap, self.ends) = (direction, overlap, ends);
+        let depth = apart + towards[0].dot(&positions[0]) + towards[1].dot(&positions[1]);
+        if depth < self.least.depth {
+            self.least = Overlap { direction, depth, ends };
         }
     }
 
     /// The normals of the faces around a vertex.
     fn consider_normals(&mut self, i: usize, vertex: u32) {
         let polyhedron = self.polyhedra[i];
-        for neighbour in self.neighbours(i, vertex).as_slice() {
-            // NONE is beyond all indices.
-            let Some(edge) = polyhedron.edges.get(neighbour.edge as usize) else { continue };
-            for normal in &edge.normals {
-                self.consider_normal(i, normal);
+        if has_many_neighbours(polyhedron, vertex) {
+            for neighbour in self.neighbours(i, vertex).as_slice() {
+                // NONE is beyond all indices.
+                let Some(edge) = polyhedron.edges.get(neighbour.edge as usize) else { continue };
+                edge.normals.iter().for_each(|normal| self.consider_normal(i, normal));
+            }
+        } else {
+            for block in polyhedron.neighbour_blocks(vertex) {
+                for (lane, edge) in block.edge.iter().enumerate() {
+                    let Some(edge) = polyhedron.edges.get(*edge as usize) else { continue };
+                    // Unused lanes repeat lane 0.
+                    if lane > 0 && block.head[lane] == block.head[0] {
+                        break;
+                    }
+                    // Every face is on the left of one edge away from the vertex. Inside an edge it is on either.
+                    if edge.head != vertex {
+                        self.consider_normal(i, &edge.normals[0]);
+                    }
+                    if edge.tail != vertex {
+                        self.consider_normal(i, &edge.normals[1]);
+                    }
+                }
             }
         }
         if is_flat(polyhedron, vertex) {
@@ -138,7 +169,7 @@ impl Search<'_> {
 
     /// The neighbours of a vertex that are looked at.
     fn neighbours(&self, i: usize, vertex: u32) -> Neighbours {
-        Neighbours::new(self.polyhedra[i], vertex, &self.towards(i, &self.direction))
+        Neighbours::new(self.polyhedra[i], vertex, &self.towards(i, &self.least.direction))
     }
 
     /// An outward face normal of one body, in its own frame.

@@ -76,7 +76,8 @@ pub fn intersection(
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
-/// the objects overlap little (where they only touch along a face it separates them) and the features there.
+/// the objects overlap little (where they only touch along a face it separates them) and features: those that hold the point, or if
+/// it is deep inside an object the face of it that reaches farthest along the normal.
 ///
 /// # Errors
 /// As [`distance`].
@@ -719,11 +720,11 @@ impl PairQuery<'_> {
                 answer.upper = 0.0;
                 contact::fill_proof(answer, polyhedra, pairs.as_slice());
                 if query == Query::Contact {
-                    let direction = &contact_direction(polyhedra, poses, pairs.as_slice());
+                    let overlap = &contact_direction(polyhedra, poses, pairs.as_slice());
                     let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
                     let points = overlap::combinations(polyhedra, pairs.as_slice(), &weights);
-                    let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), &points, direction);
-                    contact::fill_placed(answer, polyhedra, poses, &points, direction, features);
+                    let features = contact::features_of_overlap(polyhedra, poses, pairs.as_slice(), &points, overlap);
+                    contact::fill_placed(answer, polyhedra, poses, &points, &overlap.direction, features);
                 } else {
                     contact::fill_nothing(answer);
                 }

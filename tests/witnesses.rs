@@ -12,7 +12,7 @@ use swiftprox::verify::verify;
 mod common;
 mod shapes;
 
-use common::models::random_hull;
+use common::models::{ellipsoid, random_hull};
 use common::random::Random;
 
 const OPTIONS: fn() -> ShapeOptions = || ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
@@ -248,4 +248,33 @@ fn matrices_off_orthonormal_are_marched() {
         println!("1e{exponent}: {marched} of 200");
         assert!(marched >= if exponent == -3 { 150 } else { 195 }, "1e{exponent}: {marched} of 200");
     }
+}
+
+/// Of a point deep inside the faces are those towards the other body.
+#[test]
+fn features_of_a_deep_contact_look_along_the_normal() {
+    let body = Shape::from_mesh(&ellipsoid([1.0, 0.8, 0.6], 400).unwrap(), &OPTIONS()).unwrap();
+    let mut random = Random::new(0xdee9);
+    let mut faces = 0;
+    for _ in 0..500 {
+        let away = random.direction() * random.uniform(0.2, 1.0);
+        let [pose1, pose2] = [Vector::zeros(), away].map(|t| Pose::new(&random.rotation(), &t));
+        let mut answer = PairAnswer::default();
+        let config = PairConfig::default();
+        contact(&body, &pose1, &body, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+        assert_eq!(answer.outcome, Outcome::Intersecting);
+        let normal = Vector::from(answer.normal);
+        for (feature, outward) in
+            [(answer.feature1, pose1.rotate_back(&-normal)), (answer.feature2, pose2.rotate_back(&normal))]
+        {
+            if feature.kind == FeatureKind::Face {
+                let polyhedron = body.polyhedron();
+                let face = polyhedron.faces.iter().position(|face| face.label == feature.ids[0]).unwrap();
+                let slope = polyhedron.faces[face].normal.dot(&outward);
+                assert!(slope > 0.9, "{slope}: {answer:?}");
+                faces += 1;
+            }
+        }
+    }
+    assert!(faces > 900, "{faces}");
 }

@@ -83,8 +83,9 @@ pub unsafe extern "C" fn swift_pair_intersection(
 }
 
 /// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
-/// which the objects overlap little (where they only touch along a face it separates them) and the features there. Arguments
-/// and errors as of swift_pair_distance.
+/// which the objects overlap little (where they only touch along a face it separates them) and features: those that hold the
+/// point, or if it is deep inside an object the face of it that reaches farthest along the normal. Arguments and errors as of
+/// swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_contact(
     shape1: *const Shape,
