@@ -73,6 +73,8 @@ pub struct Shells {
     pub cells: Cells,
     /// The vertices relative to the centre of mass, as multiples of the body's radius; the fourth number is 0.
     pub positions: Vec<[f32; 4]>,
+    /// The radius of a sphere about the centre of mass inside the body, as a multiple of its radius; may be too small.
+    pub core: f64,
     /// Turns a vertex, seen from the centre of mass, outwards where the body is thin.
     pub outward: [[f32; 3]; 3],
     /// Where the cells begin that serve points of a squared distance whose exponent and leading bits are the index.
@@ -85,12 +87,13 @@ const MANTISSA_BITS: u32 = 2;
 const LEAST: i32 = (127 - 8) << MANTISSA_BITS;
 
 impl Shells {
-    /// From the radii (ascending), the vertices' positions, the cells' vertices and what turns outwards.
+    /// From the radii (ascending), the vertices' positions, the cells' vertices, the core's radius and what turns outwards.
     pub fn new(
         resolution: usize,
         radii: Vec<f64>,
         positions: Vec<[f32; 4]>,
         cells: &[u32],
+        core: f64,
         outward: [[f32; 3]; 3],
     ) -> Shells {
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
@@ -103,7 +106,7 @@ impl Shells {
             *first = (shell * resolution * resolution) as u32;
         }
         let cells = Cells::new(cells, positions.len());
-        Shells { resolution, radii, cells, positions, outward, first_cells }
+        Shells { resolution, radii, cells, positions, core, outward, first_cells }
     }
 
     /// A vertex near a point, given as [`Shells::positions`] are.

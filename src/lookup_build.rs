@@ -145,10 +145,10 @@ fn resolution_for(vertex_count: usize) -> usize {
     ((4 * vertex_count).isqrt().next_power_of_two()).clamp(16, 128)
 }
 
-/// Smaller than the real radius if the centre of mass is no inner point, and then 0.
+/// Smaller than the real radius if the centre of mass is no inner point, and then 0; 0 of bodies without faces.
 fn inner_radius(polyhedron: &Polyhedron, centre: &Vector) -> f64 {
-    let depth = |face: &crate::polyhedron::Face| -face.planes.value(0, centre);
-    polyhedron.faces.iter().map(depth).fold(f64::INFINITY, f64::min).max(0.0)
+    let depths = polyhedron.faces.iter().map(|face| -face.planes.value(0, centre));
+    depths.reduce(f64::min).map_or(0.0, |least| least.max(0.0))
 }
 
 fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
@@ -181,7 +181,7 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
         [p.x as f32, p.y as f32, p.z as f32, 0.0]
     };
     let positions = search.positions.iter().map(position).collect();
-    Shells::new(resolution, radii, positions, &cells, thickness.outward())
+    Shells::new(resolution, radii, positions, &cells, inner, thickness.outward())
 }
 
 /// How the vertices spread around the centre of mass.

@@ -522,6 +522,9 @@ fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
     has_moved(frame, last, 0.25)
 }
 
+/// The square of an angle.
+const RADIAN: f64 = 1.0;
+
 /// Whether the square of the angle by which the pair has moved is more than so much.
 #[inline(always)]
 fn has_moved<L: Lanes>(frame: &Frame<L>, last: &[u32; 3], square: f64) -> bool {
@@ -633,11 +636,13 @@ impl PairQuery<'_> {
             self.fill(&decision);
             return Ok(());
         }
-        // Bodies that intersected the last time and have jumped apart are for marching.
+        // Bodies that intersected the last time and have jumped apart are for marching. Those whose cores overlap have not, and up to
+        // a radian the last tetrahedron is the better hint (of fat bodies at 5° to 45° it saves 15 to 5 of 100 instructions).
         if let Some(frame) = &frame
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
             && has_jumped(frame, &self.cache.marker)
+            && (has_moved(frame, &self.cache.marker, RADIAN) || !start::do_cores_overlap(polyhedra, poses))
         {
             let beginning = start::anew(polyhedra, poses, true);
             if has_turned_away(frame, &self.cache.marker) {

@@ -37,6 +37,14 @@ pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) ->
     found.unwrap_or_else(|| Beginning { vertices: farthest(polyhedra, poses), guess: Guess::Unclear })
 }
 
+/// Whether spheres inside two bodies overlap, as far as their tables know any.
+pub fn do_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else { return false };
+    let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
+    let reach = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
+    between.norm_squared() < reach * reach
+}
+
 /// The support vertices along the line of the bodies' origins.
 fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [u32; 2] {
     let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
@@ -87,8 +95,7 @@ fn alternate(tables: [&Shells; 2], polyhedra: [&Polyhedron; 2], poses: [&Pose; 2
     let [radius1, radius2] = [polyhedra[0].mass.radius, polyhedra[1].mass.radius];
     let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
     // From body 1's frame and unit to body 2's, and back.
-    let there = Map::new(poses, &between, [radius1, radius2]);
-    let back = Map::new([poses[1], poses[0]], &-between, [radius2, radius1]);
+    let [there, back] = maps(poses, &between, [radius1, radius2]);
     let position = |i: usize, vertex: u32| tables[i].positions[vertex as usize];
     let mut vertex1 = tables[0].nearest(back.offset);
     let mut vertex2 = tables[1].nearest(there.apply(position(0, vertex1)));
@@ -123,30 +130,36 @@ fn is_facing(outward: &[[f32; 3]; 3], vertex: [f32; 4], point: [f32; 3]) -> bool
 const MANY_VERTICES: usize = 4_000;
 
 /// Points relative to one body's centre of mass, in units of its radius, seen from another body in the same way.
+#[derive(Clone, Copy)]
 struct Map {
     /// What the first, second and third coordinate are multiplied by.
     columns: [[f32; 3]; 3],
     offset: [f32; 3],
 }
 
-impl Map {
-    #[inline(always)]
-    fn new([from, to]: [&Pose; 2], between: &Vector, [from_radius, to_radius]: [f64; 2]) -> Map {
-        let (a, b) = (&from.rows, &to.rows);
-        let unit = 1.0 / to_radius;
-        let scale = from_radius * unit;
-        let mut columns = [[0.0; 3]; 3];
-        let mut offset = [0.0; 3];
-        for row in 0..3 {
-            for column in 0..3 {
-                let entry = b[0][row] * a[0][column] + b[1][row] * a[1][column] + b[2][row] * a[2][column];
-                columns[column][row] = (entry * scale) as f32;
-            }
-            offset[row] = ((b[0][row] * between.x + b[1][row] * between.y + b[2][row] * between.z) * unit) as f32;
+/// From body 1 to body 2 and back; `between` is the way from the centre of mass of body 2 to that of body 1 in the world. A transpose
+/// stands in for an inverse: it is all about a good guess.
+#[inline(always)]
+fn maps(poses: [&Pose; 2], between: &Vector, [radius1, radius2]: [f64; 2]) -> [Map; 2] {
+    let axis = |pose: &Pose, i: usize| Vector::new(pose.rows[0][i], pose.rows[1][i], pose.rows[2][i]);
+    let axes1 = [axis(poses[0], 0), axis(poses[0], 1), axis(poses[0], 2)];
+    let [unit1, unit2] = [1.0 / radius1, 1.0 / radius2];
+    let [there, back] = [(radius1 * unit2) as f32, (radius2 * unit1) as f32];
+    let mut maps = [Map { columns: [[0.0; 3]; 3], offset: [0.0; 3] }; 2];
+    for i in 0..3 {
+        let axis2 = axis(poses[1], i);
+        for (j, axis1) in axes1.iter().enumerate() {
+            let entry = axis2.dot(axis1) as f32;
+            maps[0].columns[j][i] = entry * there;
+            maps[1].columns[i][j] = entry * back;
         }
-        Map { columns, offset }
+        maps[0].offset[i] = (axis2.dot(between) * unit2) as f32;
+        maps[1].offset[i] = (-axes1[i].dot(between) * unit1) as f32;
     }
+    maps
+}
 
+impl Map {
     #[inline(always)]
     fn apply(&self, [x, y, z, _]: [f32; 4]) -> [f32; 3] {
         let [a, b, c] = &self.columns;
