@@ -12,18 +12,6 @@
 
 #include "check.h"
 
-/* Checks that a call fails with a status and that the message names something. */
-#define CHECK_FAILS(expected, name, call) check_fails(expected, name, call, #call, __LINE__)
-
-static void check_fails(swift_status expected, const char *name, swift_status status, const char *what, int line)
-{
-    const char *message = swift_library_last_error_message();
-    if (!check_that(status == expected && strstr(message, name) != NULL, what, message, __FILE__, line)) {
-        fprintf(stderr, "    %s, not %s naming \"%s\"\n", swift_library_status_string(status),
-                swift_library_status_string(expected), name);
-    }
-}
-
 static const double CORNERS[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 static const double HERE[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};

@@ -3,6 +3,7 @@
 #define CHECK_H
 
 #include <stdio.h>
+#include <string.h>
 
 #include "swiftprox.h"
 
@@ -26,6 +27,19 @@ static int check_that(int holds, const char *what, const char *why, const char *
         fprintf(stderr, "%s:%d: failed: %s %s\n", file, line, what, why);
     }
     return holds;
+}
+
+/* Checks that a call fails with a status and that the message names something. */
+#define CHECK_FAILS(expected, name, call) check_fails(expected, name, call, #call, __FILE__, __LINE__)
+
+static inline void check_fails(swift_status expected, const char *name, swift_status status, const char *what,
+                               const char *file, int line)
+{
+    const char *message = swift_library_last_error_message();
+    if (!check_that(status == expected && strstr(message, name) != NULL, what, message, file, line)) {
+        fprintf(stderr, "    %s, not %s naming \"%s\"\n", swift_library_status_string(status),
+                swift_library_status_string(expected), name);
+    }
 }
 
 /* Prints the outcome; the exit status of the program. */

@@ -13,11 +13,12 @@
  *
  * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
  * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
- * nothing keeps a pointer of the caller except swift_library_set_log.
+ * nothing keeps a pointer of the caller except swift_library_set_log and swift_library_register_mesh_reader.
  *
  * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
- * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, a
- * count of scenes, by which their ids differ, and which vector units the processor has; and a last message for each thread.
+ * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, the
+ * mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the processor has; and a
+ * last message for each thread.
  *
  * Structs. Options, configs, queries and infos begin with struct_size and may grow at their end: fill the first three with their
  * _init function and change members, set an info's struct_size to its size. A struct of an older header is accepted, one of a newer
@@ -239,6 +240,12 @@ enum {
 };
 typedef int32_t swift_hierarchy;
 
+/**
+ * Receives the mesh that a swift_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call of
+ * the callback, for its thread.
+ */
+typedef struct swift_mesh_sink swift_mesh_sink;
+
 /** Objects, their poses and the pairs that queries test. Make one with swift_scene_create. */
 typedef struct swift_scene swift_scene;
 
@@ -253,6 +260,21 @@ typedef struct swift_shape swift_shape;
  * and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
  */
 typedef void (*swift_log_callback)(int32_t status, const char *message, void *user);
+
+/**
+ * Reads a mesh file: calls swift_mesh_sink_add_vertices and swift_mesh_sink_add_faces as often as it likes and returns 0; or says
+ * what is wrong with the file by swift_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to the sink
+ * that was refused, whether or not the callback has looked at its status.
+ *
+ * `user` is the pointer given with the callback. `data` holds the `size` bytes of the file, without a UTF-8 byte order mark;
+ * behind them is one zero byte more, where strtod and its like end. Data and sink are gone when the callback returns; what the
+ * sink was given it has copied. The callback may call the library: read other files, and register readers. It must return, and a
+ * C++ exception that leaves it ends the program.
+ */
+typedef int32_t (*swift_mesh_reader_callback)(void *user,
+                                              const char *data,
+                                              size_t size,
+                                              struct swift_mesh_sink *sink);
 
 /**
  * Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
@@ -661,6 +683,69 @@ void swift_library_set_log(swift_log_callback callback,
                            void *user);
 
 /**
+ * Registers a reader of mesh files, which swift_shape_create_from_file and swift_scene_add_file call for every file that begins
+ * with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the extension of
+ * the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces. The first
+ * bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too.
+ *
+ * The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
+ * under a magic that has one replaces it, a null callback takes it back (and does nothing if there is none). The callback may be
+ * called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
+ * and no other thread is still reading a file by it.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or it
+ * begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_NULL_POINTER: magic is
+ * null.
+ */
+swift_status swift_library_register_mesh_reader(const char *magic,
+                                                swift_mesh_reader_callback callback,
+                                                void *user);
+
+/**
+ * Adds `vertex_count` vertices, 3 coordinates each, to the mesh that a callback reads. They are numbered from 0 in the order in
+ * which they are added. The array is copied.
+ *
+ * SWIFT_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFT_ERROR_LIMIT: too many vertices.
+ * SWIFT_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
+ */
+swift_status swift_mesh_sink_add_vertices(struct swift_mesh_sink *sink,
+                                          const double *vertices,
+                                          size_t vertex_count);
+
+/**
+ * Adds `face_count` faces to the mesh that a callback reads: `indices` holds the numbers of their vertices, one face after the
+ * other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are triangles.
+ * They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
+ * checked when the callback returns. The arrays are copied.
+ *
+ * SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is
+ * added, and the file is refused.
+ */
+swift_status swift_mesh_sink_add_faces(struct swift_mesh_sink *sink,
+                                       const uint32_t *indices,
+                                       const uint32_t *valences,
+                                       size_t face_count);
+
+/**
+ * Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
+ * outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swift_shape_options.convexity_tolerance says
+ * otherwise.
+ *
+ * SWIFT_ERROR_NULL_POINTER: sink is null.
+ */
+swift_status swift_mesh_sink_set_single_precision(struct swift_mesh_sink *sink);
+
+/**
+ * Refuses the file that a callback reads, whatever the callback returns. `message`, a string that is copied, says what is wrong,
+ * best with the line; the library adds which file and which reader. The first message holds, also where a call to the sink was
+ * refused before.
+ *
+ * SWIFT_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
+ */
+swift_status swift_mesh_sink_fail(struct swift_mesh_sink *sink,
+                                  const char *message);
+
+/**
  * Fills `options` with the defaults, struct_size included.
  *
  * SWIFT_ERROR_NULL_POINTER: options is null.
@@ -707,16 +792,18 @@ swift_status swift_shape_create_from_points(const double *points,
                                             struct swift_shape **shape);
 
 /**
- * Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
- * system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file,
- * of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
+ * Makes a shape from a mesh file: by the reader that swift_library_register_mesh_reader has registered for its first bytes if
+ * there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the system's encoding
+ * (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file, or in which the reader adds
+ * them; of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults.
  *
- * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
- * the contract (see swift_shape_create_from_mesh). Both messages name the file. SWIFT_ERROR_CANCELLED: options->progress said
- * so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line, or the registered reader and what
+ * it says. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
+ * SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+ * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_file(const char *path,
                                           const struct swift_shape_options *options,

@@ -4,12 +4,14 @@
 mod random;
 
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use random::Random;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::mesh_io::{Format, parse_mesh, read_mesh};
+use swiftprox::mesh_io::{Format, parse_mesh, read_mesh, register_mesh_reader, unregister_mesh_reader};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 const FIXTURES: [&str; 7] =
@@ -315,4 +317,164 @@ fn damaged_files_never_panic() {
     }
     // The damage is neither always fatal nor always harmless.
     assert!(read > 5_000 && refused > 5_000, "{read} read, {refused} refused");
+}
+
+// --- Registered readers. The registry is the process's own: each test has magics of its own. ---------------------------------
+
+/// A file of that name and content in the folder for tests.
+fn written(name: &str, content: &[u8]) -> PathBuf {
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join(name);
+    std::fs::write(&path, content).unwrap();
+    path
+}
+
+/// A tetrahedron of edge length `size`.
+fn tetrahedron(size: f64) -> PolygonMesh {
+    let corners = [Vector::zeros(), size * Vector::x(), size * Vector::y(), size * Vector::z()];
+    PolygonMesh::new(corners.to_vec(), vec![0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2], None).unwrap()
+}
+
+/// How large the tetrahedron in a file is, or the message.
+fn size(read: swiftprox::error::Result<PolygonMesh>) -> Result<f64, String> {
+    read.map(|mesh| mesh.vertices[1].x).map_err(|error| {
+        assert!(matches!(error, Error::File(_)), "{error:?}");
+        error.message().to_string()
+    })
+}
+
+#[test]
+fn a_registered_reader_goes_before_extension_and_content() {
+    const OFF: &[u8] = b"OFFSET\n4 4 6";
+    let path = written("registered.off", OFF);
+    let marked = written("marked.stl", &[b"\xef\xbb\xbf \t\r\n\x0b", OFF].concat());
+    let before = size(read_mesh(&path)).unwrap_err();
+    assert!(before.ends_with("line 1: \"OFFSET\" where OFF should be"), "{before}");
+
+    register_mesh_reader(
+        b"OFFSET",
+        Arc::new(|bytes| {
+            // The whole file but the byte order mark.
+            assert!(bytes == OFF || bytes == [b" \t\r\n\x0b", OFF].concat(), "{bytes:?}");
+            Ok(tetrahedron(2.0))
+        }),
+    )
+    .unwrap();
+    assert_eq!(size(read_mesh(&path)), Ok(2.0));
+    assert_eq!(size(read_mesh(&marked)), Ok(2.0));
+    assert_eq!(size(parse_mesh(OFF, None, "m")), Ok(2.0));
+    // Whoever says which format it is gets that.
+    assert!(parse_mesh(OFF, Some(Format::Off), "m").is_err());
+    // Other files are read as ever, though this one begins with a part of the magic.
+    assert_eq!(read_mesh(&fixture("cube.off")), Ok(cube()));
+    assert_eq!(Shape::from_file(&path, &ShapeOptions::default()).unwrap().polyhedron().vertices.len(), 4);
+
+    register_mesh_reader(b"OFFSET", Arc::new(|_| Ok(tetrahedron(3.0)))).unwrap();
+    assert_eq!(size(read_mesh(&path)), Ok(3.0));
+    assert!(unregister_mesh_reader(b"OFFSET") && !unregister_mesh_reader(b"OFFSET"));
+    assert_eq!(size(read_mesh(&path)), Err(before));
+}
+
+#[test]
+fn what_a_registered_reader_refuses_names_file_and_reader() {
+    let path = written("refused.mesh", b"Refusal 1");
+    let name = path.display();
+    for error in [Error::Mesh("not today".into()), Error::File("not today".into()), Error::Limit("not today".into())] {
+        register_mesh_reader(b"Refusal", Arc::new(move |_| Err(error.clone()))).unwrap();
+        let expected = format!("{name}: the reader registered for \"Refusal\": not today");
+        assert_eq!(size(read_mesh(&path)), Err(expected));
+    }
+    register_mesh_reader(b"Refusal", Arc::new(|_| Ok(PolygonMesh::default()))).unwrap();
+    assert_eq!(size(read_mesh(&path)), Err(format!("{name}: there are no vertices in it")));
+    unregister_mesh_reader(b"Refusal");
+}
+
+#[test]
+fn magics_that_no_file_or_two_readers_could_claim_are_refused() {
+    let register = |magic: &[u8]| {
+        register_mesh_reader(magic, Arc::new(|_| Ok(tetrahedron(1.0)))).map_err(|error| {
+            assert!(matches!(error, Error::Argument(_)), "{error:?}");
+            error.message().to_string()
+        })
+    };
+    assert_eq!(register(b""), Err("the magic of a mesh reader is empty".into()));
+    for magic in [&b" Claim"[..], b"\nClaim", b"\xef\xbb\xbfClaim"] {
+        assert!(register(magic).unwrap_err().contains("begins with white space or a byte order mark"));
+    }
+    assert_eq!(register(b"Claim"), Ok(()));
+    for magic in [&b"Claim2"[..], b"Cla"] {
+        let message = register(magic).unwrap_err();
+        assert!(message.ends_with("would have two mesh readers: there is one for \"Claim\""), "{message}");
+    }
+    // What was refused is not there, what was there is.
+    assert!(size(parse_mesh(b"Cla 1", None, "m")).is_err());
+    assert_eq!(size(parse_mesh(b"Claim2", None, "m")), Ok(1.0));
+    assert_eq!(register(b"Claw"), Ok(()));
+    assert!(unregister_mesh_reader(b"Claim") && unregister_mesh_reader(b"Claw"));
+    assert_eq!(register(b"Cla"), Ok(()));
+    assert!(unregister_mesh_reader(b"Cla"));
+    // Bytes that are no text.
+    assert_eq!(register(b"\x89\xff\0"), Ok(()));
+    assert_eq!(size(parse_mesh(b"\x89\xff\0\x01", None, "m")), Ok(1.0));
+    assert!(unregister_mesh_reader(b"\x89\xff\0"));
+}
+
+/// No lock is held while a reader runs or while what it holds is dropped: else this would never end.
+#[test]
+fn a_reader_may_read_register_and_be_dropped_anywhere() {
+    struct RegistersWhenDropped;
+    impl Drop for RegistersWhenDropped {
+        fn drop(&mut self) {
+            register_mesh_reader(b"Heir", Arc::new(|_| Ok(tetrahedron(7.0)))).unwrap();
+        }
+    }
+    let inner = written("inner.mesh", b"Inner");
+    register_mesh_reader(b"Inner", Arc::new(|_| Ok(tetrahedron(5.0)))).unwrap();
+    let last = RegistersWhenDropped;
+    register_mesh_reader(
+        b"Outer",
+        Arc::new(move |_| {
+            let _ = &last;
+            let mesh = read_mesh(&inner)?;
+            register_mesh_reader(b"Outer", Arc::new(|_| Ok(tetrahedron(6.0))))?;
+            unregister_mesh_reader(b"Inner");
+            Ok(mesh)
+        }),
+    )
+    .unwrap();
+    assert!(parse_mesh(b"Heir", None, "m").is_err());
+    assert_eq!(size(parse_mesh(b"Outer", None, "m")), Ok(5.0));
+    assert_eq!(size(parse_mesh(b"Outer", None, "m")), Ok(6.0));
+    assert!(parse_mesh(b"Inner", None, "m").is_err());
+    assert_eq!(size(parse_mesh(b"Heir", None, "m")), Ok(7.0));
+    assert!(unregister_mesh_reader(b"Outer") && unregister_mesh_reader(b"Heir"));
+}
+
+#[test]
+fn readers_may_be_replaced_while_others_read() {
+    let read = AtomicUsize::new(0);
+    std::thread::scope(|threads| {
+        for _ in 0..3 {
+            threads.spawn(|| {
+                for _ in 0..2000 {
+                    match size(parse_mesh(b"Turns", None, "m")) {
+                        Ok(size) => assert!((1.0..=3.0).contains(&size)),
+                        Err(message) => assert!(message.contains("not a TRI"), "{message}"),
+                    }
+                    read.fetch_add(1, Ordering::Relaxed);
+                }
+            });
+        }
+        threads.spawn(|| {
+            let mut turn = 0;
+            while read.load(Ordering::Relaxed) < 6000 {
+                turn += 1;
+                let size = f64::from(turn % 3 + 1);
+                register_mesh_reader(b"Turns", Arc::new(move |_| Ok(tetrahedron(size)))).unwrap();
+                if turn % 5 == 0 {
+                    assert!(unregister_mesh_reader(b"Turns"));
+                }
+            }
+            unregister_mesh_reader(b"Turns");
+        });
+    });
 }

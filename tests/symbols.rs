@@ -5,7 +5,7 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 5] = ["library", "shape", "pair", "object", "scene"];
+const NOUNS: [&str; 6] = ["library", "mesh", "shape", "pair", "object", "scene"];
 
 /// First words behind `swift_` of the entry points that docs/Runtime.md of github.com/swiftlang/swift lists, and of its libraries
 /// for concurrency, time and reflection. Most go on in camel case, which our names never do; a noun that is such a word

@@ -10,6 +10,7 @@
 
 // In the order of the header.
 pub mod library;
+pub mod mesh_reader;
 pub mod shape_options;
 pub mod shape;
 pub mod level;

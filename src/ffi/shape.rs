@@ -120,16 +120,18 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
     })
 }
 
-/// Makes a shape from a mesh file: TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the
-/// system's encoding (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file,
-/// of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
+/// Makes a shape from a mesh file: by the reader that swift_library_register_mesh_reader has registered for its first bytes if
+/// there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the system's encoding
+/// (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file, or in which the reader adds
+/// them; of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line. SWIFT_ERROR_MESH: its mesh breaks
-/// the contract (see swift_shape_create_from_mesh). Both messages name the file. SWIFT_ERROR_CANCELLED: options->progress said
-/// so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line, or the registered reader and what
+/// it says. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
+/// SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
+/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_file(
     path: *const c_char,
@@ -353,10 +355,32 @@ pub(super) unsafe fn read_arrays(
     face_count: usize,
 ) -> Checked<PolygonMesh> {
     check_count(vertex_count, "vertex_count")?;
+    // SAFETY: by the caller.
+    let (faces, points) =
+        unsafe { (read_faces(indices, valences, face_count)?, read_vectors(vertices, vertex_count, "vertices")?) };
+    Ok(PolygonMesh::new(points, faces.indices.to_vec(), faces.valences)?)
+}
+
+/// Faces in a caller's arrays.
+pub(super) struct Faces<'a> {
+    pub indices: &'a [u32],
+    /// Without it all are triangles.
+    pub valences: Option<&'a [u32]>,
+}
+
+/// Faces from a caller's arrays.
+///
+/// # Safety
+/// The arrays meet the header's pointer rules for `'a`.
+pub(super) unsafe fn read_faces<'a>(
+    indices: *const u32,
+    valences: *const u32,
+    face_count: usize,
+) -> Checked<Faces<'a>> {
     check_count(face_count, "face_count")?;
     // SAFETY: by the caller.
     let given = |pointer| unsafe { array(pointer, face_count, "valences") };
-    let valences = if valences.is_null() { None } else { Some(given(valences)?) };
+    let valences: Option<&[u32]> = if valences.is_null() { None } else { Some(given(valences)?) };
     let corners = match valences {
         None => 3 * face_count as u64,
         Some(valences) => valences.iter().map(|&valence| u64::from(valence)).sum(),
@@ -365,16 +389,14 @@ pub(super) unsafe fn read_arrays(
     let corners = usize::try_from(corners).unwrap_or(usize::MAX);
     check_count(corners, "the number of indices")?;
     // SAFETY: by the caller.
-    let (points, indices) =
-        unsafe { (read_vectors(vertices, vertex_count, "vertices")?, array(indices, corners, "indices")?) };
-    Ok(PolygonMesh::new(points, indices.to_vec(), valences)?)
+    Ok(Faces { indices: unsafe { array(indices, corners, "indices") }?, valences })
 }
 
 /// Points from a caller's array of coordinates.
 ///
 /// # Safety
 /// `coordinates` meets the header's pointer rules.
-unsafe fn read_vectors(coordinates: *const f64, count: usize, name: &str) -> Checked<Vec<Vector>> {
+pub(super) unsafe fn read_vectors(coordinates: *const f64, count: usize, name: &str) -> Checked<Vec<Vector>> {
     check_count(count, "the number of points")?;
     // SAFETY: by the caller; three doubles are as aligned as one.
     let points = unsafe { array(coordinates.cast::<[f64; 3]>(), count, name) }?;
@@ -398,7 +420,7 @@ pub(super) unsafe fn read_path<'a>(path: *const c_char) -> Checked<&'a Path> {
 }
 
 /// Refuses counts that do not fit 32 bits before anything is read: they are overflows or negative numbers of the caller.
-fn check_count(count: usize, name: &str) -> Checked<()> {
+pub(super) fn check_count(count: usize, name: &str) -> Checked<()> {
     if count > u32::MAX as usize {
         let message = format!("{name} is {count}, more than the limit of {}", u32::MAX);
         return Err(Failure::new(StatusCode::ErrorLimit, message));

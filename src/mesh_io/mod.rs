@@ -1,4 +1,4 @@
-//! Readers for TRI, POLY, OFF, OBJ and STL files.
+//! Readers for TRI, POLY, OFF, OBJ and STL files, and for others that a program registers.
 //!
 //! Vertices and faces keep the file's order, so that index i of the file (counted from 0) is index i of the mesh. STL
 //! has no vertex list: there, vertices are numbered by first occurrence. Nothing is allocated from a count that the file
@@ -6,6 +6,7 @@
 
 mod obj;
 mod off;
+mod registered;
 mod scanner;
 mod stl;
 mod tri_poly;
@@ -14,7 +15,11 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::mesh::PolygonMesh;
+pub use registered::{MeshReader, register_mesh_reader, unregister_mesh_reader};
 use scanner::Scanner;
+
+/// Some Windows programs start a text file with it (UTF-8).
+const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
 /// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -58,23 +63,32 @@ impl Format {
     }
 }
 
-/// Reads a mesh file: the format by extension (`tri`, `poly`, `off`, `obj`, `stl`), else by content.
+/// Reads a mesh file: by the reader registered for its first bytes ([`register_mesh_reader`]) if there is one, else in the format
+/// of its extension (`tri`, `poly`, `off`, `obj`, `stl`), else in that of its content.
 ///
 /// # Errors
-/// [`Error::File`] naming the file and the line, or the triangle of a binary file.
+/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and what it says.
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
     let name = path.display().to_string();
     let bytes = std::fs::read(path).map_err(|e| Error::File(format!("{name}: cannot be read: {e}")))?;
-    parse_mesh(&bytes, Format::from_extension(path), &name)
+    match registered::parse(&bytes, &name) {
+        Some(mesh) => with_vertices(mesh?, &name),
+        None => parse_mesh(&bytes, Format::from_extension(path), &name),
+    }
 }
 
-/// Reads a mesh from the bytes of a file. `format`: `None` goes by content. `name` stands for the file in messages.
+/// Reads a mesh from the bytes of a file. `format`: `None` goes by the first bytes, for which a reader may be registered. `name`
+/// stands for the file in messages.
 ///
 /// # Errors
-/// [`Error::File`] naming the file and the line, or the triangle of a binary file.
+/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and what it says.
 pub fn parse_mesh(bytes: &[u8], format: Option<Format>, name: &str) -> Result<PolygonMesh> {
-    // Some Windows programs start a text file with a UTF-8 byte order mark.
-    let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+    if format.is_none()
+        && let Some(mesh) = registered::parse(bytes, name)
+    {
+        return with_vertices(mesh?, name);
+    }
+    let bytes = without_mark(bytes);
     let format = format
         .or_else(|| Format::from_content(bytes))
         .ok_or_else(|| Error::File(format!("{name}: not a TRI, POLY, OFF, OBJ or STL file, by its first bytes")))?;
@@ -84,6 +98,16 @@ pub fn parse_mesh(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Po
         Format::Obj => obj::parse(bytes, name),
         Format::Stl => stl::parse(bytes, name),
     }?;
+    with_vertices(mesh, name)
+}
+
+/// A file without its byte order mark.
+fn without_mark(bytes: &[u8]) -> &[u8] {
+    bytes.strip_prefix(BYTE_ORDER_MARK).unwrap_or(bytes)
+}
+
+/// Refuses a mesh without vertices.
+fn with_vertices(mesh: PolygonMesh, name: &str) -> Result<PolygonMesh> {
     if mesh.vertices.is_empty() {
         return Err(Error::File(format!("{name}: there are no vertices in it")));
     }

@@ -164,6 +164,6 @@ fn text(token: &[u8]) -> Option<&str> {
 }
 
 /// White space as C's `isspace` has it.
-fn is_space(byte: u8) -> bool {
+pub fn is_space(byte: u8) -> bool {
     byte.is_ascii_whitespace() || byte == b'\x0b'
 }
