@@ -72,7 +72,7 @@ static void meshes(void)
     CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_FLAT", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_HULL", swift_shape_create_from_points(CORNERS, 2, NULL, &shape));
     CHECK_OK(swift_shape_release(NULL));
-    CHECK(swift_shape_prepare(NULL) == SWIFT_ERROR_NULL_POINTER);
+    CHECK(swift_shape_prepare(NULL, NULL, NULL) == SWIFT_ERROR_NULL_POINTER);
     CHECK_OK(swift_shape_retain(NULL));
 }
 

@@ -175,7 +175,7 @@ static void levels(void)
 
     swift_shape *prepared;
     CHECK_OK(swift_shape_create_from_points(points, COUNT, &options, &prepared));
-    CHECK_OK(swift_shape_prepare(prepared));
+    CHECK_OK(swift_shape_prepare(prepared, NULL, NULL));
     CHECK_OK(swift_shape_get_info(prepared, &info));
     CHECK(info.lookup_bytes > 0 && info.bytes == without_table + info.lookup_bytes);
     swift_shape_release(prepared);

@@ -16,6 +16,7 @@ use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
+use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use swiftprox::verify::verify;
@@ -454,7 +455,7 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
         let answers = [false, true].map(|is_prepared| {
             let shape = shape(30_000);
             if is_prepared {
-                shape.prepare();
+                shape.prepare(&mut Progress::new(&mut |_| true)).unwrap();
                 assert_eq!(shape.hierarchy(), large.hierarchy());
             }
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
@@ -513,7 +514,7 @@ fn what_is_made_already_changes_no_answer() {
     let points: Vec<Vector> = (0..31_000).map(cap).chain(far.map(Vector::from)).collect();
     let shape = || Shape::from_points(&points, &ShapeOptions::default()).unwrap();
     let prepared = shape();
-    prepared.prepare();
+    prepared.prepare(&mut Progress::new(&mut |_| true)).unwrap();
     let finest = prepared.hierarchy().levels[0].deviation;
     assert!(finest < 1e-5, "{finest:e}");
     let away = Pose::new(&Matrix::identity(), &Vector::new(0.1, 0.2, 1.5));

@@ -17,6 +17,7 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
 use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
+use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
@@ -322,10 +323,10 @@ fn tables_are_made_by_the_first_query_that_looks_into_them() {
 #[test]
 fn a_prepared_shape_has_its_table() {
     let shape = shape(&ellipsoid([1.0, 0.7, 0.4], 300).unwrap(), LookupKind::Automatic, 0);
-    shape.prepare();
+    shape.prepare(&mut Progress::new(&mut |_| true)).unwrap();
     let bytes = shape.bytes();
     assert_eq!(shape.polyhedron().lookup.made.get(), Some(&build_table(shape.polyhedron())));
-    shape.prepare();
+    shape.prepare(&mut Progress::new(&mut |_| true)).unwrap();
     assert_eq!(shape.bytes(), bytes);
 }
 

@@ -68,7 +68,7 @@ fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
         assert!(!leveled.hierarchy().levels.is_empty());
         shapes.extend([plain, Arc::new(leveled)]);
     }
-    shapes.iter().for_each(|shape| shape.prepare());
+    shapes.iter().for_each(|shape| shape.prepare(&mut Progress::new(&mut |_| true)).unwrap());
     shapes
 }
 

@@ -7,8 +7,10 @@ use std::path::Path;
 
 use dashu_ratio::RBig;
 use swiftprox::error::Error;
-use swiftprox::math::{Matrix, Vector};
+use swiftprox::hierarchy::{Hierarchy, HierarchyOptions, LEAST_VERTICES};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
@@ -226,4 +228,84 @@ fn a_large_build_tells_how_far_it_is_and_stops_when_told() {
         assert!(matches!(result, Err(Error::Cancelled(_))), "asked {asked} times");
         assert_eq!(asked, stop_at);
     }
+}
+
+/// A body of automatic levels.
+fn body_of_automatic_levels() -> Shape {
+    let mesh = common::models::ellipsoid([1.0, 0.6, 0.3], LEAST_VERTICES).unwrap();
+    Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap()
+}
+
+/// Its levels, as they are built where nobody stops it.
+fn automatic_levels(shape: &Shape) -> Hierarchy {
+    Hierarchy::build(shape.polyhedron(), &HierarchyOptions::default(), &mut Progress::new(&mut |_| true)).unwrap()
+}
+
+/// Asks for a distance through levels: the shape is answered whatever it lacks, and then lacks nothing.
+fn check_usable(shape: &Shape) {
+    let away = Pose::new(&Matrix::identity(), &Vector::new(4.0, 1.0, 0.5));
+    let config = PairConfig { levels: Levels::All, absolute_error: 0.5, ..PairConfig::default() };
+    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+    pair::approximate(shape, &Pose::IDENTITY, shape, &away, &mut cache, &config, &mut answer).unwrap();
+    assert_eq!(answer.outcome, Outcome::Separated);
+    assert!(answer.statistics.levels[0] > 0, "{answer:?}");
+}
+
+#[test]
+fn preparing_tells_how_far_it_is_and_stops_when_told() {
+    let shape = body_of_automatic_levels();
+    let expected = automatic_levels(&shape);
+    assert!(!expected.levels.is_empty());
+    let prepare = |callback: &mut dyn FnMut(f64) -> bool| shape.prepare(&mut Progress::new(callback));
+    // Cancelled early, in the middle, and when it is done: as if it had never been.
+    for stop_at in [0.0, 0.3, 0.9, 1.0] {
+        let mut last = -1.0;
+        let result = prepare(&mut |fraction| {
+            assert!(fraction >= last && last < stop_at, "{fraction} after {last}");
+            last = fraction;
+            fraction < stop_at
+        });
+        assert!(matches!(result, Err(Error::Cancelled(_))), "{result:?}");
+        assert_eq!(shape.hierarchy(), &Hierarchy::AUTOMATIC, "{stop_at}");
+    }
+    check_usable(&shape.clone());
+    assert_eq!(shape.hierarchy(), &Hierarchy::AUTOMATIC, "the clone's are its own");
+
+    let mut told = vec![0.0];
+    prepare(&mut |fraction| {
+        told.push(fraction);
+        true
+    })
+    .unwrap();
+    assert!(told.is_sorted() && told.last() == Some(&1.0), "{told:?}");
+    let longest = told.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    assert!(longest < 0.25, "no report for {longest:.2} of it");
+    assert_eq!(shape.hierarchy(), &expected);
+    assert!(shape.polyhedron().lookup.made.get().is_some());
+
+    // What is made is not made again, and nothing takes it back.
+    let (bytes, mut told) = (shape.bytes(), Vec::new());
+    prepare(&mut |fraction| {
+        told.push(fraction);
+        true
+    })
+    .unwrap();
+    assert_eq!(told, [0.0, 1.0]);
+    assert!(matches!(prepare(&mut |_| false), Err(Error::Cancelled(_))));
+    assert_eq!((shape.bytes(), shape.hierarchy()), (bytes, &expected));
+    check_usable(&shape);
+}
+
+/// Two that prepare, one that is cancelled, one that asks through the levels: nobody hangs, and the levels are those of any one.
+#[test]
+fn threads_may_prepare_cancel_and_ask_at_once() {
+    let shape = body_of_automatic_levels();
+    std::thread::scope(|threads| {
+        for _ in 0..2 {
+            threads.spawn(|| shape.prepare(&mut Progress::new(&mut |_| true)).unwrap());
+        }
+        threads.spawn(|| drop(shape.prepare(&mut Progress::new(&mut |fraction| fraction < 0.5))));
+        threads.spawn(|| check_usable(&shape));
+    });
+    assert_eq!(shape.hierarchy(), &automatic_levels(&shape));
 }

@@ -1,10 +1,10 @@
 //! Shapes: made from arrays or files, shared by count.
 
-use std::ffi::c_char;
+use std::ffi::{c_char, c_void};
 use std::path::Path;
 use std::sync::Arc;
 
-use super::shape_options::{CShapeOptions, read_options};
+use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::{
     Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, string, write_struct,
 };
@@ -205,16 +205,25 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
     })
 }
 
-/// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail. After
-/// that no query of this shape allocates or waits for that. Safe from any thread.
+/// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
+/// take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
 ///
-/// SWIFT_ERROR_NULL_POINTER: shape is null.
+/// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while the
+/// table is made, a small part of the time. Safe from any thread: a query that needs the levels meanwhile, or another
+/// swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+///
+/// SWIFT_ERROR_CANCELLED: progress said so; no levels are made, and the shape can be used as before. SWIFT_ERROR_NULL_POINTER:
+/// shape is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_prepare(shape: *const Shape) -> StatusCode {
+pub unsafe extern "C" fn swift_shape_prepare(
+    shape: *const Shape,
+    progress: ProgressCallback,
+    progress_user: *mut c_void,
+) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        unsafe { input(shape, "shape") }?.prepare();
-        Ok(())
+        let shape = unsafe { input(shape, "shape") }?;
+        Ok(in_steps(progress, progress_user, |progress| shape.prepare(progress))?)
     })
 }
 

@@ -10,9 +10,9 @@ use crate::math::{Matrix, Vector};
 use crate::progress::Progress;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
-/// Learns how far the building of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the callback.
-/// Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must return,
-/// and must not use what the call is working on; a C++ exception that leaves it ends the program.
+/// Learns how far the building or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the
+/// callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must
+/// return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
 pub type ProgressCallback = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> i32>;
 
 /// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
@@ -74,14 +74,20 @@ pub(super) struct Making {
 impl Making {
     /// Makes the shape, telling the callback how far it is.
     pub(super) fn run(&self, make: impl FnOnce(&ShapeOptions, &mut Progress) -> Result<Shape>) -> Result<Shape> {
-        make(&self.options, &mut Progress::new(&mut |fraction| self.report(fraction)))
+        in_steps(self.progress, self.user, |progress| make(&self.options, progress))
     }
+}
 
-    /// Asks the callback whether to go on.
-    fn report(&self, fraction: f64) -> bool {
-        // SAFETY: the callback takes any fraction and its own user pointer (swift_shape_options).
-        self.progress.is_none_or(|callback| call_out(|| unsafe { callback(self.user, fraction) }) == 0)
-    }
+/// Does something long, telling the callback how far it is and asking it whether to go on.
+pub(super) fn in_steps<T>(
+    callback: ProgressCallback,
+    user: *mut c_void,
+    run: impl FnOnce(&mut Progress) -> Result<T>,
+) -> Result<T> {
+    run(&mut Progress::new(&mut |fraction| {
+        // SAFETY: the callback takes any fraction and its own user pointer (swift_progress_callback).
+        callback.is_none_or(|callback| call_out(|| unsafe { callback(user, fraction) }) == 0)
+    }))
 }
 
 impl CShapeOptions {

@@ -107,7 +107,7 @@ impl Program {
         }
         if info.vertex_count.is_multiple_of(3) {
             // SAFETY: a living shape.
-            assert_eq!(unsafe { swift_shape_prepare(shape) }, StatusCode::Ok);
+            assert_eq!(unsafe { swift_shape_prepare(shape, None, null_mut()) }, StatusCode::Ok);
         }
         let given = options(u, &info, &[])?;
         // SAFETY: as large as it says, or null.
