@@ -74,6 +74,8 @@ static const char HELP[] =
     "passes, everything from the 24 numbers to the answer. The poses are read beforehand, one pass runs untimed\n"
     "first, and each pass starts cold.\n"
     "\n"
+    "On a terminal the standard error shows a bar while models are built or queries answered for long.\n"
+    "\n"
     "Exit status: 0, or 2 when a mesh or pose file is bad (the message names the line), or 1 for anything else.\n";
 
 /* ---- the command line ---- */
@@ -227,10 +229,9 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 enum { QUERIES_A_LOOK = 64, OUTPUT_BUFFER = 1 << 16 };
 
 struct progress {
-    bool shown; /* only to a person at a terminal */
+    bool shown;           /* only to a person at a terminal */
     bool shares_terminal; /* with the answers */
-    size_t total;
-    double next; /* when to draw again */
+    double next;          /* when to draw again */
 };
 
 static double seconds(void)
@@ -240,11 +241,10 @@ static double seconds(void)
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
 }
 
-static struct progress progress_start(size_t total)
+static struct progress progress_start(void)
 {
     return (struct progress){.shown = isatty(STDERR_FILENO),
                              .shares_terminal = isatty(STDOUT_FILENO),
-                             .total = total,
                              .next = seconds() + 0.5};
 }
 
@@ -255,11 +255,12 @@ static void progress_erase(const struct progress *progress)
     }
 }
 
-static void progress_look(struct progress *progress, size_t done)
+/* Draws the bar if it is time to; what stands behind it is for the caller to print. */
+static bool progress_draw(struct progress *progress, double fraction)
 {
     enum { WIDTH = 40 };
     if (!progress->shown) {
-        return;
+        return false;
     }
     const double now = seconds();
     const bool due = now >= progress->next;
@@ -268,11 +269,18 @@ static void progress_look(struct progress *progress, size_t done)
         fflush(stdout);
     }
     if (due) {
-        const int filled = (int)((double)WIDTH * (double)done / (double)progress->total);
-        fprintf(stderr, "\r[%.*s%*s] %zu of %zu", filled, "########################################", WIDTH - filled,
-                "", done, progress->total);
-        fflush(stderr);
+        const int filled = (int)((double)WIDTH * fraction);
+        fprintf(stderr, "\r[%.*s%*s] ", filled, "########################################", WIDTH - filled, "");
         progress->next = progress->shares_terminal ? now : now + 0.1;
+    }
+    return due;
+}
+
+static void progress_look(struct progress *progress, size_t done, size_t total)
+{
+    if (progress_draw(progress, (double)done / (double)total)) {
+        fprintf(stderr, "%zu of %zu", done, total);
+        fflush(stderr);
     }
 }
 
@@ -365,10 +373,8 @@ static void print_answer(const struct job *job, const swift_pair_answer *answer)
 static int print_answers(const struct job *job)
 {
     const size_t count = job->poses.count;
-    struct progress progress = progress_start(count);
+    struct progress progress = progress_start();
     swift_pair_cache cache = {0};
-    static char buffer[OUTPUT_BUFFER];
-    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     for (size_t i = 0; i < count; i++) {
         swift_pair_answer answer;
         const swift_status status = answer_query(job, i, &cache, &answer);
@@ -379,7 +385,7 @@ static int print_answers(const struct job *job)
         }
         print_answer(job, &answer);
         if (i % QUERIES_A_LOOK == QUERIES_A_LOOK - 1) {
-            progress_look(&progress, i + 1);
+            progress_look(&progress, i + 1, count);
         }
     }
     progress_erase(&progress);
@@ -417,13 +423,13 @@ static int print_times(const struct job *job, size_t passes)
         fputs("swiftprox-query: no memory for the times of so many passes\n", stderr);
         return FAILED;
     }
-    struct progress progress = progress_start(passes);
+    struct progress progress = progress_start();
     int result = run_pass(job);
     for (size_t pass = 0; pass < passes && result == GOOD; pass++) {
         const double start = seconds();
         result = run_pass(job);
         times[pass] = 1e9 * (seconds() - start) / (double)job->poses.count;
-        progress_look(&progress, pass + 1);
+        progress_look(&progress, pass + 1, passes);
     }
     progress_erase(&progress);
     if (result == GOOD) {
@@ -437,9 +443,29 @@ static int print_times(const struct job *job, size_t passes)
 
 /* ---- the program ---- */
 
-static bool load_shape(const char *path, const swift_shape_options *options, swift_shape **shape)
+/* A shape that is being built. */
+struct building {
+    struct progress progress;
+    char name; /* A or B */
+};
+
+static int32_t building_look(void *user, double fraction)
 {
-    const swift_status status = swift_shape_create_from_file(path, options, shape);
+    struct building *const building = user;
+    if (progress_draw(&building->progress, fraction)) {
+        fprintf(stderr, "%d %% of %c", (int)(100 * fraction), building->name);
+        fflush(stderr);
+    }
+    return 0;
+}
+
+static bool load_shape(const char *path, char name, swift_shape_options options, swift_shape **shape)
+{
+    struct building building = {progress_start(), name};
+    options.progress = building_look;
+    options.progress_user = &building;
+    const swift_status status = swift_shape_create_from_file(path, &options, shape);
+    progress_erase(&building.progress);
     if (status == SWIFT_OK) {
         return true;
     }
@@ -456,7 +482,7 @@ static bool load_shapes(const struct arguments *arguments, swift_shape *shapes[2
     swift_shape_options_init(&options);
     options.input = arguments->input;
     options.hierarchy = arguments->hierarchy;
-    if (!load_shape(arguments->files[0], &options, &shapes[0])) {
+    if (!load_shape(arguments->files[0], 'A', options, &shapes[0])) {
         return false;
     }
     if (strcmp(arguments->files[0], arguments->files[1]) == 0) {
@@ -464,11 +490,13 @@ static bool load_shapes(const struct arguments *arguments, swift_shape *shapes[2
         shapes[1] = shapes[0];
         return true;
     }
-    return load_shape(arguments->files[1], &options, &shapes[1]);
+    return load_shape(arguments->files[1], 'B', options, &shapes[1]);
 }
 
 static int run(const struct arguments *arguments)
 {
+    static char buffer[OUTPUT_BUFFER];
+    setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     swift_shape *shapes[2] = {NULL, NULL};
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
     swift_pair_config_init(&job.config);

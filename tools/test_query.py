@@ -1,9 +1,13 @@
 #!/usr/bin/env python3
 """Tests swiftprox-query from outside, and scripts/cases.py, which judges it:  test_query.py TOOL"""
+import math
 import os
+import pty
+import re
 import subprocess
 import sys
 import tempfile
+import threading
 import unittest
 from decimal import Decimal, getcontext
 
@@ -177,6 +181,80 @@ class Query(unittest.TestCase):
         best, median = map(float, done.stdout.split())
         self.assertTrue(0 < best <= median)
         self.refused(2, "no queries", BOX, BOX, self.file("poses", ""), "--bench", "3")
+
+
+    # -- the progress bar --
+
+    def on_terminal(self, *arguments, with_answers=False, status=0):
+        """What a run writes to a terminal: to the standard error alone, or the answers as well; and the answers if not."""
+        ours, its = pty.openpty()
+        try:
+            process = subprocess.Popen([TOOL, *arguments], stdin=subprocess.DEVNULL, stderr=its,
+                                       stdout=its if with_answers else subprocess.PIPE)
+        finally:
+            os.close(its)
+        patience = threading.Timer(60, process.kill)
+        patience.start()
+        text = b""
+        try:
+            while chunk := os.read(ours, 65536):
+                text += chunk
+        except OSError:  # what Linux says when nobody holds the other end any more
+            pass
+        os.close(ours)
+        answers = process.communicate()[0]
+        patience.cancel()
+        self.assertEqual(process.returncode, status, text)
+        return text.decode(), (answers or b"").decode()
+
+    def check_bars(self, text, behind):
+        """Drawn over each other and erased in the end; each is as full as what stands behind it says, in two numbers."""
+        self.assertTrue(text.endswith("\r\x1b[K"), text)
+        bars = [bar for bar in text.replace("\x1b[K", "").split("\r") if bar]
+        self.assertGreater(len(bars), 0)
+        last = 0
+        for bar in bars:
+            match = re.fullmatch(r"\[(#* *)\] " + behind, bar)
+            self.assertTrue(match, bar)
+            self.assertEqual(len(match[1]), 40)
+            filled, done, total = match[1].count("#"), int(match[2]), int(match[3] or 100)
+            self.assertTrue(last <= filled <= 40 * (done + 1) / total and 40 * done / total < filled + 1, bar)
+            last = filled
+
+    def long_to_build(self):
+        """Points on a sphere, of which levels after Dobkin and Kirkpatrick take seconds."""
+        count = 30000
+        lines = ["OFF", "%d 0 0" % count]
+        for i in range(count):
+            z = 1 - (2 * i + 1) / count
+            r = math.sqrt(1 - z * z)
+            lines.append("%r %r %r" % (r * math.cos(2.4 * i), r * math.sin(2.4 * i), z))
+        return self.file("sphere.off", "\n".join(lines) + "\n")
+
+    def test_a_bar_shows_how_far_the_shapes_are_built(self):
+        sphere, poses = self.long_to_build(), self.file("poses", APART)
+        options = (poses, "--input", "hull", "--levels", "dk")
+        text, answers = self.on_terminal(BOX, sphere, *options)
+        self.check_bars(text, r"(\d+) % of B()")
+        self.assertEqual(len(answers.split()), 15)
+        # No terminal, no bar; on the terminal that the answers go to it is gone before them.
+        quiet = self.run_tool(sphere, BOX, *options)
+        self.assertEqual((quiet.returncode, quiet.stderr), (0, ""))
+        text, _ = self.on_terminal(sphere, BOX, *options, with_answers=True)
+        bars, _, rest = text.rpartition("% of A")
+        self.check_bars(bars + "% of A\r\x1b[K", r"(\d+) % of A()")
+        self.assertEqual(rest.replace("\r\x1b[K", ""), quiet.stdout.replace("\n", "\r\n"))
+        # So it is before a message.
+        text, _ = self.on_terminal(sphere, sphere, self.file("bad", "1 2 3"), *options[1:], status=2)
+        self.assertRegex(text, r"% of A\r\x1b\[K[^\r]*bad:1: ")
+
+    def test_a_bar_shows_how_far_the_queries_are(self):
+        poses = self.file("poses", (APART + "\n") * 1000)
+        nanoseconds = float(self.run_tool(BOX, BOX, poses, "--bench", "10").stdout.split()[0])
+        passes = int(1.5e9 / (1000 * nanoseconds))
+        text, answers = self.on_terminal(BOX, BOX, poses, "--bench", str(passes))
+        self.check_bars(text, r"(\d+) of (%d)" % passes)
+        self.assertEqual(len(answers.split()), 2)
 
 
 class Cases(unittest.TestCase):
