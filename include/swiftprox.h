@@ -277,9 +277,9 @@ typedef int32_t (*swift_mesh_reader_callback)(void *user,
                                               struct swift_mesh_sink *sink);
 
 /**
- * Learns how far the building or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given with the
- * callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that builds, must
- * return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
+ * Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
+ * with the callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that
+ * builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
  */
 typedef int32_t (*swift_progress_callback)(void *user, double fraction);
 
@@ -823,15 +823,18 @@ swift_status swift_shape_save(const struct swift_shape *shape,
 
 /**
  * Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
- * rely on is not believed but proved and measured again, so loading takes about as long as building the hulls did; a damaged
- * file is refused.
+ * rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
+ * levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
+ * handed to it.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  *
- * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged. SWIFT_ERROR_NULL_POINTER,
- * SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+ * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged. SWIFT_ERROR_CANCELLED: progress
+ * said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
  */
 swift_status swift_shape_load(const char *path,
+                              swift_progress_callback progress,
+                              void *progress_user,
                               struct swift_shape **shape);
 
 /**

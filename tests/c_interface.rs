@@ -283,12 +283,17 @@ fn levels_are_built_counted_and_read_back() {
         let path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
         let mut loaded = null_mut();
         assert_eq!(swift_shape_save(given, path.as_ptr()), StatusCode::Ok, "{}", last_message());
-        assert_eq!(swift_shape_load(path.as_ptr(), &mut loaded), StatusCode::Ok, "{}", last_message());
+        assert_eq!(
+            swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
+            StatusCode::Ok,
+            "{}",
+            last_message()
+        );
         assert!(*loaded == *given);
         release(loaded);
         assert_eq!(swift_shape_save(null(), path.as_ptr()), StatusCode::ErrorNullPointer);
-        assert_eq!(swift_shape_load(null(), &mut loaded), StatusCode::ErrorNullPointer);
-        assert_eq!(swift_shape_load(c"no/such/file".as_ptr(), &mut loaded), StatusCode::ErrorFile);
+        assert_eq!(swift_shape_load(null(), None, null_mut(), &mut loaded), StatusCode::ErrorNullPointer);
+        assert_eq!(swift_shape_load(c"no/such/file".as_ptr(), None, null_mut(), &mut loaded), StatusCode::ErrorFile);
         assert!(loaded.is_null() && last_message().contains("no/such/file"), "{}", last_message());
         release(given);
 

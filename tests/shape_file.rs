@@ -17,7 +17,7 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron_build::Labels;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
-use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
+use swiftprox::shape_file::{from_bytes, from_bytes_in_steps, load, load_in_steps, save, to_bytes};
 
 const KINDS: [HierarchyKind; 5] = [
     HierarchyKind::None,
@@ -121,6 +121,46 @@ fn through_a_file() {
     assert!(message(&path).contains("no shape file"), "{}", message(&path));
     assert!(message(&folder.join("no-such.shape")).contains("no-such.shape"));
     assert!(matches!(save(&shape, &folder.join("no/such/folder")), Err(Error::File(_))));
+}
+
+/// Of a body with levels, the largest part of the file, and of one without: no wait for a report is long, no fraction falls, and a
+/// load that is told to stop stops there.
+#[test]
+fn loading_tells_how_far_it_is_and_stops_when_told() {
+    let mesh = ellipsoid([1.0, 0.6, 0.3], 1_000).unwrap();
+    for kind in KINDS {
+        let bytes = to_bytes(&with_levels(&mesh, kind));
+        let mut told = vec![0.0];
+        let loaded = from_bytes_in_steps(
+            &bytes,
+            &mut Progress::new(&mut |fraction| {
+                told.push(fraction);
+                true
+            }),
+        );
+        assert_eq!(to_bytes(&loaded.unwrap()), bytes);
+        assert!(told.is_sorted() && told.last() == Some(&1.0), "{kind:?}: {told:?}");
+        let longest = told.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+        assert!(longest <= 0.25, "{kind:?}: no report for {longest:.2} of the load");
+        for stop_at in 1..told.len() {
+            let mut asked = 0;
+            let mut callback = |_| {
+                asked += 1;
+                asked < stop_at
+            };
+            let result = from_bytes_in_steps(&bytes, &mut Progress::new(&mut callback));
+            assert!(matches!(result, Err(Error::Cancelled(_))), "{kind:?}, asked {asked} times: {result:?}");
+            assert_eq!(asked, stop_at);
+        }
+    }
+    // Nor is a cancelled load a bad file where there is one, and a bad file is bad however it is read.
+    let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("cancelled.shape");
+    save(&with_levels(&mesh, HierarchyKind::Quadric), &path).unwrap();
+    let result = load_in_steps(&path, &mut Progress::new(&mut |fraction| fraction < 0.5));
+    assert!(matches!(result, Err(Error::Cancelled(_))), "{result:?}");
+    fs::write(&path, "OFF\n4 4 6\n").unwrap();
+    let result = load_in_steps(&path, &mut Progress::new(&mut |_| true));
+    assert!(matches!(&result, Err(Error::File(message)) if message.contains("cancelled.shape")), "{result:?}");
 }
 
 /// FNV-1a, to make damage that the checksum does not find.

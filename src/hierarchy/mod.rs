@@ -233,15 +233,18 @@ impl Hierarchy {
     /// it stands off.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a level that does not contain the body, or links out of range.
+    /// [`Error::Argument`] for a level that does not contain the body, or links out of range; [`Error::Cancelled`].
     pub fn restored(
         base: &Polyhedron,
         kind: HierarchyKind,
         levels: Vec<(Polyhedron, Links, Links)>,
+        progress: &mut Progress,
     ) -> Result<Hierarchy> {
+        let count = levels.len();
         let centred = centred(base);
         let mut builder = Builder::new(&centred, kind)?;
         for (i, (polyhedron, children, parents)) in levels.into_iter().enumerate() {
+            progress.report(i as f64 / count as f64)?;
             let refused = |what: &str| Err(Error::Argument(format!("level {} {what}", i + 1)));
             if polyhedron.centre != centred.centre {
                 return refused("is not in the frame of the body");
@@ -255,6 +258,7 @@ impl Hierarchy {
             }
             builder.add_linked(polyhedron, Correspondence { children, parents });
         }
+        progress.report(1.0)?;
         Ok(builder.finish(base))
     }
 

@@ -27,21 +27,14 @@ use scale::{factor_to_middle_scale, scale_back};
 /// # Errors
 /// No points, too many, or one that is not finite ([`convex_hull`]).
 pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
-    build_on_hull(points, convex_hull(points)?, polygons)
+    build_in_steps(points, convex_hull(points)?, polygons, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`build`], for points whose exact hull is known.
+/// As [`build`], for points whose exact hull is known, saying how far it is.
 ///
 /// # Errors
-/// [`crate::error::Error::Bug`] if `hull` is not the hull of the points.
-pub fn build_on_hull(points: &[Vector], hull: Hull, polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
-    build_in_steps(points, hull, polygons, &mut Progress::new(&mut |_| true))
-}
-
-/// As [`build_on_hull`], saying how far it is.
-///
-/// # Errors
-/// As [`build_on_hull`]; [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+/// [`crate::error::Error::Bug`] if `hull` is not the hull of the points; [`crate::error::Error::Cancelled`] when the caller does
+/// not want to go on.
 pub fn build_in_steps(
     points: &[Vector],
     mut hull: Hull,

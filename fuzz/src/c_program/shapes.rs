@@ -164,7 +164,7 @@ impl Program {
         // SAFETY: a living shape, a path, and room for the shape; both shapes live while they are compared.
         let status = unsafe {
             assert_eq!(swift_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
-            let status = swift_shape_load(path.as_ptr(), &mut loaded);
+            let status = swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded);
             assert_eq!(status, StatusCode::Ok, "{}", last_message());
             assert!(*shape == *loaded, "loaded is not what was saved");
             status

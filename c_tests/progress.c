@@ -1,6 +1,8 @@
 /*
- * swift_shape_prepare of a body that gets automatic levels of detail: it tells how far it is, and cancelled anywhere it leaves a
- * shape that answers as ever and can be prepared again.
+ * What tells how far it is and can be cancelled besides making a shape: swift_shape_prepare of a body that gets automatic levels of
+ * detail, which leaves a shape that answers as ever and can be prepared again, and swift_shape_load.
+ *
+ *     progress [folder for the file that it writes]
  */
 #include <math.h>
 #include <stddef.h>
@@ -43,7 +45,36 @@ static void check_distance(const swift_shape *shape)
     CHECK_OK(swift_pair_verify(shape, here, shape, there, &answer));
 }
 
-int main(void)
+/* Saved and loaded again; the load tells how far it is, and cancelled anywhere there is no shape. */
+static void check_loading(const swift_shape *shape, const char *folder)
+{
+    char path[1024];
+    swift_shape *loaded = (swift_shape *)(void *)path; /* not null: a failure must make it so */
+    told told = {0, 0, 2};
+    snprintf(path, sizeof path, "%s/progress.shape", folder);
+    CHECK_OK(swift_shape_save(shape, path));
+    for (int i = 0; i <= 4; ++i) {
+        told.last = 0;
+        told.stop_at = 0.25 * i;
+        CHECK_FAILS(SWIFT_ERROR_CANCELLED, "progress callback", swift_shape_load(path, tell, &told, &loaded));
+        CHECK(loaded == NULL && told.last >= told.stop_at);
+    }
+    told.count = 0;
+    told.last = 0;
+    told.stop_at = 2;
+    CHECK_OK(swift_shape_load(path, tell, &told, &loaded));
+    CHECK(told.count > 5 && told.last == 1);
+    check_distance(loaded);
+    CHECK_OK(swift_shape_release(loaded));
+    CHECK_OK(swift_shape_load(path, NULL, NULL, &loaded));
+    CHECK_OK(swift_shape_release(loaded));
+    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "path", swift_shape_load(NULL, tell, &told, &loaded));
+    remove(path);
+    CHECK_FAILS(SWIFT_ERROR_FILE, "progress.shape", swift_shape_load(path, tell, &told, &loaded));
+    CHECK(loaded == NULL);
+}
+
+int main(int argument_count, char **arguments)
 {
     static double points[3 * COUNT];
     static const double stops[] = {0, 0.25, 0.5, 0.75, 1};
@@ -58,7 +89,7 @@ int main(void)
     }
     CHECK(swift_shape_prepare(NULL, tell, &told) == SWIFT_ERROR_NULL_POINTER && told.count == 0);
     if (!CHECK_OK(swift_shape_create_from_points(points, COUNT, NULL, &shape)))
-        return check_report("prepare");
+        return check_report("progress");
     CHECK(info_of(shape).level_count == 0 && info_of(shape).hierarchy == SWIFT_HIERARCHY_AUTOMATIC);
 
     for (size_t i = 0; i < sizeof stops / sizeof stops[0]; ++i) {
@@ -87,11 +118,12 @@ int main(void)
     CHECK(told.count == 2 && told.last == 1);
     CHECK_OK(swift_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
+    check_loading(shape, argument_count > 1 ? arguments[1] : ".");
     CHECK_OK(swift_shape_release(shape));
 
     CHECK_OK(swift_shape_create_from_points(points, COUNT, NULL, &shape));
     CHECK_OK(swift_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
     CHECK_OK(swift_shape_release(shape));
-    return check_report("prepare");
+    return check_report("progress");
 }
