@@ -56,8 +56,9 @@ pub const LEAST_VERTICES: usize = 30_000;
 pub struct HierarchyOptions {
     /// How.
     pub kind: HierarchyKind,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1. Dobkin and
-    /// Kirkpatrick's own way of building decides for theirs. This and what follows does not count for automatic levels.
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1; less where that many
+    /// would have more features than faces of many corners have. Dobkin and Kirkpatrick's own way of building decides for
+    /// theirs. This and what follows does not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles.
     pub minimum_triangles: usize,
@@ -173,9 +174,10 @@ impl Hierarchy {
     pub const AUTOMATIC: Hierarchy = Hierarchy { kind: HierarchyKind::Automatic, levels: Vec::new() };
 
     /// Builds levels, automatic ones at once. There are none for [`HierarchyKind::None`], for a body without interior, for one
-    /// too small or too large (2^±200), and where each would be no simpler than the next finer one: a box or a tetrahedron gets
-    /// none. Otherwise so many until one more would fall below the minimum of triangles, would have no interior, or be so thin
-    /// that no rounding makes it contain P₀.
+    /// too small or too large (2^±200), and where each would be no simpler than the next finer one: a tetrahedron gets none, nor
+    /// a box by the default options. Otherwise so many until one more would fall below the minimum of triangles, would have no
+    /// interior, or be so thin that no rounding makes it contain P₀. Each has fewer vertices and fewer features than the next
+    /// finer one.
     ///
     /// # Errors
     /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].
@@ -199,7 +201,7 @@ impl Hierarchy {
 
     /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is
     /// moved so that its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains
-    /// P₀.
+    /// P₀. Nothing is asked about how many features it has.
     ///
     /// # Errors
     /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
@@ -219,11 +221,12 @@ impl Hierarchy {
                 check_vertex(v, point).map_err(|e| Error::Mesh(format!("level {number}: {e}")))?;
             }
             let points = translated(points, &-base.centre);
-            if !builder.add_in_general(&points, &mut part)? {
+            let Some(level) = builder.in_general(&points, &mut part)? else {
                 return Err(Error::Mesh(format!(
                     "level {number} has no interior, or too little to be made to bound the body"
                 )));
-            }
+            };
+            builder.add(level, &mut part)?;
         }
         Ok(builder.finish(base))
     }
@@ -279,6 +282,11 @@ fn centred(polyhedron: &Polyhedron) -> Cow<'_, Polyhedron> {
     Cow::Owned(centred)
 }
 
+/// Vertices, edges and faces.
+fn feature_count(polyhedron: &Polyhedron) -> usize {
+    polyhedron.vertices.len() + polyhedron.edges.len() + polyhedron.faces.len()
+}
+
 /// Levels under construction, all in the centred coordinates of P₀.
 struct Builder<'a> {
     base: &'a Polyhedron,
@@ -313,7 +321,9 @@ impl<'a> Builder<'a> {
         let mut remaining = 1.0; // of the work
         while self.hierarchy.levels.len() < options.most_levels {
             let below = self.below();
-            let target = (below.triangles.len() as f64 * options.decimation) as usize;
+            // Simplification cuts faces of many corners into triangles, and t triangles have up to 3t + 2 features.
+            let simpler = (feature_count(below) - 3) / 3;
+            let target = simpler.min((below.triangles.len() as f64 * options.decimation) as usize);
             if target < options.minimum_triangles.max(4) {
                 break;
             }
@@ -322,8 +332,10 @@ impl<'a> Builder<'a> {
             remaining *= options.decimation;
             let mut simplifying = part.part(0.0, 0.5);
             let points = simplify(&positions, &below.triangles, target, &mut simplifying)?.points;
-            if !self.add_in_general(&points, &mut part.part(0.5, 1.0))? {
-                break;
+            let mut adding = part.part(0.5, 1.0);
+            match self.in_general(&points, &mut adding)? {
+                Some(level) if self.is_simpler(&level) => self.add(level, &mut adding)?,
+                _ => break,
             }
         }
         Ok(())
@@ -339,6 +351,8 @@ impl<'a> Builder<'a> {
         let levels_to = |left: usize| (left as f64 / minimum as f64).max(1.0).ln();
         let all = levels_to(self.base.triangles.len());
         let done = |left: usize| if all > 0.0 { 1.0 - levels_to(left) / all } else { 0.0 };
+        // Since the last level.
+        let mut all_filled = Vec::new();
         while self.hierarchy.levels.len() < options.most_levels {
             // The level takes at least a sixteenth away (or is the last), so progress does not fall.
             let left = removing.triangle_count();
@@ -346,10 +360,16 @@ impl<'a> Builder<'a> {
             let Some(Removal { vertices, points, filled }) = removing.next(minimum, &mut part)? else { break };
             let centre = self.base.mass.centre_of_mass;
             let Some(level) = bounding(&points, &centre, self.base, Scaling::WhereNeeded)? else { break };
+            all_filled.extend(filled);
+            if !self.is_simpler(&level) {
+                continue;
+            }
+            all_filled.sort_unstable();
             let ids_above: Vec<u32> = level.vertex_labels.iter().map(|label| vertices[*label as usize]).collect();
-            let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &filled, count);
+            let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &all_filled, count);
             self.add_linked(level, correspondence);
             ids = ids_above;
+            all_filled.clear();
         }
         Ok(())
     }
@@ -369,25 +389,28 @@ impl<'a> Builder<'a> {
         let count = levels.len();
         for (i, level) in levels.into_iter().rev().enumerate() {
             let done = |k: usize| k as f64 / count as f64;
-            if level.triangles.len() < self.below().triangles.len() {
+            if self.is_simpler(&level) {
                 self.add(level, &mut part.part(done(i), done(i + 1)))?;
             }
         }
         Ok(())
     }
 
-    /// Adds the next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `false` if they
-    /// cannot be made to bound the body.
-    fn add_in_general(&mut self, points: &[Vector], progress: &mut Progress) -> Result<bool> {
+    /// The next level by the general scheme (Ehmann & Lin 2000, §4.3) from the points of a simplification. `None` if they cannot be
+    /// made to bound the body.
+    fn in_general(&self, points: &[Vector], progress: &mut Progress) -> Result<Option<Polyhedron>> {
         let hull = build(points, None)?;
         let centre = self.below().mass.centre_of_mass;
         let points: Vec<Vector> = (0..hull.vertices.len() as u32).map(|v| hull.local_position(v)).collect();
         let points = translated(&points, &(centre - hull.mass.centre_of_mass));
         progress.report(0.25)?;
-        match bounding(&points, &centre, self.base, Scaling::Always)? {
-            Some(level) => self.add(level, progress).map(|()| true),
-            None => Ok(false),
-        }
+        bounding(&points, &centre, self.base, Scaling::Always)
+    }
+
+    /// Whether a level would be simpler than the next finer one: fewer features (Ehmann & Lin 2000, §3), and fewer vertices, too.
+    fn is_simpler(&self, level: &Polyhedron) -> bool {
+        let below = self.below();
+        level.vertices.len() < below.vertices.len() && feature_count(level) < feature_count(below)
     }
 
     /// Adds a level that contains the body, linked by position.

@@ -72,6 +72,46 @@ fn built_levels_bound_and_shrink() {
     }
 }
 
+fn feature_count(polyhedron: &Polyhedron) -> usize {
+    polyhedron.vertices.len() + polyhedron.edges.len() + polyhedron.faces.len()
+}
+
+/// Faces of many corners come apart when vertices move: a level of a few triangles less has more features then, and is none.
+#[test]
+fn every_level_has_fewer_features_than_the_one_below() {
+    let outer = HierarchyOptions { kind: HierarchyKind::OuterCuts, decimation: 0.5, ..HierarchyOptions::default() };
+    let round = polyhedron(&ellipsoid([1.0, 1.0, 0.5], 302).unwrap());
+    // Three edges at each vertex.
+    let simple = built(&round, &outer).levels[0].polyhedron.clone();
+    assert_eq!(2 * simple.edges.len(), 3 * simple.vertices.len());
+    let mut all = bodies(&[10, 102]);
+    all.push(("simple".into(), simple));
+    for kind in KINDS {
+        for decimation in [0.25, 0.9, 0.99] {
+            let options = HierarchyOptions { kind, decimation, minimum_triangles: 0, most_levels: 40 };
+            for (name, body) in &all {
+                let hierarchy = built(body, &options);
+                let polyhedra = hierarchy.levels.iter().map(|level| &level.polyhedron);
+                let counts: Vec<[usize; 2]> =
+                    [body].into_iter().chain(polyhedra).map(|p| [p.triangles.len(), feature_count(p)]).collect();
+                assert!(
+                    counts.windows(2).all(|pair| (0..2).all(|i| pair[1][i] < pair[0][i])),
+                    "{name}, {kind:?} {decimation}: {counts:?}"
+                );
+                if name == "simple" {
+                    // It has as many features as a triangulated body of half as many vertices, but levels nevertheless.
+                    let fraction = counts[1][0] as f64 / counts[0][0] as f64;
+                    assert!(
+                        counts.len() > 3 && fraction >= 0.95 * decimation.min(0.5),
+                        "{kind:?} {decimation}: {counts:?}"
+                    );
+                    validate(name, body, &hierarchy);
+                }
+            }
+        }
+    }
+}
+
 /// What a box may be simplified to is no simpler, and a tetrahedron is the simplest body; whatever is asked for.
 #[test]
 fn a_box_or_a_tetrahedron_gets_no_level() {
