@@ -289,3 +289,76 @@ fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
         keep.normal = minimum.direction.mul(L::splat(minimum.inverse));
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::hierarchy::{HierarchyKind, HierarchyOptions};
+    use crate::shape::ShapeOptions;
+    use swiftprox::random::Random;
+
+    /// An ellipsoid of 300 vertices with levels by quadric error, and in half its size one with outer cuts.
+    fn shapes() -> [Shape; 2] {
+        let mut random = Random::new(11);
+        let mut points = |half_axes: [f64; 3]| -> Vec<Vector> {
+            (0..300).map(|_| random.direction().component_mul(&Vector::from(half_axes))).collect()
+        };
+        let [large, small] = [points([1.0, 0.8, 0.3]), points([0.5, 0.5, 0.5])];
+        let shape = |points: &[Vector], kind, decimation| {
+            let hierarchy = HierarchyOptions { kind, decimation, minimum_triangles: 12, ..HierarchyOptions::default() };
+            Shape::from_points(points, &ShapeOptions { hierarchy, ..ShapeOptions::default() }).unwrap()
+        };
+        [shape(&large, HierarchyKind::Quadric, 0.5), shape(&small, HierarchyKind::OuterCuts, 0.25)]
+    }
+
+    /// The level pairs from the coarsest to P₀/P₀.
+    fn path(bodies: &Leveled, refinement: Refinement) -> Vec<[u16; 2]> {
+        let next = |&levels: &[u16; 2]| (levels != [0, 0]).then(|| bodies.refined(levels, refinement));
+        std::iter::successors(Some(bodies.coarsest()), next).collect()
+    }
+
+    #[test]
+    fn refinement_goes_as_documented() {
+        let [large, small] = shapes();
+        let poses = [&Pose::IDENTITY; 2];
+        let bodies = Leveled { shapes: [&large, &small], poses };
+        assert_eq!(bodies.coarsest(), [5, 2]);
+        let single = [[5, 2], [4, 2], [3, 2], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
+        assert_eq!(path(&bodies, Refinement::Single), single);
+        assert_eq!(path(&bodies, Refinement::SingleSingle), [[5, 2], [4, 1], [3, 0], [2, 0], [1, 0], [0, 0]]);
+        assert_eq!(path(&bodies, Refinement::DoubleDouble), [[5, 2], [3, 0], [1, 0], [0, 0]]);
+        // The other way round: object 1 goes first where both are at the same level.
+        let swapped = Leveled { shapes: [&small, &large], poses };
+        let single = [[2, 5], [2, 4], [2, 3], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
+        assert_eq!(path(&swapped, Refinement::Single), single);
+        assert_eq!(path(&swapped, Refinement::SingleSingle), [[2, 5], [1, 4], [0, 3], [0, 2], [0, 1], [0, 0]]);
+        assert_eq!(path(&swapped, Refinement::DoubleDouble), [[2, 5], [0, 3], [0, 1], [0, 0]]);
+    }
+
+    #[test]
+    fn adaptive_refinement_leaves_the_largest_deviation() {
+        let [large, small] = shapes();
+        for shapes in [[&large, &small], [&small, &large], [&large, &large]] {
+            let bodies = Leveled { shapes, poses: [&Pose::IDENTITY; 2] };
+            // Whatever the levels, and where both are the same object 1 goes first.
+            for level1 in 0..=bodies.coarsest()[0] {
+                for level2 in 0..=bodies.coarsest()[1] {
+                    let [off1, off2] = [bodies.deviation(0, level1), bodies.deviation(1, level2)];
+                    if [level1, level2] != [0, 0] {
+                        let next = if off1 >= off2 { [level1 - 1, level2] } else { [level1, level2 - 1] };
+                        assert_eq!(bodies.refined([level1, level2], Refinement::Adaptive), next);
+                    }
+                }
+            }
+            // From the coarsest levels to P₀/P₀ that is all levels in order of their deviations.
+            let mut deviations: Vec<f64> = Vec::new();
+            for (i, shape) in shapes.iter().enumerate() {
+                deviations.extend((1..=shape.hierarchy().levels.len()).map(|k| bodies.deviation(i, k as u16)));
+            }
+            deviations.sort_by(|a, b| b.total_cmp(a));
+            let path = path(&bodies, Refinement::Adaptive);
+            let largest = |levels: &[u16; 2]| bodies.deviation(0, levels[0]).max(bodies.deviation(1, levels[1]));
+            assert_eq!(path.iter().map(largest).take(path.len() - 1).collect::<Vec<_>>(), deviations);
+        }
+    }
+}

@@ -386,6 +386,62 @@ fn coarse_questions_are_answered_by_coarse_levels() {
     }
 }
 
+/// From the coarsest pair on, where all are disjoint, a query ends at the first pair of levels that is tight enough: with errors that
+/// each pair just misses these are the pairs that the policy says, in its order.
+#[test]
+fn each_refinement_visits_the_level_pairs_it_says() {
+    let shape = |half_axes, kind, decimation| {
+        let hierarchy = HierarchyOptions { kind, decimation, ..HierarchyOptions::default() };
+        let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+        Shape::from_mesh(&ellipsoid(half_axes, 1002).unwrap(), &options).unwrap()
+    };
+    let many = shape([1.0, 1.0, 0.1], HierarchyKind::Quadric, 0.5);
+    let few = shape([1.0, 1.0, 1.0], HierarchyKind::OuterCuts, 0.25);
+    assert_eq!([&many, &few].map(|shape| shape.hierarchy().levels.len()), [5, 2]);
+    let deviation = |shape: &Shape, level: u16| match level {
+        0 => 0.0,
+        level => shape.hierarchy().levels[usize::from(level) - 1].deviation,
+    };
+    let apart = Pose::new(&rotation(&Vector::x(), 1.0), &Vector::new(1.0, 2.0, 2.0));
+    for [a, b] in [[&many, &few], [&few, &many]] {
+        let paths = REFINEMENTS.map(|refinement| {
+            // As the documentation of `Refinement` has it.
+            let mut path = vec![[a, b].map(|shape| shape.hierarchy().levels.len() as u16)];
+            while let Some(&[level1, level2]) = path.last().filter(|levels| **levels != [0, 0]) {
+                let first = [level1.saturating_sub(1), level2];
+                let second = [level1, level2.saturating_sub(1)];
+                path.push(match refinement {
+                    Refinement::Adaptive if deviation(a, level1) > deviation(b, level2) => first,
+                    Refinement::Single if level1 >= level2 => first,
+                    Refinement::Adaptive | Refinement::Single => second,
+                    Refinement::SingleSingle => [level1, level2].map(|level| level.saturating_sub(1)),
+                    Refinement::DoubleDouble => [level1, level2].map(|level| level.saturating_sub(2)),
+                });
+            }
+            let mut absolute_error = f64::INFINITY;
+            for levels in &path {
+                let config = PairConfig {
+                    absolute_error,
+                    levels: Levels::All,
+                    start: Start::Cold,
+                    refinement,
+                    ..PairConfig::default()
+                };
+                let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                pair::approximate(a, &Pose::IDENTITY, b, &apart, &mut cache, &config, &mut answer).unwrap();
+                assert_eq!(answer.statistics.levels, *levels, "{refinement:?}: {path:?}");
+                verify(a, &Pose::IDENTITY, b, &apart, &answer).unwrap();
+                absolute_error = (deviation(a, levels[0]) + deviation(b, levels[1])) * (1.0 - 1e-6);
+            }
+            path
+        });
+        // They differ, all of them.
+        for (i, path) in paths.iter().enumerate() {
+            assert!(!paths[..i].contains(path), "{paths:?}");
+        }
+    }
+}
+
 /// The automatic choice: levels for what they may answer of large bodies, none for the rest; the answers hold the exact ones.
 #[test]
 fn levels_of_large_bodies_are_used_where_they_save_time() {
