@@ -293,6 +293,7 @@ fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::exact;
     use crate::hierarchy::{HierarchyKind, HierarchyOptions};
     use crate::shape::ShapeOptions;
     use swiftprox::random::Random;
@@ -360,5 +361,74 @@ mod tests {
             let largest = |levels: &[u16; 2]| bodies.deviation(0, levels[0]).max(bodies.deviation(1, levels[1]));
             assert_eq!(path.iter().map(largest).take(path.len() - 1).collect::<Vec<_>>(), deviations);
         }
+    }
+
+    /// Up the parents, the level that stands off least more first, for as long as the levels may be disjoint and near enough.
+    #[test]
+    fn climbing_stops_before_levels_would_meet_or_stand_off_too_far() {
+        let [large, small] = shapes();
+        let bodies = Leveled { shapes: [&large, &small], poses: [&Pose::IDENTITY; 2] };
+        let off = |levels: [u16; 2]| bodies.deviation(0, levels[0]) + bodies.deviation(1, levels[1]);
+        let finest = Place { levels: [0, 0], state: State::edge_edge([7, 9]) };
+        let coarsest = bodies.climbed(finest, f64::INFINITY, f64::INFINITY);
+        assert_eq!(coarsest.levels, bodies.coarsest());
+        let mut random = Random::new(3);
+        let mut reached = Vec::new();
+        for _ in 0..2000 {
+            let [gap, most] = [0, 1].map(|_| off(bodies.coarsest()) * random.power(-12, 1) * random.uniform(0.5, 1.0));
+            let most = random.pick(&[most, f64::INFINITY]);
+            let Place { levels, state } = bodies.climbed(finest, gap, most);
+            assert!(off(levels) < gap && off(levels) <= most, "{levels:?} {gap} {most}");
+            // One more of either would not do.
+            for i in 0..2 {
+                let mut above = levels;
+                above[i] += 1;
+                if levels[i] < bodies.coarsest()[i] {
+                    assert!(off(above) >= gap * (1.0 - 1e-12) || off(above) > most, "{levels:?} {gap} {most}");
+                }
+            }
+            // On from there is the same as at once.
+            let on = bodies.climbed(Place { levels, state }, f64::INFINITY, f64::INFINITY);
+            assert_eq!(on, coarsest);
+            // The features are the parents of the parents.
+            let mut features = finest.state.features();
+            for i in 0..2 {
+                for level in &bodies.shapes[i].hierarchy().levels[..usize::from(levels[i])] {
+                    features[i] = level.parents.of(features[i]);
+                }
+            }
+            assert_eq!(state, bodies.place(levels, features).state);
+            if !reached.contains(&levels) {
+                reached.push(levels);
+            }
+        }
+        // Levels of both bodies by turns.
+        assert!(reached.len() >= 6, "{reached:?}");
+    }
+
+    /// Where climbing promises levels that are disjoint they are: each stands off by no more than its deviation.
+    #[test]
+    fn levels_climbed_to_are_disjoint() {
+        let [large, small] = shapes();
+        let mut random = Random::new(4);
+        let (mut higher, mut open) = (0, 0);
+        for _ in 0..40 {
+            let away = random.direction() * random.uniform(0.9, 1.5);
+            let poses = [Pose::IDENTITY, Pose::new(&random.rotation(), &away)];
+            let bodies = Leveled { shapes: [&large, &small], poses: [&poses[0], &poses[1]] };
+            let solve = |levels: [u16; 2]| {
+                let [first, second] = bodies.polyhedra(levels);
+                exact::solve(first, &poses[0], second, &poses[1], &[])
+            };
+            let gap = solve([0, 0]).lower;
+            if gap > 0.0 {
+                let finest = Place { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
+                let Place { levels, .. } = bodies.climbed(finest, gap, f64::INFINITY);
+                assert!(solve(levels).lower > 0.0, "{levels:?}, {gap} apart");
+                higher += usize::from(levels != [0, 0]);
+                open += usize::from(levels != bodies.coarsest() && !(solve(bodies.coarsest()).lower > 0.0));
+            }
+        }
+        assert!(higher > 20 && open > 0, "{higher} {open}");
     }
 }

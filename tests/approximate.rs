@@ -386,8 +386,8 @@ fn coarse_questions_are_answered_by_coarse_levels() {
     }
 }
 
-/// From the coarsest pair on, where all are disjoint, a query ends at the first pair of levels that is tight enough: with errors that
-/// each pair just misses these are the pairs that the policy says, in its order.
+/// From the coarsest pair on, where all are disjoint, a query ends at the first pair of levels that is tight enough: with errors
+/// that each pair just misses these are the pairs that the policy says, in its order.
 #[test]
 fn each_refinement_visits_the_level_pairs_it_says() {
     let shape = |half_axes, kind, decimation| {
@@ -439,6 +439,52 @@ fn each_refinement_visits_the_level_pairs_it_says() {
         for (i, path) in paths.iter().enumerate() {
             assert!(!paths[..i].contains(path), "{paths:?}");
         }
+    }
+}
+
+/// The next query begins where the last one ended: at the level pair that was tight enough; above the objects themselves if these
+/// were looked at.
+#[test]
+fn queries_begin_at_the_levels_that_answered_the_last() {
+    for kind in &KINDS[1..] {
+        let [a, b] = leveled_pair(*kind);
+        let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
+        let ask = |query: Query, config: PairConfig, pose: &Pose, cache: &mut PairCache| {
+            let mut answer = PairAnswer::default();
+            query(&a, &Pose::IDENTITY, &b, pose, cache, &config, &mut answer).unwrap();
+            answer
+        };
+        let coarse = PairConfig { absolute_error: 0.1, ..all };
+        let afresh = PairConfig { start: Start::Cold, ..coarse };
+        let [mut warm, mut climbed] = [PairCache::default(); 2];
+        // Steps: afresh; after the same query; after exact ones through levels, and without; and of these exact ones.
+        let mut steps = [0; 6];
+        for k in 0..200 {
+            let turn = 2e-3 * f64::from(k);
+            let pose = Pose::new(&rotation(&Vector::z(), turn), &Vector::new(0.3 + turn, 0.2, 1.5));
+            let cold = ask(pair::approximate, afresh, &pose, &mut PairCache::default());
+            assert!(cold.statistics.levels != [0, 0], "{cold:?}");
+            let mut answers = vec![cold, ask(pair::approximate, coarse, &pose, &mut warm)];
+            for (i, levels) in [Levels::All, Levels::None].into_iter().enumerate() {
+                let exactly = PairConfig { levels, ..all };
+                ask(pair::distance, exactly, &pose, &mut climbed);
+                let exact = ask(pair::distance, exactly, &pose, &mut climbed);
+                assert_eq!(exact.statistics.levels, [0, 0]);
+                steps[4 + i] += exact.statistics.marching_steps;
+                answers.push(ask(pair::approximate, coarse, &pose, &mut climbed));
+            }
+            for (steps, answer) in steps.iter_mut().zip(&answers) {
+                *steps += answer.statistics.marching_steps;
+                assert!(answer.upper - answer.lower <= 0.1 && answer.statistics.levels != [0, 0], "{answer:?}");
+            }
+        }
+        println!("{kind:?}: {steps:?} steps");
+        let [cold, warm, above_levels, above_objects, exact_levels, exact] = steps;
+        // One step where nothing has changed.
+        assert!(warm < 300 && 5 * warm < cold);
+        assert!(2 * above_objects < cold && above_levels < cold);
+        // Through levels an exact query begins above the objects, too; without, at the objects.
+        assert!(exact == 200 && exact_levels >= 2 * exact);
     }
 }
 
