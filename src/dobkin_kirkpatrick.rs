@@ -440,3 +440,151 @@ fn normal(positions: &[Vector], corners: [u32; 3]) -> Vector {
     let [a, b, c] = corners.map(|v| positions[v as usize]);
     normal_of(&area_vector(&a, &b, &c), &a, &b, &c)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::polyhedron_build::build;
+    use swiftprox::random::Random;
+
+    /// Ellipsoids of few and of many vertices, and a ball with spikes.
+    fn bodies() -> Vec<Polyhedron> {
+        let mut random = Random::new(21);
+        let mut bodies = Vec::new();
+        for (count, half_axes) in [(40, [1.0, 1.0, 1.0]), (300, [1.0, 0.7, 0.2]), (1000, [1.0, 1.0, 0.1])] {
+            let points: Vec<Vector> =
+                (0..count).map(|_| random.direction().component_mul(&Vector::from(half_axes))).collect();
+            bodies.push(build(&points, None).unwrap());
+        }
+        let mut points: Vec<Vector> = (0..300).map(|_| random.direction()).collect();
+        points.extend((0..6).map(|_| random.direction() * 4.0));
+        bodies.push(build(&points, None).unwrap());
+        bodies
+    }
+
+    fn next(removing: &mut DobkinKirkpatrick) -> Option<Removal> {
+        removing.next(4, &mut Progress::new(&mut |_| true)).unwrap()
+    }
+
+    /// The importance and the neighbours of each vertex of the hull of some vertices of a body.
+    fn importances(body: &Polyhedron, ids: &[u32]) -> Vec<(f64, Vec<u32>)> {
+        let points: Vec<Vector> = ids.iter().map(|v| body.vertices[*v as usize].position).collect();
+        let hull = build(&points, None).unwrap();
+        assert_eq!(hull.vertices.len(), ids.len());
+        let id = |v: u32| ids[hull.vertex_labels[v as usize] as usize];
+        let mut beside = std::collections::HashMap::new();
+        for corners in &hull.triangles {
+            let [a, b, c] = corners.map(|v| hull.vertices[v as usize].position);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            for k in 0..3 {
+                beside.insert((id(corners[k]), id(corners[(k + 1) % 3])), normal);
+            }
+        }
+        let mut all = vec![(0.0, Vec::new()); body.vertices.len()];
+        for (&(tail, head), normal) in &beside {
+            let (importance, neighbours) = &mut all[tail as usize];
+            *importance += 1.0 - normal.dot(&beside[&(head, tail)]);
+            neighbours.push(head);
+        }
+        all
+    }
+
+    /// The least important first, none beside another, none of an importance above 1 (Ehmann & Lin 2000, §4.4).
+    #[test]
+    fn flat_vertices_go_and_peaks_stay() {
+        let (mut levels, mut peaks) = (0, 0);
+        for body in bodies() {
+            let mut removing = DobkinKirkpatrick::new(&body).unwrap();
+            let mut ids: Vec<u32> = (0..body.vertices.len() as u32).collect();
+            while let Some(Removal { vertices, .. }) = next(&mut removing) {
+                let all = importances(&body, &ids);
+                let mut order = ids.clone();
+                order.sort_by(|v, w| all[*v as usize].0.total_cmp(&all[*w as usize].0));
+                let mut is_left = vec![true; body.vertices.len()];
+                for v in order {
+                    let (importance, neighbours) = &all[v as usize];
+                    let is_free =
+                        neighbours.iter().all(|w| is_left[*w as usize]) && neighbours.len() <= LARGEST_VALENCE;
+                    is_left[v as usize] = !is_free || *importance > 1.0;
+                    peaks += usize::from(is_free && *importance > 1.0);
+                }
+                ids.retain(|v| is_left[*v as usize]);
+                assert_eq!(vertices, ids);
+                levels += 1;
+            }
+        }
+        // There were vertices that nothing but their importance has kept.
+        assert!(levels > 15 && peaks > 50, "{levels} {peaks}");
+    }
+
+    /// Three right angles at each corner make an importance of 3.
+    #[test]
+    fn a_box_has_no_vertex_to_remove() {
+        let side = |bit: usize, i: usize| if i & bit == 0 { 0.0 } else { bit as f64 };
+        let corners: Vec<Vector> = (0..8).map(|i| Vector::new(side(1, i), side(2, i), side(4, i))).collect();
+        let cuboid = build(&corners, None).unwrap();
+        assert!((0..8).all(|v| (importances(&cuboid, &[0, 1, 2, 3, 4, 5, 6, 7])[v].0 - 3.0).abs() < 1e-12));
+        assert!(next(&mut DobkinKirkpatrick::new(&cuboid).unwrap()).is_none());
+        // With one corner cut off the three new ones are flatter, but not flat enough.
+        let mut cut = corners[..7].to_vec();
+        let cut_off = |k: usize| Vector::from_fn(|i, _| corners[7][i] * if i == k { 0.5 } else { 1.0 });
+        cut.extend((0..3).map(cut_off));
+        assert!(next(&mut DobkinKirkpatrick::new(&build(&cut, None).unwrap()).unwrap()).is_none());
+    }
+
+    /// Vertices move along their rays from the centre of mass, out by the factor that makes the level bound the body, and back
+    /// as far as it still does: that brings it nearer to the body than scaling alone.
+    #[test]
+    fn relaxation_draws_vertices_back_along_their_rays() {
+        let (mut levels, mut nearer) = (0.0, [0.0; 2]);
+        for body in bodies() {
+            let centre = body.mass.centre_of_mass - body.centre;
+            let mut removing = DobkinKirkpatrick::new(&body).unwrap();
+            while let Some(Removal { vertices, points, .. }) = next(&mut removing) {
+                let kept: Vec<Vector> = vertices.iter().map(|v| body.vertices[*v as usize].position - centre).collect();
+                // The factor, from the planes of the hull of what is left.
+                let hull = build(&kept, None).unwrap();
+                let mut factor = 1.0_f64;
+                for corners in &hull.triangles {
+                    let [a, b, c] = corners.map(|v| hull.local_position(v));
+                    let normal = (b - a).cross(&(c - a));
+                    let reach = |v: &crate::polyhedron::Vertex| normal.dot(&(v.position - centre));
+                    let highest = body.vertices.iter().map(reach).fold(0.0, f64::max);
+                    factor = factor.max(highest / normal.dot(&a));
+                }
+                let mut drawn_back = 0;
+                for (point, ray) in points.iter().zip(&kept) {
+                    let p = point - centre;
+                    assert!(p.cross(ray).norm() <= 1e-14 * p.norm() * body.radius);
+                    let by = p.norm() / ray.norm();
+                    assert!((1.0 - 1e-12..=factor * (1.0 + 1e-9)).contains(&by), "{by} of {factor}");
+                    drawn_back += usize::from(by < factor * (1.0 - 1e-6));
+                }
+                assert!(3 * drawn_back > points.len(), "{drawn_back} of {}", points.len());
+                // It bounds the body, and its vertices are less far above the body's planes.
+                let level = build(&points, None).unwrap();
+                for face in &level.faces {
+                    let height = face.normal.dot(&(level.local_position(face.vertex)));
+                    let reach = body.vertices.iter().map(|v| face.normal.dot(&v.position)).fold(0.0, f64::max);
+                    assert!(reach <= height + 1e-12 * body.radius, "{reach} {height}");
+                }
+                let above = |p: &Vector| body.faces.iter().map(|face| face.planes.value(0, p)).fold(0.0, f64::max);
+                let measure = |points: &mut dyn Iterator<Item = Vector>| {
+                    let heights: Vec<f64> = points.map(|p| above(&p)).collect();
+                    [heights.iter().copied().fold(0.0, f64::max), heights.iter().sum::<f64>()]
+                };
+                let relaxed = measure(&mut points.iter().copied());
+                let scaled = measure(&mut kept.iter().map(|ray| centre + ray * factor));
+                for i in 0..2 {
+                    assert!(relaxed[i] <= scaled[i] * (1.0 + 1e-9), "{relaxed:?} {scaled:?}");
+                    nearer[i] += 1.0 - relaxed[i] / scaled[i];
+                }
+                levels += 1.0;
+            }
+        }
+        // The corners of the planes that touch the body can give no way; most others do.
+        let [largest, mean] = nearer.map(|sum| sum / levels);
+        println!("{levels} levels: the largest deviation of a vertex {largest} less, the mean {mean} less");
+        assert!(levels > 15.0 && largest > 0.01 && mean > 0.2);
+    }
+}

@@ -109,6 +109,52 @@ fn flat_regions_go_first() {
     assert!(dome < 0.1 && sphere > 0.3, "kept: {dome} of the dome, {sphere} of the sphere");
 }
 
+/// The same from level to level: what is curved, the sphere and the rim of the dome, has ever more of the vertices.
+#[test]
+fn flat_regions_lose_their_share_from_level_to_level() {
+    let mut random = Random::new(6);
+    let point = |p: Vector| if p.z > 0.0 { Vector::new(p.x, p.y, 0.02 * (1.0 - p.x * p.x - p.y * p.y)) } else { p };
+    let body = hull(&(0..4000).map(|_| point(random.direction())).collect::<Vec<_>>());
+    // Levels stand off from the body by more than the dome is high: it is what is above the inside of the sphere.
+    let shares = shares_by_level(&body, |p| p.z < -0.2 || p.xy().norm() > 0.9);
+    assert!(shares.len() == 7 && shares.windows(2).all(|pair| pair[1] > pair[0]), "{shares:?}");
+    assert!(shares[0] < 0.75 && shares[6] > 0.95, "{shares:?}");
+}
+
+/// A sphere that is eight times as dense in the north as in the south: of coarse levels either half has about half.
+#[test]
+fn density_becomes_equal() {
+    let mut random = Random::new(7);
+    let mut points: Vec<Vector> = (0..4500).map(|_| random.direction()).collect();
+    for p in &mut points[..3500] {
+        p.z = p.z.abs();
+    }
+    let body = hull(&points);
+    let shares = shares_by_level(&body, |p| p.z < 0.0);
+    assert!(
+        shares.len() == 7 && shares[0] < 0.12 && shares[..4].windows(2).all(|pair| pair[1] > pair[0]),
+        "{shares:?}"
+    );
+    assert!(shares[4..].iter().all(|share| (0.4..0.6).contains(share)), "{shares:?}");
+}
+
+/// The share of the vertices for which something holds, of the body and of quadric levels that halve the triangles.
+fn shares_by_level(body: &Polyhedron, holds: impl Fn(&Vector) -> bool) -> Vec<f64> {
+    let options = HierarchyOptions {
+        kind: HierarchyKind::Quadric,
+        decimation: 0.5,
+        minimum_triangles: 100,
+        ..HierarchyOptions::default()
+    };
+    let hierarchy = Hierarchy::build(body, &options, &mut Progress::new(&mut |_| true)).unwrap();
+    let polyhedra = [body].into_iter().chain(hierarchy.levels.iter().map(|level| &level.polyhedron));
+    let share = |polyhedron: &Polyhedron| {
+        let count = polyhedron.vertices.iter().filter(|v| holds(&(v.position + polyhedron.centre))).count();
+        count as f64 / polyhedron.vertices.len() as f64
+    };
+    polyhedra.map(share).collect()
+}
+
 /// The corners of a cube whose sides bulge by 1e-7 and are tessellated finely stay where they are.
 #[test]
 fn what_is_flat_vanishes_and_corners_stay() {
