@@ -5,6 +5,8 @@ mod convexity;
 mod edges;
 mod proof;
 
+use convexity::{Side, most_inward};
+
 pub use convexity::check_convexity;
 pub use proof::check_hull;
 
@@ -28,7 +30,7 @@ pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Resul
 }
 
 /// The part of [`check_mesh`] that looks at no coordinates, except that exactly equal vertices
-/// count as one: indices in range, every vertex used, every face with three vertices or more and
+/// count as one, and for a message: indices in range, every vertex used, every face with three vertices or more and
 /// none twice, every edge in two faces and in opposite directions, the faces around every vertex
 /// one fan, the surface connected and of genus 0.
 ///
@@ -42,7 +44,7 @@ pub fn check_surface(mesh: &PolygonMesh) -> Result<()> {
     let twins = corners.match_edges()?;
     corners.check_fans(&twins)?;
     corners.check_connected(&twins)?;
-    corners.check_genus(&twins)
+    corners.check_genus(&twins, mesh)
 }
 
 /// Which option admits a body that lies in a plane.
@@ -241,8 +243,9 @@ impl Corners {
         }
     }
 
-    /// Euler's formula.
-    fn check_genus(&self, twins: &[u32]) -> Result<()> {
+    /// Euler's formula. Where it fails no single face is at fault; but somewhere such a surface bends inward or winds about itself
+    /// (Gauss & Bonnet): the edge where it bends most is named.
+    fn check_genus(&self, twins: &[u32], mesh: &PolygonMesh) -> Result<()> {
         let mut vertices = self.vertex.clone();
         vertices.sort_unstable();
         vertices.dedup();
@@ -250,6 +253,17 @@ impl Corners {
         if v - e + f == 2 {
             return Ok(());
         }
-        violation(format!("the surface has holes: {v} vertices - {e} edges + {f} faces = {}, not 2", v - e + f))
+        let side = |(corner, twin): (u32, &u32)| {
+            let ends = [corner, self.next(corner)].map(|c| self.given[c as usize]);
+            Side { faces: [corner, *twin].map(|c| self.face[c as usize]), ends }
+        };
+        let bend = match most_inward(mesh, (0..).zip(twins).map(side)) {
+            Some(Side { faces: [face, across], ends: [tail, head] }) => {
+                let (low, high) = (tail.min(head), tail.max(head));
+                format!("; at edge {low}-{high} face {across} bends out of the plane of face {face}")
+            }
+            None => String::new(),
+        };
+        violation(format!("the surface has holes: {v} vertices - {e} edges + {f} faces = {}, not 2{bend}", v - e + f))
     }
 }

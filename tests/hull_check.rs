@@ -1,5 +1,6 @@
 //! What `check_mesh` accepts, and that it says where the rest is wrong.
 
+use swiftprox::error::Error;
 use swiftprox::hull_build::convex_hull;
 use swiftprox::hull_check::check_mesh;
 use swiftprox::math::Vector;
@@ -19,13 +20,39 @@ fn hull_mesh(points: &[Vector]) -> PolygonMesh {
     mesh(points, &triangles.iter().map(|t| &t[..]).collect::<Vec<_>>())
 }
 
-/// The message of the refusal, which must hold every one of `parts`.
 #[track_caller]
-fn refused(mesh: &PolygonMesh, tolerance: f64, parts: &[&str]) {
-    let message = check_mesh(mesh, tolerance, false).expect_err("accepted").to_string();
-    for part in parts {
-        assert!(message.contains(part), "no \"{part}\" in \"{message}\"");
-    }
+fn refusal(mesh: &PolygonMesh, tolerance: f64) -> String {
+    check_mesh(mesh, tolerance, false).expect_err("accepted").to_string()
+}
+
+#[track_caller]
+fn refused(mesh: &PolygonMesh, tolerance: f64, message: &str) {
+    assert_eq!(refusal(mesh, tolerance), message);
+}
+
+/// Refused because of a vertex outside of a face's plane: that vertex is as far outside as the message says, and no vertex is
+/// farther. Returns the face and the vertex.
+#[track_caller]
+fn refused_for_vertex_outside(mesh: &PolygonMesh, tolerance: f64) -> (usize, u32) {
+    let message = refusal(mesh, tolerance);
+    let words: Vec<&str> = message.split_whitespace().collect();
+    let ["face", face, "vertex", vertex, "lies", distance, "outside", "of", "its", "plane", "(allowed", allowed] =
+        words[..]
+    else {
+        panic!("{message}");
+    };
+    assert_eq!(allowed, format!("{tolerance:.3e})"), "{message}");
+    let face: usize = face.strip_suffix(':').unwrap().parse().unwrap();
+    let (vertex, distance): (usize, f64) = (vertex.parse().unwrap(), distance.parse().unwrap());
+    let corners: Vec<Vector> = mesh.face(face).iter().map(|v| mesh.vertices[*v as usize]).collect();
+    let [a, b, c] = corners[..] else { panic!("a triangle was to be named: {message}") };
+    let normal = (b - a).cross(&(c - a)).normalize();
+    let height = |v: &Vector| normal.dot(&(v - a));
+    let highest = mesh.vertices.iter().map(height).fold(0.0, f64::max);
+    let named = height(&mesh.vertices[vertex]);
+    assert!(named > tolerance && highest - named < 1e-13, "{message}: {named:e}, another one {highest:e}");
+    assert!((named - distance).abs() <= 1e-3 * distance, "{message}: {named:e}");
+    (face, vertex as u32)
 }
 
 #[track_caller]
@@ -128,7 +155,7 @@ fn fine_faces_of_rounded_coordinates_are_accepted() {
         *v = turned(v).map(|x| f64::from(x as f32));
     }
     accepted(&soup, 1e-6);
-    refused(&soup, 1e-9, &["face", "vertex", "its plane (allowed 1.000e-9)"]);
+    refused_for_vertex_outside(&soup, 1e-9);
 }
 
 /// The exact hull of points that are coplanar up to rounding has triangles too narrow for a normal.
@@ -179,7 +206,8 @@ fn long_narrow_sides_askew_are_accepted() {
 #[test]
 fn a_tolerance_must_be_a_number() {
     for tolerance in [f64::NAN, -1e-9] {
-        refused(&cube(), tolerance, &["tolerance"]);
+        let refused = check_mesh(&cube(), tolerance, false);
+        assert_eq!(refused, Err(Error::Argument(format!("the convexity tolerance is {tolerance}"))));
     }
 }
 
@@ -187,17 +215,17 @@ fn a_tolerance_must_be_a_number() {
 fn broken_indices_are_named() {
     let mut m = cube();
     m.indices[5] = 8;
-    refused(&m, 1e-9, &["face 1: corner 1 is vertex 8", "8 vertices"]);
+    refused(&m, 1e-9, "face 1: corner 1 is vertex 8, there are 8 vertices");
     let mut m = cube();
     m.starts[3] = 4;
-    refused(&m, 1e-9, &["starts"]);
+    refused(&m, 1e-9, "the faces' starts do not divide the index array");
     let mut m = cube();
     m.vertices[3].y = f64::NAN;
-    refused(&m, 1e-9, &["vertex 3: y is not finite"]);
-    refused(&PolygonMesh::default(), 1e-9, &["no vertices"]);
+    refused(&m, 1e-9, "vertex 3: y is not finite (NaN)");
+    refused(&PolygonMesh::default(), 1e-9, "the mesh has no vertices");
     let mut m = cube();
     m.vertices.push(Vector::new(0.5, 0.5, 0.5));
-    refused(&m, 1e-9, &["vertex 8 belongs to no face"]);
+    refused(&m, 1e-9, "vertex 8 belongs to no face");
 }
 
 #[test]
@@ -205,30 +233,31 @@ fn degenerate_faces_are_named() {
     let mut m = cube();
     m.indices.extend([0, 1, 0]);
     m.starts.push(27);
-    refused(&m, 1e-9, &["face 6 is degenerate: it has fewer than three"]);
+    refused(&m, 1e-9, "face 6 is degenerate: it has fewer than three distinct vertices");
     let mut m = cube();
     m.vertices[5] = m.vertices[4];
     m.vertices[7] = m.vertices[4];
-    refused(&m, 1e-9, &["face 5 is degenerate: it has fewer than three"]);
+    refused(&m, 1e-9, "face 5 is degenerate: it has fewer than three distinct vertices");
     let mut m = cube();
     m.indices.extend([0, 1, 2, 3, 1]);
     m.starts.push(29);
-    refused(&m, 1e-9, &["face 6 passes through vertex 1 more than once"]);
+    refused(&m, 1e-9, "face 6 passes through vertex 1 more than once");
     let mut m = cube();
     m.starts.push(24);
-    refused(&m, 1e-9, &["face 6 is degenerate: it has fewer than three"]);
+    refused(&m, 1e-9, "face 6 is degenerate: it has fewer than three distinct vertices");
 }
 
 #[test]
 fn open_and_overused_edges_are_named() {
     let faces: Vec<&[u32]> = CUBE_FACES[..5].iter().map(|f| &f[..]).collect();
-    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["edge", "belongs to no other face"]);
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, "face 2: edge 4-5 belongs to no other face");
     let mut faces: Vec<&[u32]> = CUBE_FACES.iter().map(|f| &f[..]).collect();
     faces.push(&[0, 1, 7]);
-    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["face 2: edge 0-1 belongs to 3 faces (2, 4, 6)"]);
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, "face 2: edge 0-1 belongs to 3 faces (2, 4, 6)");
     faces.pop();
     faces[1] = &[1, 5, 7, 3];
-    refused(&mesh(&cube_vertices(), &faces), 1e-9, &["edge 1-3", "same direction in face", "oriented"]);
+    let inconsistent = "face 1: edge 1-3 runs in the same direction in face 4: the faces are not consistently oriented";
+    refused(&mesh(&cube_vertices(), &faces), 1e-9, inconsistent);
 }
 
 #[test]
@@ -240,9 +269,9 @@ fn surfaces_of_the_wrong_topology_are_named() {
     let faces: Vec<&[u32]> = tetrahedron.iter().chain(&second).map(|t| &t[..]).collect();
     let shifted = |by: Vector| points.iter().copied().chain(points.map(|p| p + by)).collect::<Vec<_>>();
     let apart = mesh(&shifted(Vector::new(3.0, 0.0, 0.0)), &faces);
-    refused(&apart, 1e-9, &["face 4 is not connected with face 0"]);
+    refused(&apart, 1e-9, "face 4 is not connected with face 0 across edges");
     let touching = mesh(&shifted(Vector::new(0.0, 0.0, 1.0)), &faces);
-    refused(&touching, 1e-9, &["vertex 3: its faces form more than one fan"]);
+    refused(&touching, 1e-9, "vertex 3: its faces form more than one fan (face 4 is not in that of face 1)");
     // A square torus.
     let ring = |r: f64, z: f64| (0..4).map(move |i| Vector::new([r, 0.0, -r, 0.0][i], [0.0, r, 0.0, -r][i], z));
     let vertices: Vec<Vector> =
@@ -254,19 +283,30 @@ fn surfaces_of_the_wrong_topology_are_named() {
         })
         .collect();
     let torus = mesh(&vertices, &quads.iter().map(|q| &q[..]).collect::<Vec<_>>());
-    refused(&torus, 1e-9, &["16 vertices - 32 edges + 16 faces = 0"]);
+    // Inside of the ring walls 12 to 15 stand at right angles to each other.
+    let holes = "the surface has holes: 16 vertices - 32 edges + 16 faces = 0, not 2";
+    let bend = "at edge 0-12 face 15 bends out of the plane of face 12";
+    refused(&torus, 1e-9, &format!("{holes}; {bend}"));
+    let mut inside_out = torus.clone();
+    inside_out.indices.chunks_mut(4).for_each(<[u32]>::reverse);
+    refused(&inside_out, 1e-9, &format!("{holes}; at edge 1-13 face 13 bends out of the plane of face 12"));
+    // Without an area there is nothing to name.
+    let mut straight = torus;
+    straight.vertices.iter_mut().zip(0_u8..).for_each(|(v, k)| *v = Vector::x() * f64::from(k));
+    refused(&straight, 1e-9, holes);
 }
 
 #[test]
 fn inside_out_is_named() {
+    const INSIDE_OUT: &str = "the mesh is inside out: face 0 and all others run clockwise seen from outside";
     let mut m = cube();
     for face in m.indices.chunks_mut(4) {
         face.reverse();
     }
-    refused(&m, 1e-9, &["inside out"]);
+    refused(&m, 1e-9, INSIDE_OUT);
     // A plate far thinner than the tolerance, too.
     m.vertices.iter_mut().for_each(|v| v.z *= 1e-11);
-    refused(&m, 1e-9, &["inside out"]);
+    refused(&m, 1e-9, INSIDE_OUT);
 }
 
 #[test]
@@ -278,7 +318,12 @@ fn dents_and_bumps_are_named() {
         let mut faces: Vec<&[u32]> = CUBE_FACES[..5].iter().map(|f| &f[..]).collect();
         faces.extend([&[4_u32, 5, 8][..], &[5, 7, 8], &[7, 6, 8], &[6, 4, 8]]);
         let m = mesh(&vertices, &faces);
-        if fine { accepted(&m, 1e-9) } else { refused(&m, 1e-9, &["face 5: vertex", "outside of its plane"]) }
+        if fine {
+            accepted(&m, 1e-9);
+        } else {
+            let (face, vertex) = refused_for_vertex_outside(&m, 1e-9);
+            assert!(face == 5 && [6, 7].contains(&vertex), "face {face}, vertex {vertex}");
+        }
     }
     // Every edge of a ball flipped inwards.
     let points = spiral(40);
@@ -291,7 +336,7 @@ fn dents_and_bumps_are_named() {
         dented[t] = [c, a, d];
         dented[other] = [d, b, c];
         let m = mesh(&points, &dented.iter().map(|t| &t[..]).collect::<Vec<_>>());
-        refused(&m, 1e-9, &["face", "vertex", "outside of its plane"]);
+        assert_eq!(refused_for_vertex_outside(&m, 1e-9).0, t.min(other));
     }
 }
 
@@ -299,7 +344,7 @@ fn dents_and_bumps_are_named() {
 fn faces_that_are_not_plane_are_named() {
     let mut m = cube();
     m.vertices[7] *= 1.001;
-    refused(&m, 1e-9, &["face 1: vertex", "off its plane"]);
+    refused(&m, 1e-9, "face 1: vertex 1 lies 2.498e-4 off its plane (allowed 1.000e-9)");
     accepted(&m, 1e-3);
 }
 
@@ -307,7 +352,9 @@ fn faces_that_are_not_plane_are_named() {
 fn flat_bodies_need_the_option() {
     let square = cube_vertices()[..4].to_vec();
     let two_sided = mesh(&square, &[&[0, 1, 3, 2], &[2, 3, 1, 0]]);
-    refused(&two_sided, 1e-9, &["flat", "in the plane of vertices", "SWIFT_INPUT_FLAT"]);
+    let flat = "the mesh is flat: all vertices lie in the plane of vertices 0, 1 and 3; \
+                the input policy Flat (SWIFT_INPUT_FLAT) admits bodies without interior";
+    refused(&two_sided, 1e-9, flat);
     check_mesh(&two_sided, 0.0, true).unwrap();
     let mut oblique = two_sided.clone();
     oblique.vertices.iter_mut().for_each(|v| *v = Vector::new(v.x + v.y, 2.0 * v.y - v.x, 3.0 * v.x));
@@ -316,7 +363,9 @@ fn flat_bodies_need_the_option() {
     let cut = mesh(&square, &[&[0, 1, 3], &[0, 3, 2], &[2, 3, 1, 0]]);
     check_mesh(&cut, 0.0, true).unwrap();
     let line = [0.0, 1.0, 2.0].map(|x| Vector::new(x, x, 0.0));
-    refused(&mesh(&line, &[&[0, 1, 2], &[2, 1, 0]]), 1e-9, &["flat", "line", "SWIFT_INPUT_HULL"]);
+    let straight = "the mesh is flat: all vertices lie on the line of vertices 0 and 2; \
+                    the input policy Hull (SWIFT_INPUT_HULL) admits segments and points";
+    refused(&mesh(&line, &[&[0, 1, 2], &[2, 1, 0]]), 1e-9, straight);
 }
 
 #[test]
@@ -324,12 +373,13 @@ fn a_flat_body_must_be_convex() {
     let corners = [[0.0, 0.0], [2.0, 0.0], [2.0, 1.0], [1.0, 1.0], [1.0, 2.0], [0.0, 2.0]];
     let ell: Vec<Vector> = corners.iter().map(|c| Vector::new(c[0], c[1], 0.0)).collect();
     let m = mesh(&ell, &[&[0, 1, 2, 3, 4, 5], &[5, 4, 3, 2, 1, 0]]);
-    let message = check_mesh(&m, 1e-9, true).unwrap_err().to_string();
-    assert!(message.contains("0.857143 times") && message.contains("edge 2-4"), "{message}");
+    let expected = "the mesh is not convex: it covers 0.857143 times the area of its convex hull; \
+                    the hull's edge 2-4 is no edge of the mesh";
+    assert_eq!(check_mesh(&m, 1e-9, true).unwrap_err().to_string(), expected);
     // Turned off the axes it is no longer exactly flat: no option is needed, and it is refused just
     // the same.
     let mut rotated = m.clone();
     rotated.vertices.iter_mut().for_each(|v| *v = turned(v) / 3.0);
     assert_eq!(convex_hull(&rotated.vertices).unwrap().dimension, 3);
-    refused(&rotated, 1e-9, &["0.857143 times", "edge 2-4"]);
+    refused(&rotated, 1e-9, expected);
 }

@@ -143,11 +143,25 @@ class Query(unittest.TestCase):
 
     def test_bad_meshes_are_named(self):
         poses = self.file("poses", APART)
-        self.refused(2, "none.off", BOX, "none.off", poses)
-        broken = self.file("broken.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 rubbish 0\n3 0 1 2\n")
-        self.refused(2, "broken.off", broken, BOX, poses)
-        self.refused(2, "5", broken, BOX, poses)
-        self.refused(2, "none.poses", BOX, BOX, "none.poses")
+        box = "OFF\n8 6 0\n" + "".join("%d %d %d\n" % (i & 1, i >> 1 & 1, i >> 2) for i in range(8))
+        sides = ("4 0 4 6 2\n", "4 1 3 7 5\n", "4 0 1 5 4\n", "4 2 6 7 3\n", "4 0 2 3 1\n", "4 4 5 7 6\n")
+        bad = {"line 5: vertex 2 of 3: \"rubbish\" is not a number": "OFF\n3 1 0\n0 0 0\n1 0 0\n0 rubbish 0\n3 0 1 2\n",
+               "line 12: face 1, corner 2: vertex index 8 is out of range (8 vertices)":
+                   box + "4 0 4 6 2\n4 1 3 8 5\n" + "".join(sides[2:]),
+               "face 2: edge 4-5 belongs to no other face": box.replace("8 6 0", "8 5 0") + "".join(sides[:5]),
+               "face 3: edge 2-3 runs in the same direction in face 4: the faces are not consistently oriented":
+                   box + "".join(sides[:3]) + "4 2 3 7 6\n" + "".join(sides[4:]),
+               "face 5: vertex 4 lies 2.041e-1 off its plane (allowed 2.449e-9)": box.replace("1 1 1", "1 1 2") + "".join(sides)}
+        for message, mesh in bad.items():
+            path = self.file("bad.off", mesh)
+            for meshes in ((path, BOX), (BOX, path)):
+                done = self.run_tool(*meshes, poses)
+                self.assertEqual((done.returncode, done.stdout, done.stderr), (2, "", "%s: %s\n" % (path, message)))
+        for arguments, missing in ((("none.off", BOX, poses), "none.off: cannot be read: "),
+                                   ((BOX, BOX, "none.poses"), "none.poses: ")):
+            done = self.run_tool(*arguments)
+            self.assertEqual((done.returncode, done.stdout), (2, ""))
+            self.assertRegex(done.stderr, "^%sNo such file or directory( \\(os error 2\\))?\n$" % missing)
 
     # -- the command line --
 

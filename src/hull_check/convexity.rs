@@ -169,6 +169,34 @@ impl<'a> Polygon<'a> {
     }
 }
 
+/// An edge as it runs around one of its faces.
+pub(super) struct Side {
+    /// That face and the one across.
+    pub(super) faces: [u32; 2],
+    pub(super) ends: [u32; 2],
+}
+
+/// The side of a closed surface across which a face rises most steeply out of the plane of the other, the first of equals; `None`
+/// if none does but for rounding.
+pub(super) fn most_inward(mesh: &PolygonMesh, sides: impl Iterator<Item = Side>) -> Option<Side> {
+    let exact = ExactPoints::new(&mesh.vertices);
+    let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v)).collect();
+    let polygons: Vec<Polygon> = (0..mesh.face_count()).map(|f| Polygon::new(mesh.face(f), &position)).collect();
+    // The faces may all run clockwise.
+    let outward = Extent::of(polygons.iter()).volume.signum();
+    let mut best = (ROUNDING, None);
+    for side in sides {
+        let [normal, across] = side.faces.map(|f| unit(&polygons[f as usize].area));
+        let [tail, head] = side.ends.map(|v| position[v as usize]);
+        // The sine of the angle between the faces: positive where they bend inward.
+        let rise = outward * unit(&(head - tail)).dot(&across.cross(&normal));
+        if rise > best.0 {
+            best = (rise, Some(side));
+        }
+    }
+    best.1
+}
+
 /// Measures of a whole surface.
 struct Extent {
     area: f64,
