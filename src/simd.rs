@@ -252,6 +252,13 @@ pub fn dispatch<K: Kernel>(kernel: &mut K) -> K::Output {
     run_portable(kernel)
 }
 
+/// From now on this process does without wider lanes than the baseline of the target has: every machine rounds these alike. For
+/// tests.
+pub fn narrow_to_baseline() {
+    #[cfg(target_arch = "x86_64")]
+    wide::deny();
+}
+
 /// Out of line: inlined beside the other branch it would spill that one's arguments.
 #[inline(never)]
 fn run_portable<K: Kernel>(kernel: &mut K) -> K::Output {
@@ -274,6 +281,10 @@ mod wide {
             0 => look(),
             seen => seen == 2,
         }
+    }
+
+    pub(super) fn deny() {
+        AVAILABLE.store(1, Ordering::Relaxed);
     }
 
     #[cold]

@@ -1,0 +1,274 @@
+//! One flight, the same each time: verdicts and the order of results on every machine, every bit of every answer in every run and
+//! from every thread, and on every machine that is held to the baseline of its target.
+//!
+//! The scene is made of sums, products, quotients and square roots, which are rounded alike everywhere; sines are not.
+
+#[path = "../benches/common/random.rs"]
+mod random;
+mod shapes;
+
+use std::sync::Arc;
+
+use random::Random;
+use shapes::cuboid;
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::object::{ObjectId, ObjectOptions};
+use swiftprox::pair::{self, Bounds, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
+use swiftprox::scene::{Scene, SceneAnswer, SceneOptions, SceneQuery};
+use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::simd;
+
+/// Of the verdicts and the order of results, on every machine. It stays as long as the flight does.
+const VERDICTS: u64 = 0x5733_1957_f757_a2bb;
+
+/// Of every bit of every answer, on the baseline of x86-64. It changes with how answers are found, and is recorded anew then;
+/// verdicts do not change.
+const BITS: u64 = 0x4f2e_02ce_8e35_03bd;
+
+const STEPS: usize = 150;
+
+/// FNV-1a (G. Fowler, L. C. Noll, K.-P. Vo), which is the same in every version of everything.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Hash(u64);
+
+impl Hash {
+    const EMPTY: Hash = Hash(0xcbf2_9ce4_8422_2325);
+
+    fn add(&mut self, number: u64) {
+        for byte in number.to_le_bytes() {
+            self.0 = (self.0 ^ u64::from(byte)).wrapping_mul(0x0000_0100_0000_01b3);
+        }
+    }
+
+    fn add_answer(&mut self, answer: &PairAnswer) {
+        let PairAnswer { distance, lower, upper, local1, local2, world1, world2, normal, statistics, .. } = *answer;
+        let numbers = [[distance, lower, upper], local1, local2, world1, world2, normal];
+        for number in numbers.iter().flatten() {
+            // Machines differ in the bits of a NaN that an operation makes.
+            self.add(if number.is_nan() { u64::MAX } else { number.to_bits() });
+        }
+        for Feature { kind, ids: [first, second] } in [answer.feature1, answer.feature2] {
+            [kind as u32, first, second].into_iter().for_each(|number| self.add(number.into()));
+        }
+        answer.proof.iter().flatten().for_each(|vertex| self.add((*vertex).into()));
+        let steps = [statistics.marching_steps, statistics.fallback_iterations, statistics.exact_iterations];
+        let levels = statistics.levels.map(u32::from);
+        let others = [answer.outcome as u32, answer.status as u32, answer.proof_count];
+        steps.iter().chain(&levels).chain(&others).for_each(|number| self.add((*number).into()));
+    }
+}
+
+/// What a flight found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Flight {
+    verdicts: Hash,
+    bits: Hash,
+    /// Answers by their outcome: separated, beyond, intersecting, undecided.
+    outcomes: [usize; 4],
+}
+
+impl Flight {
+    /// `is_decided` says that the outcome is the same on every machine: no step budget has a say in it.
+    fn add(&mut self, names: [u64; 4], answer: &PairAnswer, is_decided: bool) {
+        for name in names {
+            self.verdicts.add(name);
+            self.bits.add(name);
+        }
+        if is_decided {
+            self.verdicts.add(answer.outcome as u64);
+        }
+        self.bits.add_answer(answer);
+        self.outcomes[answer.outcome as usize - 1] += 1;
+    }
+
+    fn add_list(&mut self, answer: SceneAnswer, is_decided: bool) {
+        self.verdicts.add(answer.intersecting.into());
+        self.verdicts.add(answer.pairs.len() as u64);
+        for pair in answer.pairs {
+            let pieces = [pair.piece1, pair.piece2].map(u64::from);
+            self.add([pair.user_data1, pair.user_data2, pieces[0], pieces[1]], &pair.answer, is_decided);
+        }
+    }
+}
+
+/// Uniform in the unit ball, but for its centre.
+fn in_ball(random: &mut Random) -> Vector {
+    loop {
+        let v = random.vector();
+        if (0.01..1.0).contains(&v.norm_squared()) {
+            return v;
+        }
+    }
+}
+
+/// A box, hulls of points in a ball and on a grid, ellipsoids with every kind of levels.
+fn shapes() -> Vec<Arc<Shape>> {
+    let mut random = Random::new(2000);
+    let in_a_ball: Vec<Vector> = (0..60).map(|_| in_ball(&mut random)).collect();
+    let on_a_grid: Vec<Vector> = (0..40).map(|_| random.lattice(4) * 0.25).collect();
+    let shape = |points: &[Vector], kind| {
+        let hierarchy = HierarchyOptions { kind, minimum_triangles: 20, ..HierarchyOptions::default() };
+        Arc::new(Shape::from_points(points, &ShapeOptions { hierarchy, ..ShapeOptions::default() }).unwrap())
+    };
+    let mut shapes = vec![
+        Arc::new(cuboid([0.4, 0.9, 0.2])),
+        shape(&in_a_ball, HierarchyKind::None),
+        shape(&on_a_grid, HierarchyKind::None),
+    ];
+    for (count, half_axes, kind) in [
+        (200, [1.0, 1.0, 1.0], HierarchyKind::Quadric),
+        (300, [1.0, 1.0, 0.1], HierarchyKind::DobkinKirkpatrick),
+        (400, [1.0, 0.1, 0.1], HierarchyKind::OuterCuts),
+    ] {
+        let half_axes = Vector::from(half_axes);
+        let on_ellipsoid = |v: Vector| (v / v.norm()).component_mul(&half_axes);
+        let points: Vec<Vector> = (0..count).map(|_| on_ellipsoid(in_ball(&mut random))).collect();
+        shapes.push(shape(&points, kind));
+    }
+    shapes
+}
+
+/// The matrix of a quaternion of any length.
+fn turned([w, x, y, z]: [f64; 4]) -> Matrix {
+    let length = (w * w + x * x + y * y + z * z).sqrt();
+    let [w, x, y, z] = [w, x, y, z].map(|part| part / length);
+    Matrix::new(
+        1.0 - 2.0 * (y * y + z * z),
+        2.0 * (x * y - w * z),
+        2.0 * (x * z + w * y),
+        2.0 * (x * y + w * z),
+        1.0 - 2.0 * (x * x + z * z),
+        2.0 * (y * z - w * x),
+        2.0 * (x * z - w * y),
+        2.0 * (y * z + w * x),
+        1.0 - 2.0 * (x * x + y * y),
+    )
+}
+
+/// Something that turns while it flies through the middle and back, and jumps now and then.
+struct Flyer {
+    turn: [f64; 4],
+    turning: [f64; 4],
+    place: Vector,
+    velocity: Vector,
+}
+
+impl Flyer {
+    fn new(random: &mut Random) -> Flyer {
+        let four = |random: &mut Random| [1, 2, 3, 4].map(|_| random.signed());
+        Flyer {
+            turn: four(random),
+            turning: four(random).map(|part| 0.03 * part),
+            place: random.vector() * 2.0,
+            velocity: random.vector() * 0.06,
+        }
+    }
+
+    fn step(&mut self, random: &mut Random) {
+        if random.below(50) == 0 {
+            *self = Flyer::new(random);
+        }
+        for (part, by) in self.turn.iter_mut().zip(self.turning) {
+            *part += by;
+        }
+        self.velocity -= 0.002 * self.place;
+        self.place += self.velocity;
+    }
+
+    fn pose(&self) -> Pose {
+        Pose::new(&turned(self.turn), &self.place)
+    }
+}
+
+/// Every query of scenes and of pairs over one flight of eight objects.
+fn fly(shapes: &[Arc<Shape>]) -> Flight {
+    let mut random = Random::new(17);
+    let mut flight = Flight { verdicts: Hash::EMPTY, bits: Hash::EMPTY, outcomes: [0; 4] };
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut flyers: Vec<Flyer> = (0..8).map(|_| Flyer::new(&mut random)).collect();
+    let mut ids: Vec<ObjectId> = Vec::new();
+    for (k, flyer) in flyers.iter().enumerate() {
+        // The last two have two pieces each, the same ones.
+        let mut pieces = vec![shapes[k % shapes.len()].clone()];
+        pieces.extend((k >= shapes.len()).then(|| shapes[2].clone()));
+        let options = ObjectOptions { pose: flyer.pose(), user_data: 100 + k as u64, ..ObjectOptions::default() };
+        ids.push(scene.add_object(pieces, &options).unwrap());
+    }
+    let mut caches = vec![PairCache::default(); shapes.len()];
+    for step in 0..STEPS {
+        if step == STEPS / 2 {
+            scene.set_pair_active(ids[1], ids[4], false).unwrap();
+            scene.remove_object(ids.remove(3)).unwrap();
+            flyers.remove(3);
+        }
+        let poses: Vec<Pose> = flyers.iter().map(Flyer::pose).collect();
+        scene.set_all_poses(&poses).unwrap();
+        let all = SceneQuery::default();
+        let near = SceneQuery { distance_tolerance: 0.3, ..all };
+        flight.add_list(scene.query_intersection(&all).unwrap(), true);
+        flight.add_list(scene.query_intersection(&SceneQuery { early_exit: true, ..all }).unwrap(), true);
+        flight.add_list(scene.query_tolerance(&near).unwrap(), true);
+        flight.add_list(scene.query_exact_distance(&all).unwrap(), true);
+        flight.add_list(scene.query_exact_distance(&SceneQuery { bounds: Bounds::Verdict, ..near }).unwrap(), true);
+        flight.add_list(scene.query_contacts(&near).unwrap(), true);
+        let coarse = SceneQuery { absolute_error: 0.05, levels: Levels::All, ..all };
+        flight.add_list(scene.query_approximate_distance(&coarse).unwrap(), true);
+        let thrifty = SceneQuery { step_budget: 2, start: Start::Cold, refinement: Refinement::SingleSingle, ..coarse };
+        flight.add_list(scene.query_approximate_distance(&thrifty).unwrap(), false);
+
+        // Pairs of neighbours, each query with the cache that the last one left.
+        for (k, cache) in caches.iter_mut().enumerate() {
+            let (a, b) = (&shapes[k], &shapes[(k + 1) % shapes.len()]);
+            let [pose1, pose2] = [&poses[k], &poses[(k + 1) % poses.len()]];
+            let config = PairConfig {
+                distance_tolerance: 0.5,
+                relative_error: 0.01,
+                levels: Levels::All,
+                ..PairConfig::default()
+            };
+            for query in [pair::intersection, pair::distance, pair::contact, pair::approximate] {
+                let mut answer = PairAnswer::default();
+                query(a, pose1, b, pose2, cache, &config, &mut answer).unwrap();
+                flight.add([step as u64, k as u64, 0, 0], &answer, true);
+            }
+        }
+        flyers.iter_mut().for_each(|flyer| flyer.step(&mut random));
+    }
+    flight
+}
+
+/// One test: what machine it is on is the same for all threads of a process.
+#[test]
+fn a_flight_is_the_same_each_time() {
+    let check = |flight: Flight| {
+        println!("{flight:x?}");
+        // The same before there are tables and after, in other shapes made alike, and from four threads at once.
+        let made = shapes();
+        assert_eq!((fly(&made), fly(&made)), (flight, flight));
+        std::thread::scope(|scope| {
+            let threads = [(); 4].map(|()| scope.spawn(|| fly(&made)));
+            for thread in threads {
+                assert_eq!(thread.join().unwrap(), flight);
+            }
+        });
+        assert_eq!(flight.verdicts, Hash(VERDICTS), "verdicts {:#018x}", flight.verdicts.0);
+    };
+    let flight = fly(&shapes());
+    check(flight);
+    let [separated, beyond, intersecting, undecided] = flight.outcomes;
+    assert!(separated > 10_000 && beyond > 500 && intersecting > 5_000 && undecided > 100, "{:?}", flight.outcomes);
+    assert_eq!(Outcome::Undecided as usize, flight.outcomes.len());
+
+    simd::narrow_to_baseline();
+    let narrow = fly(&shapes());
+    check(narrow);
+    if cfg!(target_arch = "x86_64") {
+        assert_eq!(
+            narrow.bits,
+            Hash(BITS),
+            "bits {:#018x}: to be recorded if answers were meant to change",
+            narrow.bits.0
+        );
+    }
+}
