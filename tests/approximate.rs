@@ -571,6 +571,49 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
     }
 }
 
+/// A relative error allows for as much as it is of the distance of the bounding spheres, of large and of small bodies.
+#[test]
+fn a_relative_error_is_answered_by_levels_of_bodies_far_apart() {
+    let shape = |n| Shape::from_mesh(&ellipsoid([1.0, 0.6, 0.3], n).unwrap(), &ShapeOptions::default()).unwrap();
+    let large = shape(30_000);
+    let [plate, long] = leveled_pair(HierarchyKind::Quadric);
+    let relative = PairConfig { relative_error: 0.05, ..PairConfig::default() };
+    let all = PairConfig { levels: Levels::All, ..relative };
+    let ask = |[a, b]: [&Shape; 2], pose: &Pose, config: PairConfig, cache: &mut PairCache| {
+        let mut answer = PairAnswer::default();
+        pair::approximate(a, &Pose::IDENTITY, b, pose, cache, &config, &mut answer).unwrap();
+        answer
+    };
+    // Spheres that overlap promise no distance, and of a small one 0.5 % are too little.
+    let at = |x: f64| Pose::new(&rotation(&Vector::y(), 0.5), &Vector::new(0.3, 0.2, x));
+    let near =
+        [(0.9, 0.05), (2.01, 0.005)].map(|(x, relative_error)| (at(x), PairConfig { relative_error, ..relative }));
+    for (pose, config) in &near {
+        let answer = ask([&large, &large], pose, *config, &mut PairCache::default());
+        assert!(answer.outcome == Outcome::Separated && answer.statistics.levels == [0, 0], "{answer:?}");
+    }
+    assert_eq!(large.hierarchy(), &Hierarchy::AUTOMATIC);
+    for (shapes, config) in [([&large, &large], relative), ([&plate, &long], all)] {
+        let mut cache = PairCache::default();
+        for k in 0..20 {
+            let pose = at(3.0 + 0.01 * f64::from(k));
+            let mut fresh = PairCache::default();
+            for cache in [&mut cache, &mut fresh] {
+                let answer = ask(shapes, &pose, config, cache);
+                assert!(answer.statistics.levels.iter().all(|level| *level > 0), "{k}: {answer:?}");
+                assert!(answer.lower > 0.0 && answer.upper - answer.lower <= 0.05 * answer.lower, "{k}: {answer:?}");
+                verify(shapes[0], &Pose::IDENTITY, shapes[1], &pose, &answer).unwrap();
+            }
+        }
+    }
+    assert!(!large.hierarchy().levels.is_empty());
+    // Made already, they answer no more than before.
+    for (pose, config) in &near {
+        let answer = ask([&large, &large], pose, *config, &mut PairCache::default());
+        assert_eq!(answer.statistics.levels, [0, 0], "{answer:?}");
+    }
+}
+
 /// Two bodies of 100,000 vertices, for which a verdict near by is worth levels.
 #[test]
 fn no_levels_are_made_where_nothing_asks_for_them() {

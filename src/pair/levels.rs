@@ -107,7 +107,10 @@ fn of_large(
     if pair.is_farther_than(enough(query, config)) {
         return Ok(());
     }
-    let error = if query == Query::Approximate { config.absolute_error } else { f64::INFINITY };
+    let error = match query {
+        Query::Approximate => most_error(config, gap_of_spheres(polyhedra, poses)),
+        _ => f64::INFINITY,
+    };
     let are_worth_it = are_worth_it(shapes, error);
     if are_worth_it && shapes.iter().any(|shape| shape.lacks_levels()) {
         pair.make_levels(shapes)?;
@@ -121,6 +124,19 @@ fn of_large(
         return through_levels(query, shapes, poses, cache, config, answer);
     }
     super::query(query, shapes, poses, cache, config, answer)
+}
+
+/// The error that a query about bodies at least `gap` apart may make.
+fn most_error(config: &PairConfig, gap: f64) -> f64 {
+    let relative = config.relative_error * gap;
+    if relative > config.absolute_error { relative } else { config.absolute_error }
+}
+
+/// How far the bounding spheres are apart, about; 0 where they overlap. It only says where to look.
+fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
+    let [centre1, centre2] = [0, 1].map(|i| poses[i].transform(&polyhedra[i].centre));
+    let gap = (centre1 - centre2).norm() - (polyhedra[0].radius + polyhedra[1].radius);
+    if gap > 0.0 { gap } else { 0.0 }
 }
 
 /// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
@@ -248,7 +264,7 @@ impl PairQuery<'_> {
                     && self.query == Query::Approximate
                     && self.cache.spent_before() == 0 =>
             {
-                (bodies.climbed(place, f64::INFINITY, self.near_enough(0.0)), true)
+                (bodies.climbed(place, f64::INFINITY, self.surely_near_enough()), true)
             }
             Some(place) if has_levels || place.levels == [0, 0] => (place, true),
             _ => (self.place_anew(bodies), false),
@@ -263,7 +279,7 @@ impl PairQuery<'_> {
         if no_levels || (has_tables && self.config.start != Start::Cold) {
             let place =
                 Place { levels: [0, 0], state: self.state_anew(self.polyhedra, self.config.start != Start::Cold) };
-            return if no_levels { place } else { bodies.climbed(place, f64::INFINITY, self.near_enough(0.0)) };
+            return if no_levels { place } else { bodies.climbed(place, f64::INFINITY, self.surely_near_enough()) };
         }
         let levels = bodies.coarsest();
         Place { levels, state: self.state_anew(bodies.polyhedra(levels), false) }
@@ -278,8 +294,12 @@ impl PairQuery<'_> {
         if self.config.distance_tolerance < f64::INFINITY || self.query != Query::Approximate {
             return f64::INFINITY;
         }
-        let relative = self.config.relative_error * gap;
-        if relative > self.config.absolute_error { relative } else { self.config.absolute_error }
+        most_error(self.config, gap)
+    }
+
+    /// The same before anything is known but the bounding spheres.
+    fn surely_near_enough(&self) -> f64 {
+        self.near_enough(gap_of_spheres(self.polyhedra, self.poses))
     }
 
     /// The bodies themselves, from a state of theirs; `before` and `steps` are those made by earlier queries and by this one.
