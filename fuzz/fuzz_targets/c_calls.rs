@@ -15,7 +15,7 @@ use swiftprox_fuzz::c_program::{Program, last_message};
 const MOST_CALLS: usize = 64;
 
 fuzz_target!(|bytes: &[u8]| {
-    let mut program = Program::default();
+    let mut program = Program::begin();
     let mut u = Unstructured::new(bytes);
     for _ in 0..MOST_CALLS {
         if u.is_empty() || step(&mut program, &mut u).is_err() {

@@ -3,6 +3,7 @@
 mod approximate;
 mod arguments;
 mod model;
+mod readers;
 mod scenes;
 mod shapes;
 
@@ -48,6 +49,12 @@ const MOST_OBJECTS: usize = 8;
 const MOST_POINTS: usize = 16;
 
 impl Program {
+    /// Before the first call.
+    pub fn begin() -> Program {
+        readers::register();
+        Program::default()
+    }
+
     /// One call, or a few that belong together.
     pub fn call(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         match u.int_in_range(0..=23)? {
@@ -80,6 +87,7 @@ impl Program {
     /// Gives everything back.
     pub fn end(self) {
         swift_library_set_log(None, null_mut());
+        readers::take_back();
         // SAFETY: all are alive, and none is used again.
         unsafe {
             for scene in &self.scenes {

@@ -13,6 +13,7 @@ use swiftprox::shape::Shape;
 use super::arguments::{
     Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, pair_config, shape_options, start, temporary_file,
 };
+use super::readers::reading;
 use super::{MOST_POINTS, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::any_points;
 
@@ -73,7 +74,7 @@ impl Program {
         let mut shape = null_mut();
         let path = path.as_ref().map_or(null(), |path| path.as_ptr());
         // SAFETY: a string or null, and room for the shape.
-        let status = unsafe { swift_shape_create_from_file(path, start(&options), &mut shape) };
+        let status = reading(|| unsafe { swift_shape_create_from_file(path, start(&options), &mut shape) });
         Ok(self.keep(status, shape))
     }
 
