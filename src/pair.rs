@@ -72,7 +72,7 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    levels::intersection([shape1, shape2], [pose1, pose2], cache, config, answer)
+    query(Query::Intersection, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
@@ -164,6 +164,11 @@ fn query_beyond(
         && pair.is_farther_than(enough)
     {
         return Ok(());
+    }
+    if (query == Query::Intersection) && levels::help_verdicts(shapes, config) {
+        // Arrays of their own: those lent to it would have to live in memory here, too.
+        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
+        return levels::of_large(query, shapes, poses, pair.cache, config, pair.answer);
     }
     let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
     // A NaN is not.
