@@ -712,15 +712,20 @@ impl PairQuery<'_> {
         match decision {
             Decision::Separated { points, direction, interval, pairs } => {
                 set_interval(answer, interval, 0.5 * interval.lower + 0.5 * interval.upper, config.distance_tolerance);
-                let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
                 let vertices = State::vertex_vertex(pairs.as_slice()[0]);
-                cache.remember_state(State::of_features(features).unwrap_or(vertices));
-                if query != Query::Intersection && answer.outcome == Outcome::Separated {
-                    contact::fill_placed(answer, polyhedra, poses, points, direction, features);
+                if query == Query::Intersection {
+                    // The points need not be nearest, so no feature need hold them, and to search all takes long.
+                    cache.remember_state(vertices);
                 } else {
-                    contact::fill_nothing(answer);
-                    answer.normal = contact::normalised(direction);
+                    let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
+                    cache.remember_state(State::of_features(features).unwrap_or(vertices));
+                    if answer.outcome == Outcome::Separated {
+                        contact::fill_placed(answer, polyhedra, poses, points, direction, features);
+                        return;
+                    }
                 }
+                contact::fill_nothing(answer);
+                answer.normal = contact::normalised(direction);
             }
             Decision::Intersecting { pairs, weights } => {
                 cache.remember_pairs(pairs.as_slice());
