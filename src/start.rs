@@ -137,8 +137,8 @@ struct Map {
     offset: [f32; 3],
 }
 
-/// From body 1 to body 2 and back; `between` is the way from the centre of mass of body 2 to that of body 1 in the world. A transpose
-/// stands in for an inverse: it is all about a good guess.
+/// From body 1 to body 2 and back; `between` is the way from the centre of mass of body 2 to that of body 1 in the world. A
+/// transpose stands in for an inverse: it is all about a good guess.
 #[inline(always)]
 fn maps(poses: [&Pose; 2], between: &Vector, [radius1, radius2]: [f64; 2]) -> [Map; 2] {
     let axis = |pose: &Pose, i: usize| Vector::new(pose.rows[0][i], pose.rows[1][i], pose.rows[2][i]);
