@@ -188,7 +188,10 @@ enum {
   SWIFT_FEATURE_KIND_VERTEX = 1,
   /** An edge: `ids` are the caller's indices of its two end vertices. */
   SWIFT_FEATURE_KIND_EDGE = 2,
-  /** A face: `ids[0]` is the caller's index of a polygon that holds the witness point. */
+  /**
+   * A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact deep inside one that reaches
+   * farthest along the normal.
+   */
   SWIFT_FEATURE_KIND_FACE = 3
 };
 typedef int32_t swift_feature_kind;
@@ -199,7 +202,7 @@ enum {
   SWIFT_LOOKUP_AUTOMATIC = 0,
   /** None. */
   SWIFT_LOOKUP_NONE = 1,
-  /** Nearest vertices to points on several spheres, looked up in turns from one body to the other. */
+  /** Vertices near points on several spheres, looked up in turns from one body to the other. */
   SWIFT_LOOKUP_SHELLS = 2,
   /** That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass. */
   SWIFT_LOOKUP_SPHERICAL = 3
@@ -857,9 +860,9 @@ swift_status swift_shape_release(const struct swift_shape *shape);
  * Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
  * take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
  *
- * `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while the
- * table is made, a small part of the time. Safe from any thread: a query that needs the levels meanwhile, or another
- * swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+ * `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
+ * the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
+ * meanwhile, or another swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
  *
  * SWIFT_ERROR_CANCELLED: progress said so; no levels are made, and the shape can be used as before. SWIFT_ERROR_NULL_POINTER:
  * shape is null.

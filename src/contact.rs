@@ -149,7 +149,10 @@ pub fn features_of_overlap(
     overlap: &Overlap,
 ) -> [FeatureId; 2] {
     let size = polyhedra[0].radius.min(polyhedra[1].radius);
-    let ends = (overlap.depth > DEEP * size).then_some(overlap.ends);
+    let between = poses[0].translation() - poses[1].translation();
+    let reach = |polyhedron: &Polyhedron| polyhedron.radius + polyhedron.centre.norm();
+    let rounding = 64.0 * UNIT_ROUNDOFF * (reach(polyhedra[0]) + reach(polyhedra[1]) + between.norm());
+    let ends = (overlap.depth > DEEP * size + rounding).then_some(overlap.ends);
     features(polyhedra, poses, pairs, points, &overlap.direction, ends)
 }
 
@@ -205,9 +208,10 @@ fn feature_of_vertices(
     }
     // The faces around the vertices hold the point, but for points inside, vertices inside a merged face and slivers that rounding
     // shuffles.
-    let has_many = vertices.iter().any(|&v| polyhedron.neighbour_capacity(v) > MOST_NEIGHBOURS);
-    let around = vertices.iter().flat_map(|&v| faces_at(polyhedron, v));
-    let face = if has_many { None } else { face_holding(polyhedron, around, point, towards) };
+    // The face that holds a convex combination holds all its vertices, so those with many faces around them can be left out.
+    let has_few = |v: &&u32| polyhedron.neighbour_capacity(**v) <= MOST_NEIGHBOURS;
+    let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));
+    let face = face_holding(polyhedron, around, point, towards);
     let face = face.or_else(|| steepest_face(polyhedron, end?, towards));
     let face = face.or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)

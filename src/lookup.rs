@@ -2,8 +2,9 @@
 //! query tells nothing; no answer depends on them.
 //!
 //! *Shells*: for every direction (the cells of a square grid, folded into an octahedron) and every one of a few distances from
-//! the centre of mass the vertex nearest to the point there. Looked up in turns from one body to the other they project a point
-//! alternately on the two bodies, which is near the nearest vertices after two or three rounds whatever the shapes.
+//! the centre of mass the vertex nearest to the point there (of needles one of the nearest feature's). Looked up in turns from
+//! one body to the other they project a point alternately on the two bodies, which is near the nearest vertices after two or
+//! three rounds whatever the shapes.
 //!
 //! *Spherical*: the table of Ehmann & Lin (2000), §4.6: one vertex for every increment of altitude and azimuth and two for the
 //! poles, nearest to the points of one sphere; looked up once, in the direction of the other body's centre of mass.
@@ -62,7 +63,7 @@ impl Cells {
     }
 }
 
-/// Nearest vertices to points on several spheres.
+/// Vertices near points on several spheres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shells {
     /// Cells along a side of the square; a power of two.
@@ -263,7 +264,7 @@ pub struct Lookup {
 pub enum Plan {
     /// None: the body is small, or none was asked for.
     None,
-    /// Nearest vertices to points on several spheres.
+    /// Vertices near points on several spheres.
     Shells {
         /// [`Shells::resolution`].
         resolution: usize,

@@ -1,4 +1,4 @@
-//! Where marching starts: from the tables of nearest vertices when the last query tells little or nothing.
+//! Where marching starts: from the look-up tables when the last query tells little or nothing.
 
 use crate::lookup::{Shells, Table};
 use crate::lookup_build::tables;

@@ -217,9 +217,9 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
 /// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
 /// take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
 ///
-/// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while the
-/// table is made, a small part of the time. Safe from any thread: a query that needs the levels meanwhile, or another
-/// swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+/// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
+/// the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
+/// meanwhile, or another swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
 ///
 /// SWIFT_ERROR_CANCELLED: progress said so; no levels are made, and the shape can be used as before. SWIFT_ERROR_NULL_POINTER:
 /// shape is null.

@@ -73,7 +73,7 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
     let bytes = std::fs::read(path).map_err(|e| Error::File(format!("{name}: cannot be read: {e}")))?;
     match registered::parse(&bytes, &name) {
         Some(mesh) => with_vertices(mesh?, &name),
-        None => parse_mesh(&bytes, Format::from_extension(path), &name),
+        None => parse_format(&bytes, Format::from_extension(path), &name),
     }
 }
 
@@ -88,6 +88,11 @@ pub fn parse_mesh(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Po
     {
         return with_vertices(mesh?, name);
     }
+    parse_format(bytes, format, name)
+}
+
+/// In one of the formats known here, `None` by content.
+fn parse_format(bytes: &[u8], format: Option<Format>, name: &str) -> Result<PolygonMesh> {
     let bytes = without_mark(bytes);
     let format = format
         .or_else(|| Format::from_content(bytes))
