@@ -1,14 +1,15 @@
 //! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
 //! where that is needed, and where the next query is to start.
 
+use super::attempt::{MarchOn, TRIAL_STEPS, has_jumped, step_limit};
 use super::config::{check_accuracy, check_config};
 use super::{
-    Attempt, Leveled, Levels, MarchOn, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Place, Query, Start,
-    Statistics, Status, TRIAL_STEPS, has_jumped, set_interval, step_limit,
+    Attempt, Levels, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Query, Start, Statistics, Status,
+    set_interval,
 };
 use crate::certificate::Interval;
 use crate::contact;
-use crate::descent::{Accuracy, Descended, Descent, Found};
+use crate::descent::{Accuracy, Descended, Descent, Found, Leveled, Place};
 use crate::enclosure::encloses_origin;
 use crate::error::Result;
 use crate::frame::Frame;

@@ -1,0 +1,96 @@
+//! What of a minimum that marching finds is good enough an answer, at a quick look or a closer one.
+
+use super::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Query, Status, set_interval};
+use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
+use crate::contact;
+use crate::frame::Frame;
+use crate::marching;
+use crate::math::{Pose, ROTATION_LIMIT};
+use crate::polyhedron::Polyhedron;
+use crate::separating_axis::NUDGE;
+use crate::simd::{Kernel, Lanes};
+use crate::state::State;
+
+/// Accepts a minimum whose interval is good enough: answer and cache are then written.
+pub(super) struct Acceptance<'a> {
+    pub(super) query: Query,
+    pub(super) config: &'a PairConfig,
+    pub(super) cache: &'a mut PairCache,
+    pub(super) answer: &'a mut PairAnswer,
+    pub(super) accepted: bool,
+}
+
+impl<L: Lanes> Certify<L> for Acceptance<'_> {
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        let gap = minimum.gap(frame);
+        self.accepted = self.is_enough(frame.size, &gap.interval);
+        if self.accepted {
+            self.fill(frame, state, minimum, &gap);
+        }
+    }
+}
+
+impl Acceptance<'_> {
+    /// Whether an interval answers the query.
+    #[inline(always)]
+    fn is_enough(&self, size: f64, interval: &Interval) -> bool {
+        let is_narrow = interval.is_tight(size)
+            || match self.query {
+                // Without an upper bound a witness point may lie out of its body.
+                Query::Approximate => {
+                    interval.upper < f64::INFINITY && self.config.accuracy().is_met_by(interval.lower, interval.upper)
+                }
+                Query::Intersection => interval.lower > 0.0,
+                Query::Distance | Query::Contact => {
+                    self.config.bounds == Bounds::Verdict && interval.lower > 0.0 && interval.upper < f64::INFINITY
+                }
+            };
+        is_narrow && interval.settles(self.config.distance_tolerance)
+    }
+
+    /// Answer, but for the statistics, and cache from a minimum.
+    #[inline(always)]
+    fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
+        let answer = &mut *self.answer;
+        let normal = minimum.direction.mul(L::splat(minimum.inverse));
+        self.cache.remember_state(state);
+        answer.status = Status::Marched;
+        set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
+        if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
+            contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
+        } else {
+            contact::fill_normal(answer, normal);
+        }
+        if self.query == Query::Intersection {
+            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / frame.separation), normal);
+            let direction = frame.bodies[0].rotate_back(nudged).to_vector();
+            self.cache.remember_axis(state.vertices(frame.polyhedra()), direction);
+        }
+    }
+}
+
+/// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
+pub(super) struct Closely<'a, const BETWEEN_PLANES: bool> {
+    pub(super) judge: Acceptance<'a>,
+    pub(super) polyhedra: [&'a Polyhedron; 2],
+    pub(super) poses: [&'a Pose; 2],
+    pub(super) at: State,
+}
+
+impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, BETWEEN_PLANES> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
+        marching::march(&frame, self.at, 1, &mut closer);
+        if let Some((minimum, gap)) = &closer.found {
+            self.judge.accepted = self.judge.is_enough(frame.size, &gap.interval);
+            if self.judge.accepted {
+                self.judge.fill(&frame, self.at, minimum, gap);
+            }
+        }
+    }
+}

@@ -1,0 +1,170 @@
+//! Attempts at the bodies themselves: marching from the last features, from where the tables say, or afresh, each minimum judged
+//! as it is found.
+
+use super::acceptance::Acceptance;
+use super::cache::bits;
+use super::{Attempt, PairQuery, Start, Statistics};
+use crate::frame::Frame;
+use crate::marching::{self, March, Step};
+use crate::math::Vector;
+use crate::polyhedron::Polyhedron;
+use crate::simd::{Kernel, Lanes, Work};
+use crate::start::{self, Beginning, Guess};
+use crate::state::State;
+
+/// The common case, for [ordinary](Polyhedron::ordinary) bodies: the cached features still are the nearest. One state, straight
+/// through to the answer, without the loop that would keep so much in registers.
+pub(super) struct Coherent<'a, 'b> {
+    pub(super) pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for Coherent<'_, '_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        if !frame.usual {
+            return Attempt::Unusual;
+        }
+        let Some(state) = State::checked(cache.kind, cache.indices, polyhedra) else { return Attempt::Cold };
+        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
+        let step = marching::visit(&frame, state, &mut judge);
+        if judge.accepted {
+            judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
+            return Attempt::Done;
+        }
+        match step {
+            Step::Minimum => Attempt::Open { at: state, is_minimum: true, steps: 1 },
+            Step::Move(next) | Step::Behind(next) | Step::Crossing(next) => {
+                L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: next, steps: 1, limit: TRIAL_STEPS })
+            }
+        }
+    }
+}
+
+/// Marching from the cache is given up for a new start after this many steps: the pair has jumped without being noticed.
+pub(super) const TRIAL_STEPS: u32 = 16;
+
+/// Marching from a state to the end.
+pub(super) struct MarchOn<'a, 'b, L> {
+    pub(super) pair: &'a mut PairQuery<'b>,
+    pub(super) frame: Frame<'b, L>,
+    pub(super) start: State,
+    /// Those made before.
+    pub(super) steps: u32,
+    /// For the first leg: [`TRIAL_STEPS`] from a cache, else [`step_limit`].
+    pub(super) limit: u32,
+}
+
+impl<L: Lanes> Work for MarchOn<'_, '_, L> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run(&mut self) -> Attempt {
+        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
+        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
+        let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
+        let frame = self.frame;
+        if limit == TRIAL_STEPS && has_jumped(&frame, &judge.cache.marker) && config.start != Start::Cache {
+            let beginning = start::anew(polyhedra, poses, true);
+            state = State::vertex_vertex(beginning.vertices);
+            limit = step_limit(polyhedra);
+            if beginning.guess == Guess::Overlapping {
+                return Attempt::Open { at: state, is_minimum: false, steps };
+            }
+        }
+        let (at, is_minimum) = loop {
+            let (march, more) = marching::march(&frame, state, limit, &mut judge);
+            steps += more;
+            state = match march {
+                March::Minimum(at) => break (at, true),
+                March::Open(at) => break (at, false),
+                March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
+                March::Limit(at) if config.start == Start::Cache => at,
+                March::Limit(_) => State::vertex_vertex(start::anew(polyhedra, poses, true).vertices),
+            };
+            limit = step_limit(polyhedra);
+        };
+        if !judge.accepted {
+            return Attempt::Open { at, is_minimum, steps };
+        }
+        judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
+        // A pair that stays on its features keeps its old marker: they are near.
+        judge.cache.marker = bits(frame.marker().0.to_vector());
+        Attempt::Done
+    }
+}
+
+/// The general case: any bodies, poses and caches.
+pub(super) struct General<'a, 'b> {
+    pub(super) pair: &'a mut PairQuery<'b>,
+    /// Where to start if the cache holds no features, if that is known.
+    pub(super) beginning: Option<Beginning>,
+}
+
+impl Kernel for General<'_, '_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self.pair;
+        let frame = Frame::<L>::new(polyhedra, poses, config.most_skew());
+        if !frame.usual {
+            return Attempt::Unusual;
+        }
+        let (start, limit) = match State::checked(cache.kind, cache.indices, polyhedra) {
+            Some(state) => (state, TRIAL_STEPS),
+            None => {
+                let beginning = match self.beginning {
+                    Some(beginning) => beginning,
+                    None => start::anew(polyhedra, poses, config.start != Start::Cold),
+                };
+                let state = State::vertex_vertex(beginning.vertices);
+                if beginning.guess == Guess::Overlapping {
+                    return Attempt::Open { at: state, is_minimum: false, steps: 0 };
+                }
+                (state, step_limit(polyhedra))
+            }
+        };
+        // A segment or a point has no faces to march over.
+        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
+            return Attempt::Open { at: start, is_minimum: false, steps: 0 };
+        }
+        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps: 0, limit })
+    }
+}
+
+/// More steps than any start needs; only cycles that the cycle detection misses meet it.
+#[inline(always)]
+pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
+    64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
+}
+
+/// Whether the pair has moved so far that the tables know better than the last features where to start. Not for garbage.
+#[inline(always)]
+pub(super) fn has_jumped<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+    let [first, second] = frame.polyhedra();
+    has_moved(frame, last, first.lookup.reach * second.lookup.reach)
+}
+
+/// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
+/// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
+#[inline(always)]
+pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+    has_moved(frame, last, 0.25)
+}
+
+/// The square of an angle.
+pub(super) const RADIAN: f64 = 1.0;
+
+/// Whether the square of the angle by which the pair has moved is more than so much.
+#[inline(always)]
+pub(super) fn has_moved<L: Lanes>(frame: &Frame<L>, last: &[u32; 3], square: f64) -> bool {
+    let (marker, lever) = frame.marker();
+    let [x, y, z] = *last;
+    let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
+    let moved = marker.sub(L::from_vector(&last));
+    moved.dot(moved) > lever * lever * square
+}

@@ -1,0 +1,91 @@
+//! What settles a query at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
+
+use super::{PairAnswer, PairConfig, PairQuery, Statistics, Status, set_interval};
+use crate::certificate::reciprocal_length;
+use crate::contact;
+use crate::frame::{Frame, RIGID_TOGETHER};
+use crate::separating_axis::{self, Search, Trial};
+use crate::simd::{self, Kernel, Lanes};
+
+impl PairQuery<'_> {
+    /// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
+    /// than is enough; the answer then says so, and the cache stays as it is. NaN is for others to refuse.
+    #[inline(always)]
+    pub(super) fn is_farther_than(&mut self, enough: f64) -> bool {
+        let &mut PairQuery { polyhedra: [body1, body2], poses: [pose1, pose2], .. } = self;
+        let reach = body1.radius + body2.radius + enough;
+        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
+        (x * x + y * y + z * z > reach * reach) & (enough >= 0.0) & (body1.ordinary & body2.ordinary)
+            && simd::dispatch(&mut Spheres { pair: self, enough })
+    }
+}
+
+/// Bounding spheres that seem farther apart than is enough.
+struct Spheres<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+    enough: f64,
+}
+
+impl Kernel for Spheres<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let interval = separating_axis::between_spheres(&frame);
+        if !(frame.usual & (config.rotation_limit >= RIGID_TOGETHER) & (interval.lower > self.enough)) {
+            return false;
+        }
+        answer.status = Status::BoundingSpheres;
+        answer.statistics = Statistics::default();
+        set_interval(answer, &interval, frame.separation, config.distance_tolerance);
+        let offset = frame.bodies[0].offset;
+        contact::fill_normal(answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
+        true
+    }
+}
+
+/// The common case of the verdict alone: the axis of the last query separates, or nearly.
+pub(super) struct Separation<'a, 'b> {
+    pub(super) pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for Separation<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let &mut PairQuery { polyhedra, poses, ref mut cache, config, ref mut answer, .. } = self.pair;
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let Some(axis) = cache.recall_axis(polyhedra) else { return false };
+        if !frame.usual {
+            return false;
+        }
+        let trial = Trial::of_axis(&frame, &axis);
+        if trial.separates() && trial.interval.settles(config.distance_tolerance) {
+            cache.pairs[0] = trial.vertices;
+            fill_trial(&trial, config, answer);
+            return true;
+        }
+        let mut search = Search { frame: &frame, trial };
+        L::out_of_line(&mut search);
+        let trial = &search.trial;
+        let is_answer = trial.separates() && trial.interval.settles(config.distance_tolerance);
+        if is_answer {
+            let unit = trial.direction.mul(L::splat(trial.inverse));
+            cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
+            fill_trial(trial, config, answer);
+        }
+        is_answer
+    }
+}
+
+/// The answer of an axis that separates.
+#[inline(always)]
+fn fill_trial<L: Lanes>(trial: &Trial<L>, config: &PairConfig, answer: &mut PairAnswer) {
+    answer.status = Status::Coherent;
+    answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
+    set_interval(answer, &trial.interval, trial.distance, config.distance_tolerance);
+    contact::fill_normal(answer, trial.direction.mul(L::splat(trial.inverse)));
+}
