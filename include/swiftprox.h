@@ -189,8 +189,8 @@ enum {
   /** An edge: `ids` are the caller's indices of its two end vertices. */
   SWIFT_FEATURE_KIND_EDGE = 2,
   /**
-   * A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact deep inside one that reaches
-   * farthest along the normal.
+   * A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact of
+   * objects deep in each other one that reaches farthest into the other.
    */
   SWIFT_FEATURE_KIND_FACE = 3
 };
@@ -434,8 +434,9 @@ typedef struct swift_pair_config {
   double relative_error;
   /**
    * Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-   * no limit. What marching leaves open is decided all the same, however long it takes. The next query with the same cache
-   * goes on where this one stopped, if `start` lets it.
+   * no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
+   * open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
+   * one stopped, unless `start` says that it begin anew, at the tables or afresh: it may then stop there for ever.
    */
   uint32_t step_budget;
   /** Which levels of detail a query goes through. */
@@ -988,7 +989,8 @@ swift_status swift_pair_distance(const struct swift_shape *shape1,
 
 /**
  * The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need
- * not be tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+ * not be tight; and SWIFT_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies intersect
+ * or nearly do. Arguments and errors as of swift_pair_distance.
  */
 swift_status swift_pair_intersection(const struct swift_shape *shape1,
                                      const double *pose1,
@@ -1000,9 +1002,10 @@ swift_status swift_pair_intersection(const struct swift_shape *shape1,
 
 /**
  * As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
- * which the objects overlap little (where they only touch along a face it separates them) and features: those that hold the
- * point, or if it is deep inside an object the face of it that reaches farthest along the normal. Arguments and errors as of
- * swift_pair_distance.
+ * which the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
+ * where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
+ * deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
+ * the normal, of object 2 along it. Arguments and errors as of swift_pair_distance.
  */
 swift_status swift_pair_contact(const struct swift_shape *shape1,
                                 const double *pose1,
@@ -1013,12 +1016,12 @@ swift_status swift_pair_contact(const struct swift_shape *shape1,
                                 struct swift_pair_answer *answer);
 
 /**
- * The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most
+ * The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
  * config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
  * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swift_pair_distance,
  * unless config->step_budget ran out: then the status is SWIFT_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
- * goes on from there. Points and features are not said of an answer that comes from levels of detail. Arguments and errors as
- * of swift_pair_distance.
+ * goes on from there, unless config->start says that it begin anew. Points and features are not said of an answer that comes
+ * from levels of detail. Arguments and errors as of swift_pair_distance.
  */
 swift_status swift_pair_approximate(const struct swift_shape *shape1,
                                     const double *pose1,

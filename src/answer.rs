@@ -52,8 +52,8 @@ pub enum FeatureKind {
     Vertex = 1,
     /// An edge: `ids` are the caller's indices of its two end vertices.
     Edge = 2,
-    /// A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact deep inside one that reaches
-    /// farthest along the normal.
+    /// A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact of
+    /// objects deep in each other one that reaches farthest into the other.
     Face = 3,
 }
 

@@ -139,8 +139,8 @@ pub fn features_of_pairs(
     features(polyhedra, poses, pairs, points, direction, None)
 }
 
-/// The features of a contact: those that hold the points; of points deep inside the faces at the vertices that reach farthest along
-/// the overlap's direction, which look most towards the other body.
+/// The features of a contact: those that hold the points; of a deep one the faces at the vertices that reach farthest into the
+/// other body along the overlap's direction, which look most towards it.
 pub fn features_of_overlap(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -156,8 +156,8 @@ pub fn features_of_overlap(
     features(polyhedra, poses, pairs, points, &overlap.direction, ends)
 }
 
-/// As a multiple of the smaller radius, the depth from which on the faces of all sides are not searched for a point between them:
-/// that takes far longer than the rest. Touching bodies overlap by rounding.
+/// As a multiple of the smaller radius, the depth from which on a point common to both bodies tells nothing of the faces that meet.
+/// Touching bodies overlap by rounding.
 const DEEP: f64 = 1e-6;
 
 fn features(
@@ -182,7 +182,7 @@ fn features(
     })
 }
 
-/// `end` is the vertex that reaches farthest towards the other body, if the point may be deep inside.
+/// `end` is the vertex that reaches farthest into the other body, if it is deep in it.
 fn feature_of_vertices(
     polyhedron: &Polyhedron,
     vertices: &[u32],
@@ -190,6 +190,9 @@ fn feature_of_vertices(
     towards: &Vector,
     end: Option<u32>,
 ) -> FeatureId {
+    if let Some(face) = end.and_then(|end| steepest_face(polyhedron, end, towards)) {
+        return FeatureId::Face(face);
+    }
     let &[first, ref others @ ..] = vertices else { return FeatureId::Vertex(0) };
     if others.is_empty() {
         return FeatureId::Vertex(first);
@@ -206,14 +209,11 @@ fn feature_of_vertices(
             return FeatureId::Edge(edge);
         }
     }
-    // The faces around the vertices hold the point, but for points inside, vertices inside a merged face and slivers that rounding
-    // shuffles.
+    // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
     // The face that holds a convex combination holds all its vertices, so those with many faces around them can be left out.
     let has_few = |v: &&u32| polyhedron.neighbour_capacity(**v) <= MOST_NEIGHBOURS;
     let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));
-    let face = face_holding(polyhedron, around, point, towards);
-    let face = face.or_else(|| steepest_face(polyhedron, end?, towards));
-    let face = face.or_else(|| nearest_face(polyhedron, point, towards));
+    let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
 }
 

@@ -73,7 +73,9 @@ pub fn contact_direction(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pairs: 
             }
         }
     }
-    search.consider_cross_products(ends);
+    for pair in pairs {
+        search.consider_cross_products(*pair);
+    }
     let mut from = search.least.ends;
     for _ in 0..ROUND_LIMIT {
         search.consider_normals(0, from[0]);

@@ -55,7 +55,8 @@ pub fn distance(
     query(Query::Distance, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
-/// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`].
+/// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
+/// [`Outcome::Beyond`] with a finite `config.distance_tolerance`.
 ///
 /// # Errors
 /// As [`distance`].
@@ -72,8 +73,10 @@ pub fn intersection(
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
-/// the objects overlap little (where they only touch along a face it separates them) and features: those that hold the point, or if
-/// it is deep inside an object the face of it that reaches farthest along the normal.
+/// the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
+/// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
+/// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
+/// the normal, of object 2 along it.
 ///
 /// # Errors
 /// As [`distance`].
@@ -89,8 +92,9 @@ pub fn contact(
     query(Query::Contact, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
-/// The distance as narrow as asked for and no narrower: the interval holds the true distance, and the query stops as soon as
-/// `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact distance.
+/// The distance as narrow as asked for, or as exact answers are: the interval holds the true distance, and the query stops as
+/// soon as `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact
+/// distance.
 ///
 /// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and
 /// features are not said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only

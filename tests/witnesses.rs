@@ -278,3 +278,36 @@ fn features_of_a_deep_contact_look_along_the_normal() {
     }
     assert!(faces > 900, "{faces}");
 }
+
+/// Boxes overlap least along a face normal or a cross product of edges; the normal of a contact is nearly as good, from any cache.
+#[test]
+fn normals_of_contacts_overlap_little() {
+    let cube = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { 1.0 } else { -1.0 });
+    let cube = hull(&[0, 1, 2, 3, 4, 5, 6, 7].map(cube));
+    let mut random = Random::new(0xc0be5);
+    let (mut contacts, mut worst) = (0, 1.0_f64);
+    for _ in 0..4_000 {
+        let [pose1, pose2] = [Vector::zeros(), random.vector() * 2.0].map(|t| Pose::new(&random.rotation(), &t));
+        let mut answer = PairAnswer::default();
+        let config = PairConfig::default();
+        contact(&cube, &pose1, &cube, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+        if answer.outcome != Outcome::Intersecting {
+            continue;
+        }
+        let [rotation1, rotation2] = [pose1.rotation(), pose2.rotation()];
+        let between = pose2.translation() - pose1.translation();
+        let overlap = |n: &Vector| {
+            (rotation1.transpose() * n).lp_norm(1) + (rotation2.transpose() * n).lp_norm(1) + n.dot(&between)
+        };
+        let mut axes: Vec<Vector> = Vec::new();
+        for i in 0..3 {
+            axes.extend([rotation1.column(i).into_owned(), rotation2.column(i).into_owned()]);
+            axes.extend((0..3).filter_map(|j| rotation1.column(i).cross(&rotation2.column(j)).try_normalize(1e-9)));
+        }
+        let least = axes.iter().flat_map(|n| [overlap(n), overlap(&-n)]).fold(f64::INFINITY, f64::min);
+        worst = worst.max(overlap(&answer.normal.into()) / least);
+        contacts += 1;
+    }
+    println!("{contacts} contacts, {worst} times the least overlap at worst");
+    assert!(contacts > 3_000 && worst < 2.0, "{worst}");
+}

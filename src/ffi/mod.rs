@@ -304,7 +304,10 @@ unsafe fn struct_size<T: Versioned>(pointer: *const T) -> Checked<usize> {
     if size < T::FIRST_SIZE || size > LARGEST_STRUCT {
         return Err(Failure::new(
             StatusCode::ErrorStructSize,
-            format!("{}: struct_size is {size}; fill the struct with its _init function first", T::NAME),
+            format!(
+                "{}: struct_size is {size}; set it by the struct's _init function, or to its size if it has none",
+                T::NAME
+            ),
         ));
     }
     for offset in size_of::<T>()..size {

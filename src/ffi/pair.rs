@@ -67,7 +67,8 @@ pub unsafe extern "C" fn swift_pair_distance(
 }
 
 /// The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need
-/// not be tight. Faster than the distance where bodies intersect or nearly do. Arguments and errors as of swift_pair_distance.
+/// not be tight; and SWIFT_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies intersect
+/// or nearly do. Arguments and errors as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_intersection(
     shape1: *const Shape,
@@ -83,9 +84,10 @@ pub unsafe extern "C" fn swift_pair_intersection(
 }
 
 /// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
-/// which the objects overlap little (where they only touch along a face it separates them) and features: those that hold the
-/// point, or if it is deep inside an object the face of it that reaches farthest along the normal. Arguments and errors as of
-/// swift_pair_distance.
+/// which the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
+/// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
+/// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
+/// the normal, of object 2 along it. Arguments and errors as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_contact(
     shape1: *const Shape,
@@ -100,12 +102,12 @@ pub unsafe extern "C" fn swift_pair_contact(
     unsafe { query(pair::contact, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// The distance as narrow as asked for and no narrower: the query stops as soon as upper - lower is at most
+/// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
 /// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
 /// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swift_pair_distance,
 /// unless config->step_budget ran out: then the status is SWIFT_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
-/// goes on from there. Points and features are not said of an answer that comes from levels of detail. Arguments and errors as
-/// of swift_pair_distance.
+/// goes on from there, unless config->start says that it begin anew. Points and features are not said of an answer that comes
+/// from levels of detail. Arguments and errors as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_approximate(
     shape1: *const Shape,

@@ -217,6 +217,9 @@ impl Hierarchy {
             let done = |k: usize| k as f64 / levels.len() as f64;
             let mut part = progress.part(done(i), done(i + 1));
             part.report(0.0)?;
+            if points.is_empty() {
+                return Err(Error::Mesh(format!("level {number} has no vertices")));
+            }
             for (v, point) in points.iter().enumerate() {
                 check_vertex(v, point).map_err(|e| Error::Mesh(format!("level {number}: {e}")))?;
             }

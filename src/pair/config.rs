@@ -71,8 +71,9 @@ pub struct PairConfig {
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
     /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-    /// no limit. What marching leaves open is decided all the same, however long it takes. The next query with the same cache
-    /// goes on where this one stopped, if `start` lets it.
+    /// no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
+    /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
+    /// one stopped, unless `start` says that it begin anew, at the tables or afresh: it may then stop there for ever.
     pub step_budget: u32,
     /// Which levels of detail a query goes through.
     pub levels: Levels,
