@@ -319,6 +319,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn refinement_goes_as_documented() {
         let [large, small] = shapes();
         let poses = [&Pose::IDENTITY; 2];
@@ -337,6 +338,7 @@ mod tests {
     }
 
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn adaptive_refinement_leaves_the_largest_deviation() {
         let [large, small] = shapes();
         for shapes in [[&large, &small], [&small, &large], [&large, &large]] {
@@ -365,6 +367,7 @@ mod tests {
 
     /// Up the parents, the level that stands off least more first, for as long as the levels may be disjoint and near enough.
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn climbing_stops_before_levels_would_meet_or_stand_off_too_far() {
         let [large, small] = shapes();
         let bodies = Leveled { shapes: [&large, &small], poses: [&Pose::IDENTITY; 2] };
@@ -408,6 +411,7 @@ mod tests {
 
     /// Where climbing promises levels that are disjoint they are: each stands off by no more than its deviation.
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn levels_climbed_to_are_disjoint() {
         let [large, small] = shapes();
         let mut random = Random::new(4);

@@ -491,6 +491,7 @@ mod tests {
 
     /// The least important first, none beside another, none of an importance above 1 (Ehmann & Lin 2000, §4.4).
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn flat_vertices_go_and_peaks_stay() {
         let (mut levels, mut peaks) = (0, 0);
         for body in bodies() {
@@ -535,6 +536,7 @@ mod tests {
     /// Vertices move along their rays from the centre of mass, out by the factor that makes the level bound the body, and back
     /// as far as it still does: that brings it nearer to the body than scaling alone.
     #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn relaxation_draws_vertices_back_along_their_rays() {
         let (mut levels, mut nearer) = (0.0, [0.0; 2]);
         for body in bodies() {
