@@ -13,12 +13,13 @@
  *
  * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
  * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
- * nothing keeps a pointer of the caller except swift_library_set_log and swift_library_register_mesh_reader.
+ * nothing keeps a pointer of the caller except swift_library_set_log, swift_library_set_allocator and
+ * swift_library_register_mesh_reader.
  *
  * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
  * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, the
- * mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the processor has; and a
- * last message for each thread.
+ * allocator, the mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the
+ * processor has; and a last message for each thread.
  *
  * Structs. Options, configs, queries and infos begin with struct_size and may grow at their end: fill the first three with their
  * _init function and change members, set an info's struct_size to its size. A struct of an older header is accepted, one of a newer
@@ -87,7 +88,9 @@ enum {
   /** The program was compiled with a header that does not go with this library. */
   SWIFT_ERROR_VERSION = 12,
   /** The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not. */
-  SWIFT_ERROR_UNVERIFIED = 13
+  SWIFT_ERROR_UNVERIFIED = 13,
+  /** The library was built without what the call is about. */
+  SWIFT_ERROR_UNSUPPORTED = 14
 };
 typedef int32_t swift_status;
 
@@ -263,6 +266,19 @@ typedef struct swift_shape swift_shape;
  * and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
  */
 typedef void (*swift_log_callback)(int32_t status, const char *message, void *user);
+
+/**
+ * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
+ * two, at least 8 and sometimes more than malloc keeps (64, for one). Null if there is no memory: that ends the program with a
+ * message, as running out of the system's does. `user` is the pointer given to swift_library_set_allocator.
+ */
+typedef void *(*swift_allocate_callback)(void *user, size_t size, size_t alignment);
+
+/**
+ * Takes back memory that the swift_allocate_callback set with it gave for the same size and alignment. `user` is the pointer given
+ * with both.
+ */
+typedef void (*swift_deallocate_callback)(void *user, void *memory, size_t size, size_t alignment);
 
 /**
  * Reads a mesh file: calls swift_mesh_sink_add_vertices and swift_mesh_sink_add_faces as often as it likes and returns 0; or says
@@ -686,6 +702,22 @@ const char *swift_library_last_error_message(void);
  */
 void swift_library_set_log(swift_log_callback callback,
                            void *user);
+
+/**
+ * Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
+ * system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
+ * set, and `user`, must stay good until the process ends.
+ *
+ * The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
+ * library, and a C++ exception that leaves them ends the program.
+ *
+ * SWIFT_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFT_ERROR_UNSUPPORTED: the library was
+ * not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator. Nothing has
+ * changed then.
+ */
+swift_status swift_library_set_allocator(swift_allocate_callback allocate,
+                                         swift_deallocate_callback deallocate,
+                                         void *user);
 
 /**
  * Registers a reader of mesh files, which swift_shape_create_from_file and swift_scene_add_file call for every file that begins

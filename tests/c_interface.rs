@@ -13,6 +13,7 @@ use std::sync::Mutex;
 
 use random::Random;
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::allocator::swift_library_set_allocator;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::object::*;
@@ -423,13 +424,20 @@ fn the_log_hears_of_every_failure() {
     assert_eq!(heard[0].0, StatusCode::ErrorVersion as i32);
 }
 
+/// The C libraries' allocator is tested by c_tests/allocator.c.
+#[test]
+fn a_rust_program_keeps_its_allocator() {
+    assert_eq!(swift_library_set_allocator(None, None, null_mut()), StatusCode::ErrorUnsupported);
+    assert!(last_message().contains("feature `allocator`"));
+}
+
 #[test]
 fn every_status_has_words_of_its_own() {
     let words = |status: i32| {
         // SAFETY: never null, terminated, valid for ever.
         unsafe { CStr::from_ptr(swift_library_status_string(status)) }.to_string_lossy().into_owned()
     };
-    let all: Vec<String> = (0..=StatusCode::ErrorUnverified as i32).map(words).collect();
+    let all: Vec<String> = (0..=StatusCode::ErrorUnsupported as i32).map(words).collect();
     assert!(!all.contains(&words(-1)) && words(-1) == words(i32::MAX));
     for (i, one) in all.iter().enumerate() {
         assert!(!all[..i].contains(one), "{one}");

@@ -10,6 +10,7 @@
 
 // In the order of the header.
 pub mod library;
+pub mod allocator;
 pub mod mesh_reader;
 pub mod shape_options;
 pub mod shape;
@@ -64,6 +65,8 @@ pub enum StatusCode {
     ErrorVersion = 12,
     /// The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not.
     ErrorUnverified = 13,
+    /// The library was built without what the call is about.
+    ErrorUnsupported = 14,
 }
 
 /// Why a call did not do what it says.

@@ -1,0 +1,304 @@
+//! Where the library's memory comes from: the system, or functions that the program sets.
+//!
+//! Rust's global allocator is one for all that is linked with one standard library. The C libraries have theirs for themselves and
+//! make it this one (the feature `allocator`, which CMake enables); a Rust program has its own. Each block of memory remembers
+//! behind its end where it came from and goes back there, so that the functions may be exchanged at any time.
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::ffi::c_void;
+use std::ptr::null_mut;
+use std::sync::atomic::{AtomicPtr, Ordering};
+use std::sync::{Mutex, PoisonError};
+
+use super::{Failure, StatusCode, guard};
+
+/// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
+/// two, at least 8 and sometimes more than malloc keeps (64, for one). Null if there is no memory: that ends the program with a
+/// message, as running out of the system's does. `user` is the pointer given to swift_library_set_allocator.
+pub type AllocateCallback =
+    Option<unsafe extern "C" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
+
+/// Takes back memory that the swift_allocate_callback set with it gave for the same size and alignment. `user` is the pointer given
+/// with both.
+pub type DeallocateCallback =
+    Option<unsafe extern "C" fn(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
+
+/// The functions of a program.
+#[derive(Clone, Copy)]
+struct Functions {
+    allocate: unsafe extern "C" fn(*mut c_void, usize, usize) -> *mut c_void,
+    deallocate: unsafe extern "C" fn(*mut c_void, *mut c_void, usize, usize),
+    user: *mut c_void,
+}
+
+// SAFETY: `user` is only ever handed back to the functions, which swift_library_set_allocator requires to be callable from every
+// thread.
+unsafe impl Send for Functions {}
+// SAFETY: as above.
+unsafe impl Sync for Functions {}
+
+impl Functions {
+    fn are(&self, other: &Functions) -> bool {
+        self.allocate as usize == other.allocate as usize
+            && self.deallocate as usize == other.deallocate as usize
+            && self.user == other.user
+    }
+}
+
+/// Functions that were set once, in a list. They stay for ever: blocks may still come from them.
+struct Source {
+    functions: Functions,
+    before: Option<&'static Source>,
+}
+
+/// All sources.
+static SOURCES: Mutex<Option<&'static Source>> = Mutex::new(None);
+
+/// The source of new blocks; null for the system.
+static CURRENT: AtomicPtr<Source> = AtomicPtr::new(null_mut());
+
+/// An allocator that takes memory from where swift_library_set_allocator says.
+///
+/// Behind what a block is for stands its source, null for the system.
+pub struct Replaceable;
+
+#[cfg(feature = "allocator")]
+#[global_allocator]
+static ALLOCATOR: Replaceable = Replaceable;
+
+/// What is taken for a block of this layout, and where in it its source stands. `None` for more than the address space holds.
+fn with_source(layout: Layout) -> Option<(Layout, usize)> {
+    let (whole, at) = layout.extend(Layout::new::<*mut Source>()).ok()?;
+    // aligned_alloc of C11 wants multiples of the alignment.
+    Some((whole.pad_to_align(), at))
+}
+
+/// Writes the source behind a block, if there is one.
+///
+/// # Safety
+/// `block` is null, or `at + 8` bytes of it can be written; at + block is aligned for a pointer.
+unsafe fn sign(block: *mut u8, at: usize, source: *mut Source) -> *mut u8 {
+    if !block.is_null() {
+        // SAFETY: by the caller.
+        unsafe { block.add(at).cast::<*mut Source>().write(source) };
+    }
+    block
+}
+
+// SAFETY: nothing unwinds, and what is given is as long and aligned as asked for if the functions of the program keep their
+// contract (AllocateCallback). All blocks have been signed by `sign`.
+unsafe impl GlobalAlloc for Replaceable {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        let Some((whole, at)) = with_source(layout) else { return null_mut() };
+        let source = CURRENT.load(Ordering::Acquire);
+        // SAFETY: sources are never freed; the layout is not empty.
+        let block = match unsafe { source.as_ref() } {
+            // SAFETY: the functions take any size and alignment.
+            Some(Source { functions: f, .. }) => unsafe { (f.allocate)(f.user, whole.size(), whole.align()) }.cast(),
+            // SAFETY: the layout is not empty.
+            None => unsafe { System.alloc(whole) },
+        };
+        // SAFETY: the block has `whole.size()` bytes, `at + 8` at least.
+        unsafe { sign(block, at, source) }
+    }
+
+    unsafe fn alloc_zeroed(&self, layout: Layout) -> *mut u8 {
+        if !CURRENT.load(Ordering::Acquire).is_null() {
+            // SAFETY: by the caller; the block can be written where there is one.
+            return unsafe {
+                let block = self.alloc(layout);
+                if !block.is_null() {
+                    block.write_bytes(0, layout.size());
+                }
+                block
+            };
+        }
+        let Some((whole, at)) = with_source(layout) else { return null_mut() };
+        // SAFETY: the layout is not empty; the block has `at + 8` bytes.
+        unsafe { sign(System.alloc_zeroed(whole), at, null_mut()) }
+    }
+
+    unsafe fn dealloc(&self, block: *mut u8, layout: Layout) {
+        let Some((whole, at)) = with_source(layout) else { return };
+        // SAFETY: `block` was given for the same layout, so it was signed there; its source is good for ever.
+        unsafe {
+            match block.add(at).cast::<*mut Source>().read().as_ref() {
+                Some(Source { functions: f, .. }) => (f.deallocate)(f.user, block.cast(), whole.size(), whole.align()),
+                None => System.dealloc(block, whole),
+            }
+        }
+    }
+
+    unsafe fn realloc(&self, block: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        let Ok(longer) = Layout::from_size_align(size, layout.align()) else { return null_mut() };
+        let (Some((whole, at)), Some((new_whole, new_at))) = (with_source(layout), with_source(longer)) else {
+            return null_mut();
+        };
+        // SAFETY: `block` was given for `layout`, so it was signed at `at`, and goes back with what it was taken with. The system
+        // keeps what both blocks have in common; so does the copy.
+        unsafe {
+            let source = block.add(at).cast::<*mut Source>().read();
+            if source.is_null() && CURRENT.load(Ordering::Acquire).is_null() {
+                return sign(System.realloc(block, whole, new_whole.size()), new_at, source);
+            }
+            let moved = self.alloc(longer);
+            if !moved.is_null() {
+                moved.copy_from_nonoverlapping(block, size.min(layout.size()));
+                self.dealloc(block, layout);
+            }
+            moved
+        }
+    }
+}
+
+/// Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
+/// system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
+/// set, and `user`, must stay good until the process ends.
+///
+/// The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
+/// library, and a C++ exception that leaves them ends the program.
+///
+/// SWIFT_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFT_ERROR_UNSUPPORTED: the library was
+/// not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator. Nothing has
+/// changed then.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_set_allocator(
+    allocate: AllocateCallback,
+    deallocate: DeallocateCallback,
+    user: *mut c_void,
+) -> StatusCode {
+    guard(|| {
+        let functions = match (allocate, deallocate) {
+            (Some(allocate), Some(deallocate)) => Some(Functions { allocate, deallocate, user }),
+            (None, None) => None,
+            (allocate, _) => {
+                let name = if allocate.is_none() { "allocate" } else { "deallocate" };
+                let message = format!("`{name}` is null and the other function is not");
+                return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+            }
+        };
+        if !cfg!(feature = "allocator") {
+            let message =
+                "the library was built without the feature `allocator`, as for a Rust program, which has its own";
+            return Err(Failure::new(StatusCode::ErrorUnsupported, message));
+        }
+        set(functions);
+        Ok(())
+    })
+}
+
+/// Sets the source of new blocks.
+fn set(functions: Option<Functions>) {
+    let source = functions.map_or(null_mut(), |functions| std::ptr::from_ref(source_of(functions)).cast_mut());
+    CURRENT.store(source, Ordering::Release);
+}
+
+/// The source that these functions are, a new one the first time.
+fn source_of(functions: Functions) -> &'static Source {
+    let mut sources = SOURCES.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut known = *sources;
+    while let Some(source) = known {
+        if source.functions.are(&functions) {
+            return source;
+        }
+        known = source.before;
+    }
+    let layout = Layout::new::<Source>();
+    // SAFETY: the layout is not empty; what is there is written before it is read, and stays. From the system: the program's
+    // functions would miss it.
+    let source = unsafe {
+        let place = System.alloc(layout).cast::<Source>();
+        if place.is_null() {
+            std::alloc::handle_alloc_error(layout);
+        }
+        place.write(Source { functions, before: *sources });
+        &*place
+    };
+    *sources = Some(source);
+    source
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::sync::atomic::AtomicIsize;
+
+    /// What a program took and gave back, in blocks and bytes.
+    #[derive(Default)]
+    struct Account {
+        blocks: AtomicIsize,
+        bytes: AtomicIsize,
+    }
+
+    unsafe extern "C" fn take(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void {
+        assert!(size > 0 && size.is_multiple_of(alignment) && alignment.is_power_of_two() && alignment >= 8);
+        // SAFETY: the test hands an account that is static.
+        let account = unsafe { &*user.cast::<Account>() };
+        account.blocks.fetch_add(1, Ordering::Relaxed);
+        account.bytes.fetch_add(size as isize, Ordering::Relaxed);
+        // SAFETY: the layout is not empty.
+        unsafe { System.alloc(Layout::from_size_align(size, alignment).unwrap()) }.cast()
+    }
+
+    unsafe extern "C" fn give_back(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize) {
+        // SAFETY: as above.
+        let account = unsafe { &*user.cast::<Account>() };
+        account.blocks.fetch_sub(1, Ordering::Relaxed);
+        account.bytes.fetch_sub(size as isize, Ordering::Relaxed);
+        // SAFETY: taken by `take` with the same layout.
+        unsafe { System.dealloc(memory.cast(), Layout::from_size_align(size, alignment).unwrap()) };
+    }
+
+    fn functions(account: &'static Account) -> Option<Functions> {
+        Some(Functions { allocate: take, deallocate: give_back, user: std::ptr::from_ref(account).cast_mut().cast() })
+    }
+
+    /// One test: what is set is the process's own.
+    #[test]
+    fn blocks_go_back_where_they_came_from_and_keep_what_they_hold() {
+        static ACCOUNTS: [Account; 2] =
+            [const { Account { blocks: AtomicIsize::new(0), bytes: AtomicIsize::new(0) } }; 2];
+        let count = |i: usize| ACCOUNTS[i].blocks.load(Ordering::Relaxed);
+        let settings = [functions(&ACCOUNTS[0]), None, functions(&ACCOUNTS[1]), functions(&ACCOUNTS[0])];
+        let lasting = |i: usize| std::ptr::from_ref(source_of(settings[i].unwrap()));
+        assert!(lasting(0) == lasting(3) && lasting(0) != lasting(2), "functions set again are no new source");
+
+        for (size, alignment) in [(1, 1), (7, 8), (8, 8), (9, 1), (64, 64), (100, 16), (1000, 4096)] {
+            let [layout, grown, shrunk] =
+                [size, 3 * size, 1].map(|size| Layout::from_size_align(size, alignment).unwrap());
+            for (first, then) in settings.iter().flat_map(|first| settings.iter().map(move |then| (first, then))) {
+                set(*first);
+                // SAFETY: the layouts are not empty; blocks are used as such of the layouts that they were given for.
+                unsafe {
+                    let block = Replaceable.alloc(layout);
+                    block.write_bytes(7, size);
+                    let zeroed = Replaceable.alloc_zeroed(layout);
+                    assert!((0..size).all(|k| zeroed.add(k).read() == 0));
+                    Replaceable.dealloc(zeroed, layout);
+                    assert!(first.is_none() || count(0).max(count(1)) >= 1);
+
+                    set(*then);
+                    let longer = Replaceable.realloc(block, layout, grown.size());
+                    assert!((0..size).all(|k| longer.add(k).read() == 7));
+                    let shorter = Replaceable.realloc(longer, grown, shrunk.size());
+                    assert_eq!(shorter.read(), 7);
+                    assert!([block, longer, shorter].iter().all(|block| block.addr().is_multiple_of(alignment)));
+                    Replaceable.dealloc(shorter, shrunk);
+                }
+                set(None);
+                if !cfg!(feature = "allocator") {
+                    let bytes = ACCOUNTS.each_ref().map(|account| account.bytes.load(Ordering::Relaxed));
+                    assert_eq!(([count(0), count(1)], bytes), ([0, 0], [0, 0]));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_layout_beyond_the_address_space_gets_no_block() {
+        let layout = Layout::from_size_align(isize::MAX as usize - 7, 8).unwrap();
+        // SAFETY: the layout is not empty.
+        let blocks = unsafe { [Replaceable.alloc(layout), Replaceable.alloc_zeroed(layout)] };
+        assert!(blocks.iter().all(|block| block.is_null()));
+    }
+}
