@@ -91,11 +91,9 @@ pub(super) fn of_large(
     let all = PairConfig { levels: Levels::All, ..*config };
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    // Nothing is made for a query that is answered without.
-    if pair.is_farther_than(enough(query, config)) {
-        return Ok(());
-    }
     let error = match query {
+        // Nothing is made for a query that is answered without; others have looked.
+        Query::Approximate if pair.is_farther_than(enough(query, config)) => return Ok(()),
         Query::Approximate => most_error(config, gap_of_spheres(polyhedra, poses)),
         _ => f64::INFINITY,
     };
