@@ -296,7 +296,7 @@ fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
         let planes = &edge.planes;
         let outward = L::from_vector(&Vector::new(planes.x[3], planes.y[3], planes.z[3]));
         let [left, right] = [L::from_vector(&edge.normals[0]), L::from_vector(&edge.normals[1])];
-        let [left_slack, right_slack] = [edge.left, edge.right].map(|face| polyhedron.faces[face as usize].slack);
+        let [left_slack, right_slack] = [edge.left(), edge.right()].map(|face| polyhedron.faces[face as usize].slack);
         (left, right, left_slack, right_slack, g.dot(outward) * edge.reciprocal_sine)
     } else {
         let half = sharp_edge(polyhedron, edge, &polyhedron.bevels[edge.bevel as usize], &g.to_vector());
@@ -342,7 +342,7 @@ fn sharp_edge(polyhedron: &Polyhedron, edge: &Edge, bevel: &Bevel, g: &Vector) -
     HalfCone {
         normal,
         bevel: bevel.normal,
-        slacks: [polyhedron.faces[[edge.left, edge.right][side] as usize].slack, bevel.slack],
+        slacks: [polyhedron.faces[[edge.left(), edge.right()][side] as usize].slack, bevel.slack],
         coefficient: part / normal.dot(&towards_left),
     }
 }

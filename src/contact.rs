@@ -203,7 +203,7 @@ fn feature_of_vertices(
     if let &[second] = others {
         let joins = |e: u32| {
             let edge = &polyhedron.edges[e as usize];
-            [edge.tail, edge.head] == [first, second] || [edge.head, edge.tail] == [first, second]
+            [edge.tail(), edge.head()] == [first, second] || [edge.head(), edge.tail()] == [first, second]
         };
         if let Some(edge) = edges_at(polyhedron, first).find(|&e| joins(e)) {
             return FeatureId::Edge(edge);
@@ -273,7 +273,7 @@ fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
 fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
     edges_at(polyhedron, vertex).flat_map(|edge| {
         let edge = &polyhedron.edges[edge as usize];
-        [edge.left, edge.right]
+        [edge.left(), edge.right()]
     })
 }
 
@@ -295,7 +295,7 @@ fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
 }
 
 fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64 {
-    let from_tail = point - polyhedron.vertices[edge.tail as usize].position;
+    let from_tail = point - polyhedron.vertices[edge.tail() as usize].position;
     let direction = edge_direction(&edge.planes);
     let t = clamp(from_tail.dot(&direction), 0.0, edge.length);
     (from_tail - direction * t).norm()

@@ -121,7 +121,7 @@ impl Search<'_> {
         for (i, end) in ends.iter_mut().enumerate() {
             let polyhedron = self.polyhedra[i];
             // A climb that starts at a flat vertex does not leave it along the normal of its face, either way.
-            let start = if is_flat(polyhedron, *end) { polyhedron.edges[0].tail } else { *end };
+            let start = if is_flat(polyhedron, *end) { polyhedron.edges[0].tail() } else { *end };
             (*end, _) = polyhedron.support(&towards[i], start);
         }
         let positions = positions(self.polyhedra, ends);
@@ -151,10 +151,10 @@ impl Search<'_> {
                         break;
                     }
                     // Every face is on the left of one edge away from the vertex. Inside an edge it is on either.
-                    if edge.head != vertex {
+                    if edge.head() != vertex {
                         self.consider_normal(i, &edge.normals[0]);
                     }
-                    if edge.tail != vertex {
+                    if edge.tail() != vertex {
                         self.consider_normal(i, &edge.normals[1]);
                     }
                 }

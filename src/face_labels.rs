@@ -252,7 +252,7 @@ fn label_beside(polyhedron: &Polyhedron, lowest: &[Option<u32>], face: u32) -> O
         .iter()
         .map(|side| &polyhedron.edges[*side as usize])
         .filter_map(|edge| {
-            let neighbour = if edge.left == face { edge.right } else { edge.left };
+            let neighbour = if edge.left() == face { edge.right() } else { edge.left() };
             Some((edge.normals[0].dot(&edge.normals[1]), neighbour, lowest[neighbour as usize]?))
         })
         .max_by(|(a, f, _), (b, g, _)| a.total_cmp(b).then(g.cmp(f)))

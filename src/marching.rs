@@ -31,22 +31,48 @@ pub enum March {
     Open(State),
 }
 
-/// What one state's tests say.
-pub enum Step {
-    /// To go on from this state.
-    Move(State),
-    /// A minimum; the judge has seen it.
+/// What one state's tests say. No enum that holds the state: that would be handed on in memory, not in registers.
+pub struct Step {
+    /// How to go on.
+    pub way: Way,
+    /// From which state.
+    pub at: State,
+}
+
+/// How marching goes on from a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// To another state.
+    Move,
+    /// Not at all: a minimum; the judge has seen it.
     Minimum,
-    /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Where to go on.
-    Behind(State),
+    /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Elsewhere.
+    Behind,
     /// An edge of one body crosses a face of the other.
-    Crossing(State),
+    Crossing,
+}
+
+impl Step {
+    #[inline(always)]
+    fn to(at: State) -> Step {
+        Step { way: Way::Move, at }
+    }
+
+    #[inline(always)]
+    fn minimum(at: State) -> Step {
+        Step { way: Way::Minimum, at }
+    }
+
+    #[inline(always)]
+    fn crossing(at: State) -> Step {
+        Step { way: Way::Crossing, at }
+    }
 }
 
 /// Tests one state; a minimum goes to `judge`.
 #[inline(always)]
 pub fn visit<L: Lanes, J: Certify<L>>(frame: &Frame<L>, state: State, judge: &mut J) -> Step {
-    let [first, second] = state.indices;
+    let State { first, second, .. } = state;
     match state.kind {
         Kind::VertexVertex => vertex_vertex(frame, [first, second], judge),
         Kind::VertexEdge => vertex_edge::<L, J, 0>(frame, first, second, judge),
@@ -67,18 +93,18 @@ pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit
     let mut jumped = false;
     loop {
         steps += 1;
-        let next = match visit(frame, state, judge) {
-            Step::Minimum => return (March::Minimum(state), steps),
-            Step::Move(next) => next,
-            Step::Crossing(at) => return (March::Open(at), steps),
+        let Step { way, at: next } = visit(frame, state, judge);
+        if way == Way::Minimum {
+            return (March::Minimum(next), steps);
+        }
+        if way != Way::Move {
             // A local minimum of Voronoi marching (Mirtich 1998, §4.3) is left once; the second time penetration is likely, and
             // decided elsewhere.
-            Step::Behind(next) if jumped => return (March::Open(next), steps),
-            Step::Behind(next) => {
-                jumped = true;
-                next
+            if way == Way::Crossing || jumped {
+                return (March::Open(next), steps);
             }
-        };
+            jumped = true;
+        }
         if next == mark {
             return (March::Open(next), steps);
         }
@@ -108,7 +134,7 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
     let length = square.sqrt();
     let test1 = test_vertex(J::RULE, body1.polyhedron, indices[0], towards[0], length, frame.tolerance);
     let test2 = test_vertex(J::RULE, body2.polyhedron, indices[1], towards[1], length, frame.tolerance);
-    Step::Move(match (test1, test2) {
+    Step::to(match (test1, test2) {
         (VertexTest::Leaves { edge, head }, VertexTest::Leaves { edge: edge2, head: head2 }) => {
             // Both features change in one step (Ehmann & Lin 2000, §5.1).
             match (edge == NONE, edge2 == NONE) {
@@ -136,8 +162,9 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
                 outside: 0.0,
                 height: 0.0,
             };
-            judge.certify(frame, State::vertex_vertex(indices), &minimum);
-            return Step::Minimum;
+            let at = State::vertex_vertex(indices);
+            judge.certify(frame, at, &minimum);
+            return Step::minimum(at);
         }
     })
 }
@@ -159,13 +186,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let least = L::splat(-frame.tolerance);
     if inside != 0b1111 && least.greater(values) != 0 {
         let lane = J::RULE.violated(values, least);
-        let across = [record.tail, record.head, record.left, record.right][lane & 3];
-        let indices = ordered::<NEAR>(vertex, across);
-        return Step::Move(if lane < 2 {
-            State::vertex_vertex(indices)
-        } else {
-            State::vertex_face(NEAR, vertex, across)
-        });
+        return Step::to(State::across_edge(NEAR, vertex, lane & 3, record.across[lane & 3]));
     }
     // All in world axes: no transpose stands for an inverse. The difference of the nearest points, perpendicular to the edge.
     let along = edge_direction(&record.planes);
@@ -191,7 +212,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let towards_far = body.rotate_back(direction).negate();
     let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, distance, frame.tolerance);
     if let VertexTest::Leaves { edge: leaving, head } = test {
-        return Step::Move(if leaving == NONE {
+        return Step::to(if leaving == NONE {
             State::vertex_edge(NEAR, head, edge)
         } else {
             State::edge_edge(ordered::<NEAR>(leaving, edge))
@@ -222,8 +243,9 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
         outside: edge_rounding(far.polyhedron),
         height: 0.0,
     };
-    judge.certify(frame, State::vertex_edge(NEAR, vertex, edge), &minimum);
-    Step::Minimum
+    let at = State::vertex_edge(NEAR, vertex, edge);
+    judge.certify(frame, at, &minimum);
+    Step::minimum(at)
 }
 
 #[inline(always)]
@@ -245,8 +267,8 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     if (record.side_count > 3) | !inside
         && let Some(side) = violated_side(J::RULE, far.polyhedron, record, values, point, frame.tolerance)
     {
-        let edge = far.polyhedron.sides[(record.first_side + side) as usize];
-        return Step::Move(State::vertex_edge(NEAR, vertex, edge));
+        let edge = far.polyhedron.side(record, side);
+        return Step::to(State::vertex_edge(NEAR, vertex, edge));
     }
     let [height, ..] = values.to_array();
     if height <= 0.0 {
@@ -283,8 +305,9 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
         outside: record.slack + face_rounding(far.polyhedron.radius, height),
         height,
     };
-    judge.certify(frame, State::vertex_face(NEAR, vertex, face), &minimum);
-    Step::Minimum
+    let at = State::vertex_face(NEAR, vertex, face);
+    judge.certify(frame, at, &minimum);
+    Step::minimum(at)
 }
 
 /// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as inside for sure.
@@ -315,7 +338,7 @@ fn walk_over_face<L: Lanes, const NEAR: usize>(
         head
     } else {
         let record = &body.polyhedron.edges[leaving as usize];
-        if record.tail == vertex { record.head } else { record.tail }
+        if record.tail() == vertex { record.head() } else { record.tail() }
     };
     let end_position = &body.polyhedron.vertices[end as usize].position;
     let end_point = far.rotate_back(body.rotate(end_position).add(body.offset));
@@ -324,11 +347,11 @@ fn walk_over_face<L: Lanes, const NEAR: usize>(
     let (fraction, side) = exit_of_prism(far.polyhedron, record, [point, end_point], [values, end_values], NONE);
     let ([height, ..], [end_height, ..]) = (values.to_array(), end_values.to_array());
     if height + fraction * (end_height - height) <= 0.0 {
-        return Step::Crossing(State::vertex_face(NEAR, vertex, face));
+        return Step::crossing(State::vertex_face(NEAR, vertex, face));
     }
-    Step::Move(match side {
+    Step::to(match side {
         Some(side) if leaving != NONE => {
-            let far_edge = far.polyhedron.sides[(record.first_side + side) as usize];
+            let far_edge = far.polyhedron.side(record, side);
             State::edge_edge(if NEAR == 0 { [leaving, far_edge] } else { [far_edge, leaving] })
         }
         _ => State::vertex_face(NEAR, end, face),
@@ -360,18 +383,18 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     if t != t_free {
         s = clamp(cosine * t - c, 0.0, length1);
     }
-    let end1 = end_of(s, length1, record1.tail, record1.head);
-    let end2 = end_of(t, length2, record2.tail, record2.head);
+    let end1 = end_of(s, length1, record1.tail(), record1.head());
+    let end2 = end_of(t, length2, record2.tail(), record2.head());
     match (end1, end2) {
-        (Some(vertex1), Some(vertex2)) => return Step::Move(State::vertex_vertex([vertex1, vertex2])),
-        (Some(vertex), None) => return Step::Move(State::vertex_edge(0, vertex, indices[1])),
-        (None, Some(vertex)) => return Step::Move(State::vertex_edge(1, vertex, indices[0])),
+        (Some(vertex1), Some(vertex2)) => return Step::to(State::vertex_vertex([vertex1, vertex2])),
+        (Some(vertex), None) => return Step::to(State::vertex_edge(0, vertex, indices[1])),
+        (None, Some(vertex)) => return Step::to(State::vertex_edge(1, vertex, indices[0])),
         (None, None) => {}
     }
     if parallel {
         // Every point is nearest; let a vertex and the other edge finish.
-        let vertex = if s <= 0.5 * length1 { record1.tail } else { record1.head };
-        return Step::Move(State::vertex_edge(0, vertex, indices[1]));
+        let vertex = if s <= 0.5 * length1 { record1.tail() } else { record1.head() };
+        return Step::to(State::vertex_edge(0, vertex, indices[1]));
     }
     if between.dot(normal) < 0.0 {
         normal = normal.negate();
@@ -386,10 +409,10 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     if slack.greater(across) != 0 {
         let lane = J::RULE.violated(across, slack);
         return if lane < 2 {
-            let face = if lane == 0 { record1.left } else { record1.right };
+            let face = if lane == 0 { record1.left() } else { record1.right() };
             walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)
         } else {
-            let face = if lane == 2 { record2.left } else { record2.right };
+            let face = if lane == 2 { record2.left() } else { record2.right() };
             walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
         };
     }
@@ -426,8 +449,9 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
         outside: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
         height: 0.0,
     };
-    judge.certify(frame, State::edge_edge(indices), &minimum);
-    Step::Minimum
+    let at = State::edge_edge(indices);
+    judge.certify(frame, at, &minimum);
+    Step::minimum(at)
 }
 
 /// Below this sin² of the angle between two edges their cross product of unit vectors (error 4u a component) has fewer than
@@ -454,7 +478,7 @@ fn walk_along_edge<L: Lanes, const NEAR: usize>(
     let direction = far.rotate_back(body.rotate(&along));
     // Into the face is away from the far edge.
     let forward = plane_slopes(far_planes, direction).to_array()[lane] <= 0.0;
-    let end = if forward { record.head } else { record.tail };
+    let end = if forward { record.head() } else { record.tail() };
     let face_record = &far.polyhedron.faces[face as usize];
     let values = plane_values(&face_record.planes, point);
     let [height, ..] = values.to_array();
@@ -468,11 +492,11 @@ fn walk_along_edge<L: Lanes, const NEAR: usize>(
         exit_of_prism(far.polyhedron, face_record, [point, end_point], [values, end_values], far_edge);
     let [end_height, ..] = end_values.to_array();
     if height + fraction * (end_height - height) <= 0.0 {
-        return Step::Crossing(State::vertex_face(NEAR, end, face));
+        return Step::crossing(State::vertex_face(NEAR, end, face));
     }
-    Step::Move(match side {
+    Step::to(match side {
         Some(side) => {
-            let side = far.polyhedron.sides[(face_record.first_side + side) as usize];
+            let side = far.polyhedron.side(face_record, side);
             State::edge_edge(if NEAR == 0 { [edge, side] } else { [side, edge] })
         }
         None => State::vertex_face(NEAR, end, face),
@@ -480,10 +504,16 @@ fn walk_along_edge<L: Lanes, const NEAR: usize>(
 }
 
 /// A vertex, or a point near it, behind a face: jumps to the far body's support vertex towards the point.
-#[inline(never)]
+#[inline(always)]
 fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &Vector) -> Step {
-    let (support, _) = far.support(point, far.faces[face as usize].vertex);
-    Step::Behind(State::vertex_vertex(if NEAR == 0 { [vertex, support] } else { [support, vertex] }))
+    let support = support_towards(far, point, face);
+    Step { way: Way::Behind, at: State::vertex_vertex(ordered::<NEAR>(vertex, support)) }
+}
+
+/// Out of line, with a number for an answer: a step would be handed back in memory, where then all steps would be made.
+#[inline(never)]
+fn support_towards(far: &Polyhedron, point: &Vector, face: u32) -> u32 {
+    far.support(point, far.faces[face as usize].vertex).0
 }
 
 /// What belongs to body NEAR and what to the other, in the order of the bodies.

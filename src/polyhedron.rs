@@ -87,14 +87,9 @@ pub struct Edge {
     /// The largest of the slacks of both faces and of the bevel, and what comes of an edge that leans out of their planes; +∞,
     /// which asks for a closer look, where rounding hides the dihedral angle.
     pub slack: f64,
-    /// First vertex.
-    pub tail: u32,
-    /// Second vertex.
-    pub head: u32,
-    /// Left face.
-    pub left: u32,
-    /// Right face.
-    pub right: u32,
+    /// What lies across each of `planes`: tail, head, left face, right face. An array, since marching looks up one of them without
+    /// knowing which.
+    pub across: [u32; 4],
     /// The caller's indices of the two vertices.
     pub labels: [u32; 2],
     /// Unit outward normals of the left and the right face.
@@ -103,6 +98,32 @@ pub struct Edge {
     pub reciprocal_sine: f64,
     /// Index in `bevels` of the plane that halves a sharp edge (n_left·n_right < 0), or [`NONE`].
     pub bevel: u32,
+}
+
+impl Edge {
+    /// First vertex.
+    #[inline(always)]
+    pub fn tail(&self) -> u32 {
+        self.across[0]
+    }
+
+    /// Second vertex.
+    #[inline(always)]
+    pub fn head(&self) -> u32 {
+        self.across[1]
+    }
+
+    /// Left face.
+    #[inline(always)]
+    pub fn left(&self) -> u32 {
+        self.across[2]
+    }
+
+    /// Right face.
+    #[inline(always)]
+    pub fn right(&self) -> u32 {
+        self.across[3]
+    }
 }
 
 /// A supporting plane through a sharp edge, its normal between those of the two faces.
@@ -134,6 +155,8 @@ pub struct Face {
     pub vertex: u32,
     /// The caller's polygon that the face is, or [`NONE`] where several were merged into it.
     pub label: u32,
+    /// The first three of its `sides`, so that marching on to one of them need not look there: often the face has no more.
+    pub first_sides: [u32; 3],
     /// The unit outward normal, as in lane 0 of `planes`.
     pub normal: Vector,
 }
@@ -208,6 +231,15 @@ impl Polyhedron {
         self.mass.centre_of_mass += by;
         self.mass.lower += by;
         self.mass.upper += by;
+    }
+
+    /// The edge of a face's side; `side` is less than the face's `side_count`.
+    #[inline(always)]
+    pub fn side(&self, face: &Face, side: u32) -> u32 {
+        match face.first_sides.get(side as usize) {
+            Some(&edge) => edge,
+            None => self.sides[(face.first_side + side) as usize],
+        }
     }
 
     /// A vertex in the object's frame, as the caller gave it (after the input transform).

@@ -74,7 +74,7 @@ impl<'a> Polygon<'a> {
     fn spoke(&self, side: u32) -> Vector {
         let next = if side + 1 == self.face.side_count { 0 } else { side + 1 };
         let [edge, next] = [side, next].map(|side| &self.polyhedron.edges[self.edge(side) as usize]);
-        let corner = if edge.head == next.tail || edge.head == next.head { edge.head } else { edge.tail };
+        let corner = if edge.head() == next.tail() || edge.head() == next.head() { edge.head() } else { edge.tail() };
         self.polyhedron.vertices[corner as usize].position - self.centre
     }
 

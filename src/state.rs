@@ -31,47 +31,73 @@ pub enum Kind {
     EdgeEdge = 6,
 }
 
-/// A pair of features.
+/// A pair of features. No array of indices: marching would write its halves and soon read it as a whole, for which the processor
+/// waits until both have left the store queue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct State {
     /// What the features are.
     pub kind: Kind,
-    /// The index of body 1's and of body 2's feature.
-    pub indices: [u32; 2],
+    /// The index of body 1's feature.
+    pub first: u32,
+    /// That of body 2's.
+    pub second: u32,
 }
 
 impl State {
+    #[inline(always)]
+    fn new(kind: Kind, [first, second]: [u32; 2]) -> State {
+        State { kind, first, second }
+    }
+
+    /// The indices of both features.
+    #[inline(always)]
+    pub fn indices(self) -> [u32; 2] {
+        [self.first, self.second]
+    }
+
     /// A vertex of each body.
     #[inline(always)]
     pub fn vertex_vertex(indices: [u32; 2]) -> State {
-        State { kind: Kind::VertexVertex, indices }
+        State::new(Kind::VertexVertex, indices)
     }
 
     /// An edge of each body.
     #[inline(always)]
     pub fn edge_edge(indices: [u32; 2]) -> State {
-        State { kind: Kind::EdgeEdge, indices }
+        State::new(Kind::EdgeEdge, indices)
     }
 
     /// A vertex of body `near` (0 or 1) and an edge of the other.
     #[inline(always)]
     pub fn vertex_edge(near: usize, vertex: u32, edge: u32) -> State {
         let kind = if near == 0 { Kind::VertexEdge } else { Kind::EdgeVertex };
-        State { kind, indices: ordered(near, vertex, edge) }
+        State::new(kind, ordered(near, vertex, edge))
     }
 
     /// A vertex of body `near` (0 or 1) and a face of the other.
     #[inline(always)]
     pub fn vertex_face(near: usize, vertex: u32, face: u32) -> State {
         let kind = if near == 0 { Kind::VertexFace } else { Kind::FaceVertex };
-        State { kind, indices: ordered(near, vertex, face) }
+        State::new(kind, ordered(near, vertex, face))
+    }
+
+    /// A vertex of body `near` (0 or 1) and what lies across a lane of an edge's planes: a vertex across the first two, a face
+    /// across the others. Looked up: the processor would guess a branch wrong.
+    #[inline(always)]
+    pub fn across_edge(near: usize, vertex: u32, lane: usize, across: u32) -> State {
+        use Kind::{FaceVertex, VertexFace, VertexVertex};
+        const KINDS: [[Kind; 4]; 2] = [
+            [VertexVertex, VertexVertex, VertexFace, VertexFace],
+            [VertexVertex, VertexVertex, FaceVertex, FaceVertex],
+        ];
+        State::new(KINDS[near][lane & 3], ordered(near, vertex, across))
     }
 
     /// The features of body 1 and body 2.
     #[inline(always)]
     pub fn features(self) -> [FeatureId; 2] {
         use FeatureId::{Edge, Face, Vertex};
-        let [first, second] = self.indices;
+        let State { first, second, .. } = self;
         match self.kind {
             Kind::VertexVertex => [Vertex(first), Vertex(second)],
             Kind::VertexEdge => [Vertex(first), Edge(second)],
@@ -110,7 +136,7 @@ impl State {
             6 => (EdgeEdge, first.edges.len(), second.edges.len()),
             _ => return None,
         };
-        ((indices[0] as usize) < count1 && (indices[1] as usize) < count2).then_some(State { kind, indices })
+        ((indices[0] as usize) < count1 && (indices[1] as usize) < count2).then_some(State::new(kind, indices))
     }
 
     /// A vertex of each feature.
@@ -127,7 +153,7 @@ impl FeatureId {
     pub fn vertex(self, polyhedron: &Polyhedron) -> u32 {
         match self {
             FeatureId::Vertex(v) => v,
-            FeatureId::Edge(e) => polyhedron.edges[e as usize].tail,
+            FeatureId::Edge(e) => polyhedron.edges[e as usize].tail(),
             FeatureId::Face(f) => polyhedron.faces[f as usize].vertex,
         }
     }

@@ -229,8 +229,7 @@ pub fn exit_of_prism<L: Lanes>(
     if face.side_count >= MANY_SIDES {
         return side_search::exit_of_prism(polyhedron, face, [&from.to_vector(), &to.to_vector()], skip);
     }
-    let sides = &polyhedron.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
-    let skipped = |side: usize| sides.get(side) == Some(&skip);
+    let skipped = |side: u32| polyhedron.side(face, side) == skip;
     // Lane 0 is not a side.
     let never = L::splat(f64::INFINITY);
     let mut fractions = exit_fractions(from_first, to_first).with_first(never);
@@ -244,9 +243,10 @@ pub fn exit_of_prism<L: Lanes>(
     for (index, block) in polyhedron.further_sides(face).iter().enumerate() {
         let fractions = exit_fractions(plane_values(block, from), plane_values(block, to)).to_array();
         for (lane, fraction) in fractions.into_iter().enumerate() {
-            let further = 3 + 4 * index + lane;
+            let further = (3 + 4 * index + lane) as u32;
+            // Unused lanes are left never, at +∞.
             if fraction < exit && !skipped(further) {
-                (exit, side) = (fraction, further as u32);
+                (exit, side) = (fraction, further);
             }
         }
     }

@@ -236,7 +236,7 @@ fn near_each_other(random: &mut Random, polyhedra: [&Polyhedron; 2]) -> [Pose; 2
     let direction = match polyhedra[1].edges.len() {
         edges @ 1.. if random.below(3) == 0 => {
             let edge = &polyhedra[1].edges[random.below(edges)];
-            rotations[1] * polyhedra[1].direction_to(edge.tail, edge.head)
+            rotations[1] * polyhedra[1].direction_to(edge.tail(), edge.head())
         }
         _ => random.direction(),
     };
@@ -251,7 +251,7 @@ fn surface_point(random: &mut Random, polyhedron: &Polyhedron) -> Vector {
     match random.below(4) {
         1 if !polyhedron.edges.is_empty() => {
             let edge = &polyhedron.edges[random.below(polyhedron.edges.len())];
-            vertex(edge.tail).lerp(&vertex(edge.head), t)
+            vertex(edge.tail()).lerp(&vertex(edge.head()), t)
         }
         2 | 3 if !polyhedron.triangles.is_empty() => {
             let [a, b, c] = polyhedron.triangles[random.below(polyhedron.triangles.len())].map(vertex);

@@ -106,7 +106,7 @@ fn of_nearly_coplanar_faces_the_one_that_holds_the_point() {
         let answer = ask(&plate, &Pose::IDENTITY, &hull(&[[0.0; 3]]), &at(x, y, 1.0));
         let Feature { kind: FeatureKind::Face, ids: [face, _] } = answer.feature1 else { panic!("{answer:?}") };
         let on_face = |v: u32| {
-            let of = |&e: &u32| [polyhedron.edges[e as usize].tail, polyhedron.edges[e as usize].head];
+            let of = |&e: &u32| [polyhedron.edges[e as usize].tail(), polyhedron.edges[e as usize].head()];
             let record = &polyhedron.faces[face as usize];
             let sides = &polyhedron.sides[record.first_side as usize..][..record.side_count as usize];
             sides.iter().flat_map(of).any(|w| polyhedron.vertex_labels[w as usize] == v)

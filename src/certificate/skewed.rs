@@ -50,7 +50,7 @@ impl<L: Lanes> Minimum<L> {
         moved.difference = world.mul_add(L::splat(if i == 0 { shift } else { -shift }), self.difference);
         // R·ê, the product and the sum, as where the difference comes from.
         moved.error += 10.0 * U * (shift.abs() + moved.difference.norm1());
-        let tail = polyhedron.vertices[record.tail as usize].position;
+        let tail = polyhedron.vertices[record.tail() as usize].position;
         let t = along.dot(&(moved.points[i].to_vector() - tail));
         // Its own rounding and that of the point.
         let margin = 2.0 * edge_rounding(polyhedron);

@@ -47,7 +47,7 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
         children.vertices[v] = FeatureId::Vertex(nearest_vertex_by_walking(polyhedron, &vertex.position, start));
     }
     for (edge, child) in above.edges.iter().zip(&mut children.edges) {
-        *child = children.vertices[edge.tail.max(edge.head) as usize];
+        *child = children.vertices[edge.tail().max(edge.head()) as usize];
     }
     for (corners, &face) in above.triangles.iter().zip(&above.face_of_triangle) {
         children.faces[face as usize] = children.vertices[corners[0] as usize];
@@ -92,13 +92,13 @@ pub fn by_identity(
         };
     }
     for (edge, child) in above.edges.iter().zip(&mut children.edges) {
-        let ends = [edge.tail, edge.head].map(|v| vertex_below(ids[1][v as usize]));
-        let mut beside = [edge.right, edge.left].map(|f| children.faces[f as usize]).into_iter();
+        let ends = [edge.tail(), edge.head()].map(|v| vertex_below(ids[1][v as usize]));
+        let mut beside = [edge.right(), edge.left()].map(|f| children.faces[f as usize]).into_iter();
         *child = match edge_between(below, ends) {
             Some(kept) => FeatureId::Edge(kept),
             None => beside
                 .find(|child| matches!(child, FeatureId::Vertex(_)))
-                .unwrap_or(children.vertices[edge.tail as usize]),
+                .unwrap_or(children.vertices[edge.tail() as usize]),
         };
     }
 
@@ -107,7 +107,7 @@ pub fn by_identity(
         *parent = FeatureId::Vertex(extreme);
     }
     for (edge, parent) in below.edges.iter().zip(&mut parents.edges) {
-        *parent = parents.faces[edge.right as usize];
+        *parent = parents.faces[edge.right() as usize];
     }
     for (v, id) in (0..).zip(ids[0]) {
         let kept = in_above[*id as usize];
@@ -169,7 +169,7 @@ pub fn extreme_vertices(below: &Polyhedron, above: &Polyhedron) -> Vec<u32> {
     for face in faces_in_order(below) {
         let known = sides(below, face as usize).find_map(|edge| {
             let edge = &below.edges[edge as usize];
-            [edge.left, edge.right].map(|f| extreme[f as usize]).into_iter().find(|v| *v != NONE)
+            [edge.left(), edge.right()].map(|f| extreme[f as usize]).into_iter().find(|v| *v != NONE)
         });
         last = above.support(&below.faces[face as usize].normal, known.unwrap_or(last)).0;
         extreme[face as usize] = last;

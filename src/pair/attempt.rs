@@ -5,7 +5,7 @@ use super::acceptance::Acceptance;
 use super::cache::bits;
 use super::{Attempt, PairQuery, Start, Statistics};
 use crate::frame::Frame;
-use crate::marching::{self, March, Step};
+use crate::marching::{self, March, Way};
 use crate::math::Vector;
 use crate::polyhedron::Polyhedron;
 use crate::simd::{Kernel, Lanes, Work};
@@ -35,12 +35,10 @@ impl Kernel for Coherent<'_, '_> {
             judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
             return Attempt::Done;
         }
-        match step {
-            Step::Minimum => Attempt::Open { at: state, is_minimum: true, steps: 1 },
-            Step::Move(next) | Step::Behind(next) | Step::Crossing(next) => {
-                L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: next, steps: 1, limit: TRIAL_STEPS })
-            }
+        if step.way == Way::Minimum {
+            return Attempt::Open { at: state, is_minimum: true, steps: 1 };
         }
+        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS })
     }
 }
 

@@ -51,7 +51,7 @@ impl PairCache {
     #[inline(always)]
     pub(super) fn remember_state(&mut self, state: State) {
         self.kind = state.kind as u32;
-        self.indices = state.indices;
+        self.indices = state.indices();
     }
 
     /// The separating axis of the last verdict, if the cache holds one of vertices that the polyhedra have.
@@ -89,7 +89,7 @@ impl PairCache {
 
     pub(super) fn remember_place(&mut self, place: Place) {
         self.kind = LEVELS + place.state.kind as u32;
-        self.indices = place.state.indices;
+        self.indices = place.state.indices();
         self.pairs[0] = place.levels.map(u32::from);
         self.pairs[1] = [0; 2];
     }

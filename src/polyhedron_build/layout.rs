@@ -65,10 +65,7 @@ fn edge_between(
         tail_position: *a,
         length,
         slack,
-        tail,
-        head,
-        left,
-        right,
+        across: [tail, head, left, right],
         labels: [NONE; 2],
         normals,
         reciprocal_sine: if sine > 0.0 { 1.0 / sine } else { f64::INFINITY },
@@ -212,6 +209,7 @@ impl Polyhedron {
                 return Err(Error::Bug(format!("face {face} has {side_count} sides")));
             }
             set_plane(&mut planes, 0, normal, -0.5 * (low + high));
+            let first_sides = [0, 1, 2].map(|side| self.sides[first_side + side]);
             self.faces.push(Face {
                 planes,
                 slack: slacks[face],
@@ -220,6 +218,7 @@ impl Polyhedron {
                 first_more: first_more as u32,
                 vertex: surface.tail(first),
                 label: NONE,
+                first_sides,
                 normal: merged.normals[face],
             });
         }
@@ -244,7 +243,7 @@ impl Polyhedron {
 fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, flood: &mut Flood) -> Bevel {
     let normal = unit(&(plane_normal(&edge.planes, 2) + plane_normal(&edge.planes, 3)));
     // No limit: the exterior angles of the sharp edges at a vertex sum to less than 2π, so there are at most three.
-    let rise = flood.rise(&normal, edge.tail, usize::MAX).unwrap_or(f64::INFINITY);
-    let fall = flood.fall(&normal, edge.tail, vertices);
+    let rise = flood.rise(&normal, edge.tail(), usize::MAX).unwrap_or(f64::INFINITY);
+    let fall = flood.fall(&normal, edge.tail(), vertices);
     Bevel { normal, slack: (rise + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF) }
 }

@@ -132,7 +132,7 @@ fn are_distinct(numbers: &[u32]) -> bool {
 /// Puts the labels where an answer reads them together with the feature; to be called when they have changed.
 pub fn copy_labels(polyhedron: &mut Polyhedron) {
     for edge in &mut polyhedron.edges {
-        edge.labels = [edge.tail, edge.head].map(|v| polyhedron.vertex_labels[v as usize]);
+        edge.labels = [edge.tail(), edge.head()].map(|v| polyhedron.vertex_labels[v as usize]);
     }
     for face in 0..polyhedron.faces.len() {
         let label = match *polyhedron.labels_of_face(face as u32) {

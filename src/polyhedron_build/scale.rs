@@ -26,7 +26,7 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
     for edge in &mut polyhedron.edges {
         scale_block(&mut edge.planes);
         edge.length *= factor;
-        edge.tail_position = polyhedron.vertices[edge.tail as usize].position;
+        edge.tail_position = polyhedron.vertices[edge.tail() as usize].position;
         bound(&mut edge.slack);
     }
     for face in &mut polyhedron.faces {

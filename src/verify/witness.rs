@@ -115,7 +115,7 @@ fn distance_outside(polyhedron: &Polyhedron, point: &Vector) -> f64 {
                 .edges
                 .iter()
                 .filter_map(|edge| polyhedron.bevels.get(edge.bevel as usize).map(|bevel| (edge, bevel)))
-                .map(|(edge, bevel)| bevel.normal.dot(&(point - vertex(edge.tail as usize))) - bevel.slack);
+                .map(|(edge, bevel)| bevel.normal.dot(&(point - vertex(edge.tail() as usize))) - bevel.slack);
             over_faces.chain(over_bevels).fold(0.0, f64::max)
         }
     }
@@ -147,7 +147,7 @@ fn distance_from_face(polyhedron: &Polyhedron, face: &Face, point: &Vector) -> f
     }
     let of_side = |side: &u32| {
         let edge = &polyhedron.edges[*side as usize];
-        let ends = [edge.tail, edge.head].map(|v| polyhedron.vertices[v as usize].position);
+        let ends = [edge.tail(), edge.head()].map(|v| polyhedron.vertices[v as usize].position);
         distance_from_segment(&ends, point)
     };
     sides.iter().map(of_side).fold(f64::INFINITY, f64::min)

@@ -104,7 +104,7 @@ fn check_children(name: &str, above: &Polyhedron, below: &Polyhedron, children: 
     let vertices_of = |corners: &[u32]| corners.iter().map(|v| children.vertices[*v as usize]).collect::<Vec<_>>();
     if children.edges.iter().all(|child| matches!(child, FeatureId::Vertex(_))) {
         for (edge, child) in above.edges.iter().zip(&children.edges) {
-            assert!(vertices_of(&[edge.tail, edge.head]).contains(child), "{name}");
+            assert!(vertices_of(&[edge.tail(), edge.head()]).contains(child), "{name}");
         }
     }
 }
@@ -125,10 +125,10 @@ fn check_rays(name: &str, base: &Polyhedron, above: &Polyhedron, below: &Polyhed
     for (edge, child) in above.edges.iter().zip(&children.edges) {
         if let FeatureId::Edge(child) = *child {
             let child = &below.edges[child as usize];
-            let ends = [edge.tail, edge.head].map(|v| children.vertices[v as usize]);
+            let ends = [edge.tail(), edge.head()].map(|v| children.vertices[v as usize]);
             assert!(
-                ends == [child.tail, child.head].map(FeatureId::Vertex)
-                    || ends == [child.head, child.tail].map(FeatureId::Vertex),
+                ends == [child.tail(), child.head()].map(FeatureId::Vertex)
+                    || ends == [child.head(), child.tail()].map(FeatureId::Vertex),
                 "{name}"
             );
             kept += 1;
@@ -146,6 +146,6 @@ fn check_parents(name: &str, below: &Polyhedron, above: &Polyhedron, parents: &L
         assert!(height(&above.vertices[parent as usize]) >= highest - 1e-14 * above.radius, "{name}");
     }
     for (edge, parent) in below.edges.iter().zip(&parents.edges) {
-        assert!([edge.left, edge.right].map(|f| parents.faces[f as usize]).contains(parent), "{name}");
+        assert!([edge.left(), edge.right()].map(|f| parents.faces[f as usize]).contains(parent), "{name}");
     }
 }

@@ -26,7 +26,7 @@ impl Body {
         let hull = shape.polyhedron();
         let corner = |face: u32, side: u32| {
             let edge = &hull.edges[side as usize];
-            hull.local_position(if edge.left == face { edge.tail } else { edge.head })
+            hull.local_position(if edge.left() == face { edge.tail() } else { edge.head() })
         };
         let polygon = |(id, face): (u32, &swiftprox::polyhedron::Face)| {
             let sides = &hull.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
@@ -59,7 +59,7 @@ impl Body {
         let hull = self.shape.polyhedron();
         let label = |v: u32| hull.vertex_labels[v as usize];
         let joins = |[tail, head]: [u32; 2]| ids == [tail, head] || ids == [head, tail];
-        hull.edges.iter().any(|edge| joins([label(edge.tail), label(edge.head)]))
+        hull.edges.iter().any(|edge| joins([label(edge.tail()), label(edge.head())]))
             || (hull.dimension == 1 && joins([label(0), label(1)]))
     }
 

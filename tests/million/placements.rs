@@ -88,7 +88,7 @@ fn surface_point(body: &Body, random: &mut Random) -> (Vector, Vector) {
     let normal = Vector::new(face.planes.x[0], face.planes.y[0], face.planes.z[0]);
     let side = random.below(face.side_count as usize) as u32;
     let edge = &hull.edges[hull.sides[(face.first_side + side) as usize] as usize];
-    let [tail, head] = [edge.tail, edge.head].map(|v| hull.local_position(v));
+    let [tail, head] = [edge.tail(), edge.head()].map(|v| hull.local_position(v));
     let on_edge = tail + (head - tail) * (0.5 + 0.5 * random.signed());
     match random.below(4) {
         0 => (tail, normal),

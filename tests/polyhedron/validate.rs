@@ -102,7 +102,7 @@ fn neighbours(p: &Polyhedron) {
                 );
                 if edge != NONE {
                     let edge = &p.edges[edge as usize];
-                    let ends = [edge.tail, edge.head];
+                    let ends = [edge.tail(), edge.head()];
                     let beside = [v as u32, head]
                         .iter()
                         .all(|w| ends.contains(w) || distance_to_edge(p, edge, *w) <= 17.0 * UNIT_ROUNDOFF * p.radius);
@@ -115,14 +115,14 @@ fn neighbours(p: &Polyhedron) {
     }
     // Each edge is found from both its ends.
     for (e, edge) in p.edges.iter().enumerate() {
-        for end in [edge.tail, edge.head] {
+        for end in [edge.tail(), edge.head()] {
             assert!(p.neighbour_blocks(end).any(|b| b.edge.contains(&(e as u32))));
         }
     }
 }
 
 fn distance_to_edge(p: &Polyhedron, edge: &Edge, v: u32) -> f64 {
-    let offset = p.vertices[v as usize].position - p.vertices[edge.tail as usize].position;
+    let offset = p.vertices[v as usize].position - p.vertices[edge.tail() as usize].position;
     offset.cross(&normal(&edge.planes, 0)).norm()
 }
 
@@ -150,8 +150,8 @@ fn supports(p: &Polyhedron) {
 fn edges(p: &Polyhedron) {
     let mut bevels = 0;
     for (e, edge) in p.edges.iter().enumerate() {
-        assert!(edge.tail < edge.head);
-        let [a, b] = [edge.tail, edge.head].map(|v| p.vertices[v as usize].position);
+        assert!(edge.tail() < edge.head());
+        let [a, b] = [edge.tail(), edge.head()].map(|v| p.vertices[v as usize].position);
         let direction = normal(&edge.planes, 0);
         let size = p.radius;
         let tolerance = 8.0 * UNIT_ROUNDOFF * size;
@@ -162,7 +162,7 @@ fn edges(p: &Polyhedron) {
         assert!(value(&edge.planes, 1, &b).abs() <= tolerance);
         assert_eq!(normal(&edge.planes, 1), -direction);
         assert_eq!(edge.tail_position, a);
-        for (lane, face) in [(2, edge.left), (3, edge.right)] {
+        for (lane, face) in [(2, edge.left()), (3, edge.right())] {
             let side = normal(&edge.planes, lane);
             assert!(side.dot(&direction).abs() <= 4.0 * f64::EPSILON);
             assert!(value(&edge.planes, lane, &a).abs() <= tolerance);
@@ -212,12 +212,13 @@ fn faces(p: &Polyhedron) {
         assert!(is_unit(&n));
         let sides = sides(p, face);
         assert!(sides.len() >= 3);
+        assert!((0..).zip(sides).all(|(side, edge)| p.side(face, side) == *edge));
         let ends: Vec<[u32; 2]> = sides
             .iter()
             .map(|s| {
                 let edge = &p.edges[*s as usize];
-                assert!((edge.left == f as u32) != (edge.right == f as u32), "an edge has two faces");
-                if edge.left == f as u32 { [edge.tail, edge.head] } else { [edge.head, edge.tail] }
+                assert!((edge.left() == f as u32) != (edge.right() == f as u32), "an edge has two faces");
+                if edge.left() == f as u32 { [edge.tail(), edge.head()] } else { [edge.head(), edge.tail()] }
             })
             .collect();
         assert!(ends.iter().any(|[tail, _]| *tail == face.vertex));
@@ -267,7 +268,7 @@ fn topology(p: &Polyhedron) {
     }
     let (v, t) = (p.vertices.len(), p.triangles.len());
     assert_eq!(v + t, 3 * t / 2 + 2, "Euler, triangulated");
-    let mut corners: Vec<u32> = p.edges.iter().flat_map(|e| [e.tail, e.head]).collect();
+    let mut corners: Vec<u32> = p.edges.iter().flat_map(|e| [e.tail(), e.head()]).collect();
     corners.sort_unstable();
     corners.dedup();
     assert_eq!(corners.len() + p.faces.len(), p.edges.len() + 2, "Euler, merged");
