@@ -205,7 +205,7 @@ enum {
   SWIFT_LOOKUP_AUTOMATIC = 0,
   /** None. */
   SWIFT_LOOKUP_NONE = 1,
-  /** Vertices near points on several spheres, looked up in turns from one body to the other. */
+  /** Vertices near points on several spheres, looked up on both bodies for what was found on the other. */
   SWIFT_LOOKUP_SHELLS = 2,
   /** That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass. */
   SWIFT_LOOKUP_SPHERICAL = 3

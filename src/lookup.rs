@@ -2,9 +2,9 @@
 //! query tells nothing; no answer depends on them.
 //!
 //! *Shells*: for every direction (the cells of a square grid, folded into an octahedron) and every one of a few distances from
-//! the centre of mass the vertex nearest to the point there (of needles one of the nearest feature's). Looked up in turns from
-//! one body to the other they project a point alternately on the two bodies, which is near the nearest vertices after two or
-//! three rounds whatever the shapes.
+//! the centre of mass the vertex nearest to the point there (of needles one of the nearest feature's). Looked up on both bodies
+//! for what was found on the other they project points alternately on the two, which is near the nearest vertices after three
+//! to five rounds whatever the shapes.
 //!
 //! *Spherical*: the table of Ehmann & Lin (2000), §4.6: one vertex for every increment of altitude and azimuth and two for the
 //! poles, nearest to the points of one sphere; looked up once, in the direction of the other body's centre of mass.
@@ -78,6 +78,9 @@ pub struct Shells {
     pub core: f64,
     /// Turns a vertex, seen from the centre of mass, outwards where the body is thin.
     pub outward: [[f32; 3]; 3],
+    /// How often to look up before marching: where the other body's centre of mass is, then where the vertex found on it is.
+    pub rounds: u32,
+    grid: Grid,
     /// Where the cells begin that serve points of a squared distance whose exponent and leading bits are the index.
     first_cells: [u32; DISTANCES],
 }
@@ -96,6 +99,7 @@ impl Shells {
         cells: &[u32],
         core: f64,
         outward: [[f32; 3]; 3],
+        rounds: u32,
     ) -> Shells {
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
@@ -107,7 +111,13 @@ impl Shells {
             *first = (shell * resolution * resolution) as u32;
         }
         let cells = Cells::new(cells, positions.len());
-        Shells { resolution, radii, cells, positions, core, outward, first_cells }
+        Shells { resolution, radii, cells, positions, core, outward, rounds, grid: Grid::new(resolution), first_cells }
+    }
+
+    /// Where a vertex is.
+    #[inline(always)]
+    pub fn position(&self, vertex: u32) -> [f32; 4] {
+        self.positions[vertex as usize]
     }
 
     /// A vertex near a point, given as [`Shells::positions`] are.
@@ -117,31 +127,13 @@ impl Shells {
         let square = x * x + y * y + z * z;
         let distance = (square.to_bits() as i32 >> (23 - MANTISSA_BITS)) - LEAST;
         let first = self.first_cells[distance.clamp(0, DISTANCES as i32 - 1) as usize];
-        self.cells.get(first as usize + self.cell(point))
+        self.cells.get(first as usize + self.grid.cell(point))
     }
 
     /// A vertex nearly farthest in a direction: from far away nearest is farthest along the view.
     #[inline(always)]
     pub fn farthest(&self, direction: [f32; 3]) -> u32 {
-        self.cells.get(self.first_cells[DISTANCES - 1] as usize + self.cell(direction))
-    }
-
-    /// The cell of a shell in which a point is seen from the centre.
-    #[inline(always)]
-    fn cell(&self, [x, y, z]: [f32; 3]) -> usize {
-        // The octahedron |x| + |y| + |z| = 1 seen from above; its lower half is folded out to the corners of the square, where
-        // 1 − |v| = |u| + |w|. Without a branch, which would be guessed wrong half of the time.
-        let scale = 1.0 / (x.abs() + y.abs() + z.abs());
-        let (u, v, w) = (x * scale, y * scale, z * scale);
-        let fold = if w < 0.0 { -w } else { 0.0 };
-        let (u, v) = (u + fold.copysign(u), v + fold.copysign(v));
-        // Adding 2²⁰ leaves the number, in eighths, in the lower bits. They are masked: points without direction do no harm.
-        let half = 0.5 * self.resolution as f32;
-        let (grid, shift) = (half * GRID_SCALE, half + MAGIC);
-        let mask = self.resolution as u32 - 1;
-        let column = ((u * grid + shift).to_bits() >> 3) & mask;
-        let row = ((v * grid + shift).to_bits() >> 3) & mask;
-        row as usize * self.resolution + column as usize
+        self.cells.get(self.first_cells[DISTANCES - 1] as usize + self.grid.cell(direction))
     }
 
     /// The direction of a cell's middle, a unit vector.
@@ -151,6 +143,38 @@ impl Shells {
         let z = 1.0 - u.abs() - v.abs();
         let (x, y) = if z < 0.0 { ((1.0 - v.abs()).copysign(u), (1.0 - u.abs()).copysign(v)) } else { (u, v) };
         Vector::new(x, y, z).normalize()
+    }
+}
+
+/// The square grid of a shell.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Grid {
+    /// What takes a coordinate from −1 to 1 to its row or column, in the eighths that [`MAGIC`] leaves in the lower bits.
+    scale: f32,
+    shift: f32,
+    mask: u32,
+    /// The resolution's logarithm.
+    bits: u32,
+}
+
+impl Grid {
+    fn new(resolution: usize) -> Grid {
+        let half = 0.5 * resolution as f32;
+        Grid { scale: half * GRID_SCALE, shift: half + MAGIC, mask: resolution as u32 - 1, bits: resolution.ilog2() }
+    }
+
+    /// The cell in which a point is seen from the centre.
+    #[inline(always)]
+    fn cell(&self, [x, y, z]: [f32; 3]) -> usize {
+        // The octahedron |x| + |y| + |z| = 1 seen from above; its lower half is folded out to the corners of the square, where
+        // 1 − |v| = |u| + |w|. Without a branch, which would be guessed wrong half of the time.
+        let scale = 1.0 / (x.abs() + y.abs() + z.abs());
+        let (u, v, w) = (x * scale, y * scale, z * scale);
+        let fold = if w < 0.0 { -w } else { 0.0 };
+        let (u, v) = (u + fold.copysign(u), v + fold.copysign(v));
+        // Adding 2²⁰ leaves the number, in eighths, in the lower bits. They are masked: points without direction do no harm.
+        let place = |coordinate: f32| ((coordinate * self.scale + self.shift).to_bits() >> 3) & self.mask;
+        ((place(v) << self.bits) + place(u)) as usize
     }
 }
 

@@ -72,7 +72,9 @@ impl Kernel for Climb<'_> {
 #[inline(always)]
 fn from_tables(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<Beginning> {
     match tables(polyhedra)? {
-        [Table::Shells(first), Table::Shells(second)] => Some(alternate([first, second], polyhedra, poses)),
+        [Table::Shells(first), Table::Shells(second)] => {
+            Some(simd::dispatch(&mut Alternate { tables: [first, second], polyhedra, poses }))
+        }
         [Table::Spherical(first), Table::Spherical(second)] => {
             let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
             let vertices =
@@ -89,30 +91,63 @@ fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
     pose.transform(&polyhedron.mass.centre_of_mass)
 }
 
-/// Projects the centre of mass of body 2 on body 1, the vertex found on body 2, that one on body 1, and so on, by the tables.
-#[inline(always)]
-fn alternate(tables: [&Shells; 2], polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Beginning {
-    let [radius1, radius2] = [polyhedra[0].mass.radius, polyhedra[1].mass.radius];
-    let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
-    // From body 1's frame and unit to body 2's, and back.
-    let [there, back] = maps(poses, &between, [radius1, radius2]);
-    let position = |i: usize, vertex: u32| tables[i].positions[vertex as usize];
-    let mut vertex1 = tables[0].nearest(back.offset);
-    let mut vertex2 = tables[1].nearest(there.apply(position(0, vertex1)));
-    let vertex_count = tables[0].positions.len().max(tables[1].positions.len());
-    let rounds = if vertex_count > MANY_VERTICES { 3 } else { 2 };
-    for _ in 1..rounds {
-        vertex1 = tables[0].nearest(back.apply(position(1, vertex2)));
-        vertex2 = tables[1].nearest(there.apply(position(0, vertex1)));
+/// Projects on both bodies the other's centre of mass, then the vertices that were found there, and so on, by the tables. Both at
+/// once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four look-ups.
+struct Alternate<'a> {
+    tables: [&'a Shells; 2],
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+}
+
+impl Kernel for Alternate<'_> {
+    type Output = Beginning;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Beginning {
+        let [table1, table2] = self.tables;
+        let [there, back] = self.maps::<L>();
+        let mut vertices = [table1.nearest(back.offset), table2.nearest(there.offset)];
+        for _ in 1..table1.rounds.max(table2.rounds) {
+            let [point1, point2] = [table1.position(vertices[0]), table2.position(vertices[1])];
+            vertices = [table1.nearest(back.apply(point2)), table2.nearest(there.apply(point1))];
+        }
+        let mut guess = self.guess([&there, &back], vertices);
+        if guess == Guess::Overlapping {
+            // Each was looked up for the vertex before the other, so thin bodies that are apart often look as if they overlapped. A
+            // pair of which one was looked up for the other does so less often.
+            vertices[0] = table1.nearest(back.apply(table2.position(vertices[1])));
+            vertices[1] = table2.nearest(there.apply(table1.position(vertices[0])));
+            guess = self.guess([&there, &back], vertices);
+        }
+        Beginning { vertices, guess }
     }
-    let faces1 = is_facing(&tables[0].outward, position(0, vertex1), back.apply(position(1, vertex2)));
-    let faces2 = is_facing(&tables[1].outward, position(1, vertex2), there.apply(position(0, vertex1)));
-    let guess = match (faces1, faces2) {
-        (true, true) => Guess::Apart,
-        (false, false) => Guess::Overlapping,
-        _ => Guess::Unclear,
-    };
-    Beginning { vertices: [vertex1, vertex2], guess }
+}
+
+impl Alternate<'_> {
+    /// From body 1's frame and unit to body 2's, and back.
+    #[inline(always)]
+    fn maps<L: Lanes>(&self) -> [Map; 2] {
+        let placed = [Placed::<L>::new(self.poses[0]), Placed::<L>::new(self.poses[1])];
+        let [mass1, mass2] = self.polyhedra.map(|polyhedron| &polyhedron.mass);
+        let between = placed[0].transform(&mass1.centre_of_mass).sub(placed[1].transform(&mass2.centre_of_mass));
+        [
+            Map::new([&placed[0], &placed[1]], between, [mass1.radius, mass2.radius]),
+            Map::new([&placed[1], &placed[0]], between.negate(), [mass2.radius, mass1.radius]),
+        ]
+    }
+
+    #[inline(always)]
+    fn guess(&self, [there, back]: [&Map; 2], vertices: [u32; 2]) -> Guess {
+        let [table1, table2] = self.tables;
+        let [point1, point2] = [table1.position(vertices[0]), table2.position(vertices[1])];
+        let faces1 = is_facing(&table1.outward, point1, back.apply(point2));
+        let faces2 = is_facing(&table2.outward, point2, there.apply(point1));
+        match (faces1, faces2) {
+            (true, true) => Guess::Apart,
+            (false, false) => Guess::Overlapping,
+            _ => Guess::Unclear,
+        }
+    }
 }
 
 /// Whether a vertex looks out of its body when it looks at a point.
@@ -126,8 +161,32 @@ fn is_facing(outward: &[[f32; 3]; 3], vertex: [f32; 4], point: [f32; 3]) -> bool
     sum > 0.0
 }
 
-/// Beyond so many vertices a third round saves more steps than it costs: of plates of 10,002 vertices at random poses two of nine.
-const MANY_VERTICES: usize = 4_000;
+/// A pose in lanes.
+struct Placed<L> {
+    rows: [L; 3],
+    /// The columns of R, and T.
+    columns: [L; 4],
+}
+
+impl<L: Lanes> Placed<L> {
+    #[inline(always)]
+    fn new(pose: &Pose) -> Placed<L> {
+        let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
+        Placed { rows, columns: L::transpose(&rows) }
+    }
+
+    #[inline(always)]
+    fn transform(&self, p: &Vector) -> L {
+        let [x, y, z, translation] = self.columns;
+        x.mul_add(L::splat(p.x), y.mul_add(L::splat(p.y), z.mul_add(L::splat(p.z), translation)))
+    }
+
+    #[inline(always)]
+    fn rotate_back(&self, d: L) -> L {
+        let [x, y, z] = self.rows;
+        z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
+    }
+}
 
 /// Points relative to one body's centre of mass, in units of its radius, seen from another body in the same way.
 #[derive(Clone, Copy)]
@@ -137,29 +196,21 @@ struct Map {
     offset: [f32; 3],
 }
 
-/// From body 1 to body 2 and back; `between` is the way from the centre of mass of body 2 to that of body 1 in the world. A
-/// transpose stands in for an inverse: it is all about a good guess.
-#[inline(always)]
-fn maps(poses: [&Pose; 2], between: &Vector, [radius1, radius2]: [f64; 2]) -> [Map; 2] {
-    let axis = |pose: &Pose, i: usize| Vector::new(pose.rows[0][i], pose.rows[1][i], pose.rows[2][i]);
-    let axes1 = [axis(poses[0], 0), axis(poses[0], 1), axis(poses[0], 2)];
-    let [unit1, unit2] = [1.0 / radius1, 1.0 / radius2];
-    let [there, back] = [(radius1 * unit2) as f32, (radius2 * unit1) as f32];
-    let mut maps = [Map { columns: [[0.0; 3]; 3], offset: [0.0; 3] }; 2];
-    for i in 0..3 {
-        let axis2 = axis(poses[1], i);
-        for (j, axis1) in axes1.iter().enumerate() {
-            let entry = axis2.dot(axis1) as f32;
-            maps[0].columns[j][i] = entry * there;
-            maps[1].columns[i][j] = entry * back;
-        }
-        maps[0].offset[i] = (axis2.dot(between) * unit2) as f32;
-        maps[1].offset[i] = (-axes1[i].dot(between) * unit1) as f32;
-    }
-    maps
-}
-
 impl Map {
+    /// From one body to another; `between` is the way from the latter's centre of mass to the former's in the world. A transpose
+    /// stands in for an inverse: it is all about a good guess.
+    #[inline(always)]
+    fn new<L: Lanes>([from, to]: [&Placed<L>; 2], between: L, [radius, to_radius]: [f64; 2]) -> Map {
+        let unit = 1.0 / to_radius;
+        let (length, [x, y, z, _]) = (L::splat(radius * unit), from.columns);
+        let columns = [
+            single(to.rotate_back(x).mul(length)),
+            single(to.rotate_back(y).mul(length)),
+            single(to.rotate_back(z).mul(length)),
+        ];
+        Map { columns, offset: single(to.rotate_back(between).mul(L::splat(unit))) }
+    }
+
     #[inline(always)]
     fn apply(&self, [x, y, z, _]: [f32; 4]) -> [f32; 3] {
         let [a, b, c] = &self.columns;
@@ -169,4 +220,11 @@ impl Map {
         }
         point
     }
+}
+
+/// In single precision.
+#[inline(always)]
+fn single<L: Lanes>(v: L) -> [f32; 3] {
+    let [x, y, z, _] = v.to_array();
+    [x as f32, y as f32, z as f32]
 }
