@@ -14,7 +14,7 @@ use swiftprox::verify::verify;
 use crate::cases::Random;
 use crate::common::caches::{WORDS, cache_of_words};
 use crate::common::hard::flight::{fly, poses};
-use crate::properties::beyond_bounds;
+use crate::properties::excess_work_without_levels;
 use crate::truth::ExactPair;
 use crate::{Flight, ask, contradiction};
 
@@ -93,7 +93,7 @@ pub fn check(flight: &mut Flight) {
                 checked,
                 not_as_asked(name, &answer),
                 (is_beyond != (answer.outcome == Outcome::Beyond)).then(|| "the limit is decided wrongly".to_string()),
-                beyond_bounds(shapes, &answer),
+                excess_work_without_levels(shapes, &answer),
             ];
             for what in complaints.into_iter().flatten() {
                 flight.violated(number, format!("{name} {config:?}, a start {start}, {cache:?}: {what}\n{answer:?}"));

@@ -72,7 +72,7 @@ pub fn check(flight: &mut Flight) -> usize {
             };
             let complaint =
                 judge(&exact, &answer, &config, asked).or_else(|| not_verified([&first, &second], placed, &answer));
-            let complaint = complaint.or_else(|| beyond_bounds([&first, &second], &answer));
+            let complaint = complaint.or_else(|| excess_steps_through_levels([&first, &second], &answer));
             if let Some(what) = complaint {
                 flight
                     .violated(number, format!("{name}: {what}: {answer:?}\nexactly {exact:?}\n{config:?} {before:?}"));
@@ -124,8 +124,8 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
 }
 
 /// At every pair of levels 64 steps and one for each vertex of the larger one, there are at most as many pairs as levels of
-/// both, and at the bodies themselves what every query may take (`properties::beyond_bounds`).
-fn beyond_bounds(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
+/// both, and at the bodies themselves what every query may take (`properties::excess_work_without_levels`).
+fn excess_steps_through_levels(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
     let larger = |vertices: [usize; 2]| vertices[0].max(vertices[1]) as u32;
     let finest =
         shapes.map(|shape| shape.hierarchy().levels.first().map_or(0, |level| level.polyhedron.vertices.len()));

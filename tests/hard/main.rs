@@ -31,7 +31,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use cases::Random;
 use common::hard::flight::{Table, Tally, fly, poses, shapes};
 use common::hard::{Family, Sequence, families, triangles};
-use properties::{Placed, Session, beyond_bounds};
+use properties::{Placed, Session, excess_work_without_levels};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
@@ -140,7 +140,7 @@ fn answers_are_the_truth() {
             if let Err(e) = verify(shapes[0], &poses[0], shapes[1], &poses[1], answer) {
                 complaints.push((number, format!("{e}: {answer:?}")));
             }
-            complaints.extend(beyond_bounds(shapes, answer).map(|what| (number, what)));
+            complaints.extend(excess_work_without_levels(shapes, answer).map(|what| (number, what)));
         });
         complaints.into_iter().for_each(|(number, what)| flight.violated(number, what));
         if let Err(e) = flown {

@@ -261,12 +261,12 @@ fn require(holds: bool, property: &'static str, detail: impl FnOnce() -> String)
 /// One step where the last query ended and sixteen from there, then 64 and one for each vertex of the larger body; 128
 /// iterations of Gilbert-Johnson-Keerthi in floating point. Those in integers end by a proof, not by a count.
 fn check_work(placed: &Placed, answer: &PairAnswer) -> Result<(), Violation> {
-    let beyond = beyond_bounds(placed.bodies.map(|body| &body.shape), answer);
-    require(beyond.is_none(), "bounded work", || beyond.unwrap_or_default())
+    let excess = excess_work_without_levels(placed.bodies.map(|body| &body.shape), answer);
+    require(excess.is_none(), "bounded work", || excess.unwrap_or_default())
 }
 
 /// What a query without levels of detail did more than it may.
-pub fn beyond_bounds(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
+pub fn excess_work_without_levels(shapes: [&Shape; 2], answer: &PairAnswer) -> Option<String> {
     let larger = shapes.map(|shape| shape.polyhedron().vertices.len() as u32).into_iter().fold(0, u32::max);
     let Work([steps, iterations, _]) = Work::of(answer);
     let holds = steps <= 1 + 16 + 64 + larger && iterations <= 128;
