@@ -852,8 +852,8 @@ swift_status swift_shape_create_from_file(const char *path,
  * it, with the levels that are saved: built anew, those of a machine with other vector units may be slightly different ones. A
  * version of this library that does not know the version of the file refuses it.
  *
- * SWIFT_ERROR_FILE: the file cannot be written. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the
- * argument.
+ * SWIFT_ERROR_FILE: the file cannot be written; the message names it and says why. SWIFT_ERROR_NULL_POINTER,
+ * SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
  */
 swift_status swift_shape_save(const struct swift_shape *shape,
                               const char *path);
@@ -866,8 +866,9 @@ swift_status swift_shape_save(const struct swift_shape *shape,
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  *
- * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged. SWIFT_ERROR_CANCELLED: progress
- * said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+ * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged; the message names it and says what
+ * is wrong. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
+ * the argument.
  */
 swift_status swift_shape_load(const char *path,
                               swift_progress_callback progress,

@@ -32,15 +32,16 @@ const VERSION: u32 = 1;
 /// Saves a shape in a file, replacing what was there.
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be written.
+/// [`Error::File`] if the file cannot be written; the message names it and says why.
 pub fn save(shape: &Shape, path: &Path) -> Result<()> {
-    fs::write(path, to_bytes(shape)).map_err(|e| Error::File(format!("{}: {e}", path.display())))
+    fs::write(path, to_bytes(shape)).map_err(|e| Error::File(format!("{}: cannot be written: {e}", path.display())))
 }
 
 /// Loads a shape that was [saved](save).
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be read, is no shape file, is of another version or damaged.
+/// [`Error::File`] if the file cannot be read, is no shape file, is of another version or damaged; the message names it and says
+/// what is wrong.
 pub fn load(path: &Path) -> Result<Shape> {
     load_in_steps(path, &mut Progress::new(&mut |_| true))
 }
@@ -50,7 +51,7 @@ pub fn load(path: &Path) -> Result<Shape> {
 /// # Errors
 /// As [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
-    let bytes = fs::read(path).map_err(|e| Error::File(format!("{}: {e}", path.display())))?;
+    let bytes = fs::read(path).map_err(|e| Error::File(format!("{}: cannot be read: {e}", path.display())))?;
     from_bytes_in_steps(&bytes, progress).map_err(|error| match error {
         Error::Cancelled(_) => error,
         _ => Error::File(format!("{}: {}", path.display(), error.message())),

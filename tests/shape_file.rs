@@ -119,8 +119,18 @@ fn through_a_file() {
     assert!(message(&path).contains("version 2; this library reads version 1"), "{}", message(&path));
     fs::write(&path, "OFF\n4 4 6\n").unwrap();
     assert!(message(&path).contains("no shape file"), "{}", message(&path));
-    assert!(message(&folder.join("no-such.shape")).contains("no-such.shape"));
-    assert!(matches!(save(&shape, &folder.join("no/such/folder")), Err(Error::File(_))));
+    // What could not be done, to which file, and the system's words why.
+    let begins = |message: &str, path: &Path, what: &str| {
+        let why = message.strip_prefix(&format!("{}: {what}: ", path.display()));
+        assert!(why.is_some_and(|why| !why.is_empty()), "{message}");
+    };
+    let missing = folder.join("no-such.shape");
+    begins(&message(&missing), &missing, "cannot be read");
+    let missing = folder.join("no/such/folder");
+    match save(&shape, &missing) {
+        Err(Error::File(message)) => begins(&message, &missing, "cannot be written"),
+        other => panic!("{other:?}"),
+    }
 }
 
 /// Of a body with levels, the largest part of the file, and of one without: no wait for a report is long, no fraction falls, and a
