@@ -236,7 +236,10 @@ enum {
   SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK = 2,
   /** Cut out of a box by planes that touch the body: tight on thin bodies, too. */
   SWIFT_HIERARCHY_OUTER_CUTS = 3,
-  /** The caller's, translated and scaled until they contain the body. */
+  /**
+   * The caller's, translated and scaled until they contain the body: those of a shape made from levels
+   * (swift_shape_create_from_levels). No shape can be asked to build them.
+   */
   SWIFT_HIERARCHY_GIVEN = 4,
   /**
    * Quadric ones by the default options for bodies of 30,000 vertices and more, made by the first query that goes through them;

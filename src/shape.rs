@@ -196,7 +196,11 @@ impl Shape {
             return Err(Error::Argument("no level is given, not even the body itself".into()));
         };
         if !matches!(options.hierarchy.kind, HierarchyKind::None | HierarchyKind::Automatic) {
-            return Err(Error::Argument("levels are given, and the options ask for others to be built".into()));
+            return Err(Error::Argument(
+                "levels are given, and the options ask for others to be built: their hierarchy must be None or Automatic \
+                 (SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_AUTOMATIC)"
+                    .into(),
+            ));
         }
         let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = Vec::with_capacity(levels.len());

@@ -306,6 +306,12 @@ fn levels_are_built_counted_and_read_back() {
         assert!(last_message().contains("levels[1]"), "{}", last_message());
         assert_eq!(swift_shape_create_from_levels(null(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
         assert_eq!(swift_shape_create_from_levels(null(), 0, null(), &mut given), StatusCode::ErrorInvalidArgument);
+        let mut options = MaybeUninit::<CShapeOptions>::uninit();
+        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        let options = CShapeOptions { hierarchy: HierarchyKind::Given as i32, ..options.assume_init() };
+        let status = swift_shape_create_from_levels(levels.as_ptr(), 2, &options, &mut given);
+        assert_eq!(status, StatusCode::ErrorInvalidArgument);
+        assert!(last_message().contains("SWIFT_HIERARCHY_NONE"), "{}", last_message());
         release(shape);
     }
 }
@@ -337,6 +343,9 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
         options.progress = None;
         for hierarchy in [HierarchyKind::Given as i32, 99, -1] {
             assert_eq!(make(&CShapeOptions { hierarchy, ..options }), StatusCode::ErrorInvalidArgument);
+            // Who gives levels is told where they go.
+            let is_told = last_message().contains("swift_shape_create_from_levels");
+            assert_eq!(is_told, hierarchy == HierarchyKind::Given as i32, "{}", last_message());
         }
         assert_eq!(make(&CShapeOptions { decimation: 1.0, ..options }), StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("decimation"), "{}", last_message());
