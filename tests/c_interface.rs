@@ -347,8 +347,11 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
             let is_told = last_message().contains("swift_shape_create_from_levels");
             assert_eq!(is_told, hierarchy == HierarchyKind::Given as i32, "{}", last_message());
         }
-        assert_eq!(make(&CShapeOptions { decimation: 1.0, ..options }), StatusCode::ErrorInvalidArgument);
-        assert!(last_message().contains("decimation"), "{}", last_message());
+        for (decimation, shown) in [(0.0, "0.0"), (1.0, "1.0"), (f64::NAN, "NaN")] {
+            assert_eq!(make(&CShapeOptions { decimation, ..options }), StatusCode::ErrorInvalidArgument);
+            let expected = format!("decimation is {shown}, it must be between 0 and 1, both exclusive");
+            assert_eq!(last_message(), expected);
+        }
     }
 }
 

@@ -35,9 +35,9 @@ pub struct CShapeOptions {
     pub convexity_tolerance: f64,
     /// A swift_hierarchy: how levels of detail are made. Default: automatic.
     pub hierarchy: i32,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1; less where that many
-    /// would have more features than faces of many corners have. Default: 0.25. This and the two that follow do not count for
-    /// automatic levels.
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
+    /// where that many would have more features than faces of many corners have. Default: 0.25. This and the two that follow
+    /// do not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles. Default: 50.
     pub minimum_triangles: usize,

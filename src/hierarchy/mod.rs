@@ -57,9 +57,9 @@ pub const LEAST_VERTICES: usize = 30_000;
 pub struct HierarchyOptions {
     /// How.
     pub kind: HierarchyKind,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1; less where that many
-    /// would have more features than faces of many corners have. Dobkin and Kirkpatrick's own way of building decides for
-    /// theirs. This and what follows does not count for automatic levels.
+    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
+    /// where that many would have more features than faces of many corners have. Dobkin and Kirkpatrick's own way of
+    /// building decides for theirs. This and what follows does not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles.
     pub minimum_triangles: usize,
@@ -79,7 +79,8 @@ impl HierarchyOptions {
     /// [`Error::Argument`] for an option out of range, and for [`HierarchyKind::Given`].
     pub fn check(&self) -> Result<()> {
         if !(self.decimation > 0.0 && self.decimation < 1.0) {
-            return Err(Error::Argument(format!("the decimation {} is not between 0 and 1", self.decimation)));
+            let message = format!("decimation is {:?}, it must be between 0 and 1, both exclusive", self.decimation);
+            return Err(Error::Argument(message));
         }
         if self.kind == HierarchyKind::Given {
             return Err(Error::Argument(
