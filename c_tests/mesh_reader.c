@@ -139,6 +139,30 @@ static void a_format(void)
     CHECK(calls == 10);
 }
 
+/* ---- what a callback is handed ---- */
+
+/* Keeps that it was called with exactly the bytes that `user` points to; the file is refused. */
+static int32_t compare_data(void *user, const char *data, size_t size, swift_mesh_sink *sink)
+{
+    const char *expected = (const char *)user;
+    CHECK(size == strlen(expected) && memcmp(data, expected, size + 1) == 0);
+    CHECK_OK(swift_mesh_sink_fail(sink, "compared"));
+    return 1;
+}
+
+/* The whole file, with white space before the magic and the magic itself, but for a byte order mark. */
+static void data(void)
+{
+    static char content[] = " \t\r\n\f\vWHOLE 1\nend\n";
+    char marked[sizeof content + 3] = "\xef\xbb\xbf";
+    swift_shape_info info;
+    strcat(marked, content);
+    CHECK_OK(swift_library_register_mesh_reader("WHOLE", compare_data, content));
+    CHECK_FAILS(SWIFT_ERROR_FILE, "compared", read_file(write_file("whole.mesh", content), &info));
+    CHECK_FAILS(SWIFT_ERROR_FILE, "compared", read_file(write_file("whole.mesh", marked), &info));
+    CHECK_OK(swift_library_register_mesh_reader("WHOLE", NULL, NULL));
+}
+
 /* ---- what a callback may do wrong ---- */
 
 /* One fault at a time, and what a file with it is refused for. */
@@ -350,6 +374,7 @@ int main(int argc, char **argv)
         folder = argv[1];
     }
     a_format();
+    data();
     faults();
     registry();
     nested();

@@ -288,10 +288,12 @@ typedef void (*swift_deallocate_callback)(void *user, void *memory, size_t size,
  * what is wrong with the file by swift_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to the sink
  * that was refused, whether or not the callback has looked at its status.
  *
- * `user` is the pointer given with the callback. `data` holds the `size` bytes of the file, without a UTF-8 byte order mark;
- * behind them is one zero byte more, where strtod and its like end. Data and sink are gone when the callback returns; what the
- * sink was given it has copied. The callback may call the library: read other files, and register readers. It must return, and a
- * C++ exception that leaves it ends the program.
+ * `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file but for a UTF-8 byte order mark:
+ * it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
+ * them is one zero byte more, where strtod and its like end. (What strtod takes for the decimal point depends on LC_NUMERIC, the
+ * program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
+ * and sink are gone when the callback returns; what the sink was given it has copied. The callback may call the library: read
+ * other files, and register readers. It must return, and a C++ exception that leaves it ends the program.
  */
 typedef int32_t (*swift_mesh_reader_callback)(void *user,
                                               const char *data,
@@ -726,7 +728,8 @@ swift_status swift_library_set_allocator(swift_allocate_callback allocate,
  * Registers a reader of mesh files, which swift_shape_create_from_file and swift_scene_add_file call for every file that begins
  * with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the extension of
  * the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces. The first
- * bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too.
+ * bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was skipped and the
+ * magic with the rest of the file, all but the byte order mark.
  *
  * The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
  * under a magic that has one replaces it, a null callback takes it back (and does nothing if there is none). The callback may be

@@ -9,8 +9,8 @@ use crate::mesh::PolygonMesh;
 use super::scanner::{is_space, shown};
 use super::{BYTE_ORDER_MARK, without_mark};
 
-/// Makes a mesh of the bytes of a whole file, which come without a UTF-8 byte order mark. Several threads may call it at once; what
-/// it says went wrong need not name the file.
+/// Makes a mesh of the bytes of a whole file, which come with white space before the magic and the magic itself, without a UTF-8
+/// byte order mark. Several threads may call it at once; what it says went wrong need not name the file.
 pub type MeshReader = dyn Fn(&[u8]) -> Result<PolygonMesh> + Send + Sync;
 
 struct Registered {
