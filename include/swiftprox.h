@@ -21,6 +21,10 @@
  * allocator, the mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the
  * processor has; and a last message for each thread.
  *
+ * Strings. They end in a zero byte. Messages and all other strings that the library gives are UTF-8. Paths are UTF-8 on Windows
+ * (others are SWIFT_ERROR_INVALID_ARGUMENT), elsewhere bytes that go to the system as they are, UTF-8 as a rule; what of a path, of
+ * a file's content or of a callback's message is not UTF-8 stands in messages as U+FFFD.
+ *
  * Structs. Options, configs, queries and infos begin with struct_size and may grow at their end: fill the first three with their
  * _init function and change members, set an info's struct_size to its size. A struct of an older header is accepted, one of a newer
  * header as long as what this library does not know is zero. All others (answers, results, features, statistics, meshes, caches)
@@ -836,9 +840,9 @@ swift_status swift_shape_create_from_points(const double *points,
 
 /**
  * Makes a shape from a mesh file: by the reader that swift_library_register_mesh_reader has registered for its first bytes if
- * there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the system's encoding
- * (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file, or in which the reader adds
- * them; of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
+ * there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and
+ * faces from 0 in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
+ * mentioned, and no triangles with two equal corners.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults.
@@ -854,9 +858,9 @@ swift_status swift_shape_create_from_file(const char *path,
 
 /**
  * Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
- * when they are needed, as the look-up table is. The path is in the system's encoding (UTF-8 on Windows). Any machine can load
- * it, with the levels that are saved: built anew, those of a machine with other vector units may be slightly different ones. A
- * version of this library that does not know the version of the file refuses it.
+ * when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
+ * machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
+ * file refuses it.
  *
  * SWIFT_ERROR_FILE: the file cannot be written; the message names it and says why. SWIFT_ERROR_NULL_POINTER,
  * SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.

@@ -316,6 +316,36 @@ fn levels_are_built_counted_and_read_back() {
     }
 }
 
+/// Messages are UTF-8 whatever they quote; on Unix a path is bytes.
+#[test]
+#[cfg(target_os = "linux")]
+fn a_path_may_be_any_bytes_and_messages_are_utf8() {
+    let folder = std::path::Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let mut path = folder.join("Grüße ").into_os_string().into_encoded_bytes();
+    path.extend(b"\xff\xc3(.shape");
+    let path = std::ffi::CString::new(path).unwrap();
+    let shape = tetrahedron();
+    let mut loaded = null_mut();
+    // SAFETY: strings, a living shape, and room for another.
+    unsafe {
+        assert_eq!(swift_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+        assert_eq!(
+            swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
+            StatusCode::Ok,
+            "{}",
+            last_message()
+        );
+        assert!(*loaded == *shape);
+        release(loaded);
+        let file = <std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes());
+        std::fs::remove_file(file).unwrap();
+        assert_eq!(swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded), StatusCode::ErrorFile);
+        let message = CStr::from_ptr(swift_library_last_error_message()).to_str().unwrap();
+        assert!(message.contains("Grüße \u{fffd}\u{fffd}(.shape: cannot be read"), "{message}");
+    }
+    release(shape);
+}
+
 #[test]
 fn a_build_can_be_cancelled_and_its_options_are_checked() {
     let points = many_points();

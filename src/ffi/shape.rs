@@ -121,9 +121,9 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 }
 
 /// Makes a shape from a mesh file: by the reader that swift_library_register_mesh_reader has registered for its first bytes if
-/// there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. The path is in the system's encoding
-/// (UTF-8 on Windows). Features of answers count vertices and faces from 0 in the order of the file, or in which the reader adds
-/// them; of STL vertices in the order in which they are first mentioned, and no triangles with two equal corners.
+/// there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and
+/// faces from 0 in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
+/// mentioned, and no triangles with two equal corners.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
@@ -147,9 +147,9 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
 }
 
 /// Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
-/// when they are needed, as the look-up table is. The path is in the system's encoding (UTF-8 on Windows). Any machine can load
-/// it, with the levels that are saved: built anew, those of a machine with other vector units may be slightly different ones. A
-/// version of this library that does not know the version of the file refuses it.
+/// when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
+/// machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
+/// file refuses it.
 ///
 /// SWIFT_ERROR_FILE: the file cannot be written; the message names it and says why. SWIFT_ERROR_NULL_POINTER,
 /// SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
