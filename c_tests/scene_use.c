@@ -60,6 +60,8 @@ static void queries(void)
     query.distance_tolerance = 1.75;
     CHECK_OK(swift_scene_query_tolerance(scene, &query, &answer));
     CHECK(answer.count == 2 && answer.pairs[1].object1 == b && answer.pairs[1].object2 == c);
+    CHECK(answer.pairs[0].answer.proof_count > 0 && isnan(answer.pairs[0].answer.world1[0]));
+    CHECK(fabs(answer.pairs[1].answer.world1[0] - 1.5) < 1e-13 && answer.pairs[1].answer.normal[0] == -1);
 
     CHECK_OK(swift_scene_query_contacts(scene, &query, &answer));
     CHECK(answer.count == 2);

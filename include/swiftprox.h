@@ -1295,7 +1295,8 @@ swift_status swift_scene_set_all_transforms(struct swift_scene *scene,
 swift_status swift_scene_query_init(struct swift_scene_query *query);
 
 /**
- * Lists the intersecting pairs (touching ones are), each with its verdict alone. `query` may be null for the defaults.
+ * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
+ * and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
  *
  * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
  * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
@@ -1306,8 +1307,9 @@ swift_status swift_scene_query_intersection(struct swift_scene *scene,
                                             struct swift_scene_answer *answer);
 
 /**
- * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Errors as of
- * swift_scene_query_intersection.
+ * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
+ * swift_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features; of
+ * an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swift_scene_query_intersection.
  */
 swift_status swift_scene_query_tolerance(struct swift_scene *scene,
                                          const struct swift_scene_query *query,

@@ -434,7 +434,8 @@ impl Scene {
         self.run(query, f64::INFINITY, pair::intersection, |answer| answer.outcome == Outcome::Intersecting)
     }
 
-    /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included.
+    /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
+    /// [`Scene::query_exact_distance`] do.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`].

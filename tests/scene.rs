@@ -14,7 +14,7 @@ use swiftprox::exact::solve;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
@@ -87,6 +87,18 @@ fn each_query_lists_what_it_promises() {
     // The cheapest bounds list the same pairs.
     let cheap = SceneQuery { bounds: Bounds::Verdict, ..up_to(1.75) };
     assert_eq!(listed(scene.query_tolerance(&cheap).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
+
+    // Verification says of a separated pair all that the distance does, of an intersecting one the verdict.
+    let [overlapping, apart] = scene.query_tolerance(&up_to(1.5)).unwrap().pairs else { panic!() };
+    let points = |answer: &PairAnswer| [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
+    let features = |answer: &PairAnswer| [answer.feature1.kind, answer.feature2.kind];
+    assert!(points(&apart.answer).as_flattened().iter().all(|x| x.is_finite()), "{apart:?}");
+    assert!(!features(&apart.answer).contains(&FeatureKind::None) && apart.answer.proof_count == 0, "{apart:?}");
+    assert!(apart.answer.upper - apart.answer.lower < 1e-13, "{apart:?}");
+    assert!(points(&overlapping.answer).as_flattened().iter().all(|x| x.is_nan()), "{overlapping:?}");
+    let PairAnswer { distance, lower, upper, proof_count, .. } = overlapping.answer;
+    assert!([distance, lower, upper] == [0.0; 3] && proof_count > 0, "{overlapping:?}");
+    assert_eq!(features(&overlapping.answer), [FeatureKind::None; 2]);
 
     let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
     assert_eq!(answer.pairs.len(), 3);

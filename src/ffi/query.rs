@@ -86,7 +86,8 @@ pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> Stat
     guard(|| unsafe { output(query, "query", CSceneQuery::DEFAULT) })
 }
 
-/// Lists the intersecting pairs (touching ones are), each with its verdict alone. `query` may be null for the defaults.
+/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
+/// and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
 /// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
@@ -101,8 +102,9 @@ pub unsafe extern "C" fn swift_scene_query_intersection(
     unsafe { ask(Scene::query_intersection, scene, query, answer) }
 }
 
-/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Errors as of
-/// swift_scene_query_intersection.
+/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
+/// swift_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features; of
+/// an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swift_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_query_tolerance(
     scene: *mut SceneHandle,
