@@ -388,10 +388,24 @@ static void scenes(void)
     CHECK_OK(swift_scene_destroy(other));
 }
 
+/* Any number gets words, one that is no enumerator, too. */
+static void words(void)
+{
+    CHECK(strcmp(swift_library_status_string(SWIFT_ERROR_POSE), "a pose is refused") == 0);
+    CHECK(strcmp(swift_library_status_string(-1), "not a status") == 0);
+    CHECK(strcmp(swift_library_outcome_string(SWIFT_OUTCOME_INTERSECTING), "intersecting") == 0);
+    CHECK(strcmp(swift_library_outcome_string(SWIFT_OUTCOME_UNDECIDED + 1), "not an outcome") == 0);
+    CHECK(strcmp(swift_library_outcome_string(INT32_MIN), "not an outcome") == 0);
+    CHECK(strcmp(swift_library_feature_kind_string(SWIFT_FEATURE_KIND_EDGE), "edge") == 0);
+    CHECK(strcmp(swift_library_feature_kind_string(SWIFT_FEATURE_KIND_FACE + 1), "not a feature kind") == 0);
+    CHECK(strcmp(swift_library_feature_kind_string(INT32_MIN), "not a feature kind") == 0);
+}
+
 int main(int argc, char **argv)
 {
     CHECK_OK(swift_library_check_version(SWIFT_VERSION_MAJOR, SWIFT_VERSION_MINOR, SWIFT_VERSION_PATCH));
     CHECK_FAILS(SWIFT_ERROR_VERSION, "1000", swift_library_check_version(1000, 0, 0));
+    words();
     meshes();
     shape_options();
     files(argc > 1 ? argv[1] : ".");

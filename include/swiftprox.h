@@ -197,7 +197,8 @@ enum {
   SWIFT_FEATURE_KIND_EDGE = 2,
   /**
    * A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact of
-   * objects deep in each other one that reaches farthest into the other.
+   * objects deep in each other one that reaches farthest into the other. Of a hull that was made without polygons it is a
+   * number of the hull's own, from 0 and below its number of faces.
    */
   SWIFT_FEATURE_KIND_FACE = 3
 };
@@ -699,6 +700,18 @@ swift_status swift_library_check_version(int32_t major,
 const char *swift_library_status_string(int32_t status);
 
 /**
+ * An outcome of a pair query, a swift_outcome, in words. Never null, valid for ever; a number that is no outcome gets a string
+ * that says so.
+ */
+const char *swift_library_outcome_string(int32_t outcome);
+
+/**
+ * A kind of features, a swift_feature_kind, in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a number
+ * that is no kind gets a string that says so.
+ */
+const char *swift_library_feature_kind_string(int32_t kind);
+
+/**
  * What went wrong in the last call of this thread that did not return SWIFT_OK; the empty string before the first. Never
  * null; valid until the next such call of the same thread, or its end.
  */
@@ -824,7 +837,8 @@ swift_status swift_shape_create_from_mesh(const double *vertices,
 
 /**
  * Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
- * name vertices by their place in `points` (the first of equal ones).
+ * name vertices by their place in `points` (the first of equal ones), faces by numbers of the hull's own, from 0 and below
+ * swift_shape_info.face_count.
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults, which refuse a hull without interior.

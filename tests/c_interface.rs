@@ -25,7 +25,7 @@ use swiftprox::ffi::shape_options::*;
 use swiftprox::hierarchy::HierarchyKind;
 use swiftprox::math::Vector;
 use swiftprox::object::ObjectId;
-use swiftprox::pair::{Outcome, PairAnswer, PairConfig};
+use swiftprox::pair::{FeatureKind, Outcome, PairAnswer, PairConfig};
 use swiftprox::shape::Shape;
 
 const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
@@ -474,14 +474,23 @@ fn a_rust_program_keeps_its_allocator() {
 }
 
 #[test]
-fn every_status_has_words_of_its_own() {
-    let words = |status: i32| {
-        // SAFETY: never null, terminated, valid for ever.
-        unsafe { CStr::from_ptr(swift_library_status_string(status)) }.to_string_lossy().into_owned()
-    };
-    let all: Vec<String> = (0..=StatusCode::ErrorUnsupported as i32).map(words).collect();
-    assert!(!all.contains(&words(-1)) && words(-1) == words(i32::MAX));
-    for (i, one) in all.iter().enumerate() {
-        assert!(!all[..i].contains(one), "{one}");
+fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
+    type InWords = extern "C" fn(i32) -> *const c_char;
+    for (in_words, last, unknown) in [
+        (swift_library_status_string as InWords, StatusCode::ErrorUnsupported as i32, "not a status"),
+        (swift_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
+        (swift_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
+    ] {
+        let words = |number: i32| {
+            // SAFETY: never null, terminated, valid for ever.
+            unsafe { CStr::from_ptr(in_words(number)) }.to_str().unwrap()
+        };
+        let all: Vec<&str> = (0..=last).map(words).collect();
+        for (i, one) in all.iter().enumerate() {
+            assert!(!one.is_empty() && *one != unknown && !all[..i].contains(one), "{i}: {one}");
+        }
+        for number in [i32::MIN, -1, last + 1, i32::MAX] {
+            assert_eq!(words(number), unknown, "{number}");
+        }
     }
 }

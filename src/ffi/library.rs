@@ -1,9 +1,11 @@
-//! The library as a whole: its version, its statuses in words, the last error, the log.
+//! The library as a whole: its version, its statuses and what answers say in words, the last error, the log.
 
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
 use super::{Failure, LAST_ERROR, StatusCode, guard};
+use crate::enumerator::Enumerator;
+use crate::pair::{FeatureKind, Outcome};
 
 /// Major version of this header: programs compiled with another one do not go with this library.
 pub const VERSION_MAJOR: i32 = 0;
@@ -63,6 +65,35 @@ pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
     ];
     let known = STRINGS.iter().find(|(code, _)| *code as i32 == status);
     known.map_or(c"not a status", |(_, string)| string).as_ptr()
+}
+
+/// An outcome of a pair query, a swift_outcome, in words. Never null, valid for ever; a number that is no outcome gets a string
+/// that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_outcome_string(outcome: i32) -> *const c_char {
+    let string = match Outcome::from_number(outcome) {
+        Some(Outcome::None) => c"nothing is said",
+        Some(Outcome::Separated) => c"separated",
+        Some(Outcome::Beyond) => c"beyond the distance tolerance",
+        Some(Outcome::Intersecting) => c"intersecting",
+        Some(Outcome::Undecided) => c"undecided",
+        None => c"not an outcome",
+    };
+    string.as_ptr()
+}
+
+/// A kind of features, a swift_feature_kind, in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a number
+/// that is no kind gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swift_library_feature_kind_string(kind: i32) -> *const c_char {
+    let string = match FeatureKind::from_number(kind) {
+        Some(FeatureKind::None) => c"none",
+        Some(FeatureKind::Vertex) => c"vertex",
+        Some(FeatureKind::Edge) => c"edge",
+        Some(FeatureKind::Face) => c"face",
+        None => c"not a feature kind",
+    };
+    string.as_ptr()
 }
 
 /// What went wrong in the last call of this thread that did not return SWIFT_OK; the empty string before the first. Never

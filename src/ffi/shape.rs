@@ -97,7 +97,8 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 }
 
 /// Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
-/// name vertices by their place in `points` (the first of equal ones).
+/// name vertices by their place in `points` (the first of equal ones), faces by numbers of the hull's own, from 0 and below
+/// swift_shape_info.face_count.
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults, which refuse a hull without interior.

@@ -128,7 +128,10 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
             4 => swift_shape_release(null()),
             _ => {
                 let _ = swift_library_version();
-                let _ = swift_library_status_string(u.arbitrary()?);
+                let number = u.arbitrary()?;
+                let _ = swift_library_status_string(number);
+                let _ = swift_library_outcome_string(number);
+                let _ = swift_library_feature_kind_string(number);
                 swift_object_options_init(null_mut())
             }
         }
