@@ -211,6 +211,10 @@ static void levels(void)
     CHECK_OK(swift_scene_get_statistics(scene, &statistics));
     CHECK(statistics.pairs == 3 && statistics.within_tolerance == 3 && statistics.by_level[0] == 0);
     CHECK(statistics.error_spent > 0 && statistics.error_spent <= 3);
+    CHECK_OK(swift_scene_reset_statistics(scene));
+    CHECK_OK(swift_scene_query_intersection(scene, NULL, &answer));
+    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK(statistics.pairs == 3 && statistics.error_spent == 0);
     query.error_budget = 0;
     CHECK_OK(swift_scene_reset_statistics(scene));
     CHECK_OK(swift_scene_query_approximate_distance(scene, &query, &answer));

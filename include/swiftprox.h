@@ -675,7 +675,10 @@ typedef struct swift_scene_statistics {
    * themselves; the last entry is for all levels beyond, too.
    */
   uint64_t by_level[8];
-  /** Sum of `upper - lower` over the pairs answered as SWIFT_OUTCOME_SEPARATED. */
+  /**
+   * Sum of `upper - lower` over the pairs that queries about distances answered as SWIFT_OUTCOME_SEPARATED or left
+   * SWIFT_OUTCOME_UNDECIDED. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
+   */
   double error_spent;
   /** Of the pairs, those whose bounding spheres decided. */
   uint64_t bounding_spheres;

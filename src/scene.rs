@@ -131,7 +131,8 @@ pub struct SceneStatistics {
     /// Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
     /// themselves; the last entry is for all levels beyond, too.
     pub by_level: [u64; 8],
-    /// Sum of `upper − lower` over the pairs answered as [`Outcome::Separated`].
+    /// Sum of `upper − lower` over the pairs that queries about distances answered as [`Outcome::Separated`] or left
+    /// [`Outcome::Undecided`]. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
     pub error_spent: f64,
     /// Of the pairs, those whose bounding spheres decided.
     pub bounding_spheres: u64,
@@ -154,9 +155,6 @@ impl SceneStatistics {
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);
         self.exact_iterations += u64::from(answer.statistics.exact_iterations);
         let [level1, level2] = answer.statistics.levels.map(usize::from);
-        if answer.outcome == Outcome::Separated {
-            self.error_spent += answer.upper - answer.lower;
-        }
         self.by_level[level1.max(level2).min(self.by_level.len() - 1)] += 1;
     }
 }
@@ -431,7 +429,7 @@ impl Scene {
     /// [`Error::Argument`] for a distance tolerance that is negative or NaN, [`Error::Limit`] when the memory for a changed
     /// list of pairs is not there.
     pub fn query_intersection(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        self.run(query, f64::INFINITY, pair::intersection, |answer| answer.outcome == Outcome::Intersecting)
+        self.run(query, None, pair::intersection)
     }
 
     /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
@@ -449,7 +447,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`].
     pub fn query_exact_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        self.run(query, query.distance_tolerance, pair::distance, is_within)
+        self.run(query, Some(query.distance_tolerance), pair::distance)
     }
 
     /// As [`Scene::query_exact_distance`], and intersecting pairs have finite witness points and a unit normal as well
@@ -458,7 +456,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`].
     pub fn query_contacts(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        self.run(query, query.distance_tolerance, pair::contact, is_within)
+        self.run(query, Some(query.distance_tolerance), pair::contact)
     }
 
     /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower
@@ -472,7 +470,7 @@ impl Scene {
         let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
         pair::check_accuracy(absolute_error, relative_error, step_budget)?;
         check_range("error_budget", error_budget, 0.0..=f64::INFINITY)?;
-        self.run(query, distance_tolerance, pair::approximate, is_within)
+        self.run(query, Some(distance_tolerance), pair::approximate)
     }
 
     /// What the queries did.
@@ -485,14 +483,9 @@ impl Scene {
         self.statistics = SceneStatistics::default();
     }
 
-    /// Solves every tested pair up to `tolerance` and lists those that `listed` accepts.
-    fn run(
-        &mut self,
-        query: &SceneQuery,
-        tolerance: f64,
-        solver: Solver,
-        listed: impl Fn(&PairAnswer) -> bool,
-    ) -> Result<SceneAnswer<'_>> {
+    /// Solves every tested pair and lists those within `tolerance`; without one only the verdict is asked for, and intersecting
+    /// pairs are listed.
+    fn run(&mut self, query: &SceneQuery, tolerance: Option<f64>, solver: Solver) -> Result<SceneAnswer<'_>> {
         check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
         self.update_pairs()?;
         self.results.clear();
@@ -501,7 +494,7 @@ impl Scene {
         let [absolute_error, relative_error] =
             if share < f64::INFINITY { [share, 0.0] } else { [query.absolute_error, query.relative_error] };
         let config = PairConfig {
-            distance_tolerance: tolerance,
+            distance_tolerance: tolerance.unwrap_or(f64::INFINITY),
             absolute_error,
             relative_error,
             step_budget: query.step_budget,
@@ -521,6 +514,14 @@ impl Scene {
             // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
             solver(shape1, &object1.pose, shape2, &object2.pose, &mut pair.cache, &config, &mut answer)?;
             self.statistics.count(&answer);
+            let is_listed = match answer.outcome {
+                Outcome::Intersecting => true,
+                Outcome::Separated | Outcome::Undecided => tolerance.is_some(),
+                Outcome::Beyond | Outcome::None => false,
+            };
+            if is_listed {
+                self.statistics.error_spent += answer.upper - answer.lower;
+            }
             if answer.outcome == Outcome::Intersecting {
                 intersecting = true;
                 if query.early_exit {
@@ -528,7 +529,7 @@ impl Scene {
                     break;
                 }
             }
-            if listed(&answer) {
+            if is_listed {
                 self.results.push(PairResult {
                     object1: object1.id(),
                     object2: object2.id(),
@@ -541,14 +542,6 @@ impl Scene {
             }
         }
         Ok(SceneAnswer { intersecting, pairs: &self.results })
-    }
-}
-
-/// Whether a query lists the pair: unless it is beyond the distance tolerance.
-fn is_within(answer: &PairAnswer) -> bool {
-    match answer.outcome {
-        Outcome::Intersecting | Outcome::Separated | Outcome::Undecided => true,
-        Outcome::Beyond | Outcome::None => false,
     }
 }
 

@@ -14,7 +14,7 @@ use swiftprox::exact::solve;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
@@ -362,6 +362,39 @@ fn statistics_add_up() {
     assert!(statistics.marching_steps + statistics.fallback_iterations + statistics.exact_iterations > 0);
     scene.reset_statistics();
     assert_eq!(scene.statistics(), &SceneStatistics::default());
+}
+
+/// Verdicts spend nothing, however wide their intervals are; of distances all that is left open counts, and what a budget of steps
+/// leaves undecided most of all.
+#[test]
+fn error_spent_is_what_distances_leave_open() {
+    let mut random = Random::new(0xe4405);
+    let mut scene = scene();
+    let shape = ellipsoid(&mut random, 300, [0.6, 0.5, 0.2], Vector::zeros());
+    for _ in 0..12 {
+        let options = ObjectOptions { pose: random_pose(&mut random, 1.5), ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap();
+    }
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    scene.query_intersection(&SceneQuery { bounds: Bounds::Verdict, ..Default::default() }).unwrap();
+    assert!(scene.statistics().pairs == 132 && scene.statistics().error_spent == 0.0, "{:?}", scene.statistics());
+
+    let near = SceneQuery { distance_tolerance: 0.5, absolute_error: 0.1, ..Default::default() };
+    let hurried = SceneQuery { step_budget: 1, start: Start::Cold, ..near };
+    let mut undecided = 0;
+    for ask in
+        [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts, Scene::query_approximate_distance]
+    {
+        for query in [near, hurried] {
+            scene.reset_statistics();
+            let pairs = ask(&mut scene, &query).unwrap().pairs;
+            let left_open: f64 = pairs.iter().map(|pair| pair.answer.upper - pair.answer.lower).sum();
+            undecided += pairs.iter().filter(|pair| pair.answer.outcome == Outcome::Undecided).count();
+            assert!(left_open > 0.0);
+            assert_eq!(scene.statistics().error_spent, left_open);
+        }
+    }
+    assert!(undecided > 0);
 }
 
 /// The steps of the first pair of a scene's list.
