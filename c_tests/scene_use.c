@@ -71,9 +71,12 @@ static void queries(void)
     CHECK(fabs(apart->local1[0] - 1) < 1e-13 && fabs(apart->local2[0]) < 1e-13);
     CHECK(isfinite(answer.pairs[0].answer.world1[0]) && isfinite(answer.pairs[0].answer.normal[0]));
 
+    CHECK(answer.found == NULL);
     query.early_exit = 1;
     CHECK_OK(swift_scene_query_exact_distance(scene, &query, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 0 && answer.pairs == NULL);
+    CHECK(answer.found != NULL && answer.found->object1 == a && answer.found->object2 == b);
+    CHECK(answer.found->answer.outcome == SWIFT_OUTCOME_INTERSECTING && answer.found->user_data2 == 5);
 
     swift_scene_statistics statistics;
     CHECK_OK(swift_scene_get_statistics(scene, &statistics));

@@ -588,7 +588,10 @@ typedef struct swift_scene_query {
    * to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
    */
   double distance_tolerance;
-  /** Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0. */
+  /**
+   * Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then: swift_scene_answer.found
+   * is it. Default: 0.
+   */
   int32_t early_exit;
   /** A swift_bounds: which interval the answers carry. Default: the tight one. */
   int32_t bounds;
@@ -644,6 +647,12 @@ typedef struct swift_scene_answer {
   size_t count;
   /** 1 if any tested pair intersects, else 0. */
   int32_t intersecting;
+  /**
+   * The intersecting pair at which the query stopped, if it did (swift_scene_query.early_exit), else null: of all that intersect
+   * the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one undecided.)
+   * Owned and valid as pairs are.
+   */
+  const struct swift_pair_result *found;
 } swift_scene_answer;
 
 /** What the queries of a scene did since it was made or swift_scene_reset_statistics was called. */

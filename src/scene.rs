@@ -31,7 +31,7 @@ impl Default for SceneOptions {
 /// What a query over a scene is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneQuery {
-    /// Stop at the first intersecting pair, and then list no pairs at all.
+    /// Stop at the first intersecting pair in the order of results, and then list no pairs at all: [`SceneAnswer::found`] is it.
     pub early_exit: bool,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does not look at it.
@@ -100,6 +100,10 @@ pub struct SceneAnswer<'a> {
     pub intersecting: bool,
     /// The pairs that the query lists, in the scene's order. Owned by the scene until its next change or query.
     pub pairs: &'a [PairResult],
+    /// The intersecting pair at which the query stopped, if it did ([`SceneQuery::early_exit`]): of all that intersect the first in
+    /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
+    /// `pairs` are.
+    pub found: Option<&'a PairResult>,
 }
 
 /// What the queries of a scene did since it was made or [`Scene::reset_statistics`] was called.
@@ -522,13 +526,6 @@ impl Scene {
             if is_listed {
                 self.statistics.error_spent += answer.upper - answer.lower;
             }
-            if answer.outcome == Outcome::Intersecting {
-                intersecting = true;
-                if query.early_exit {
-                    self.results.clear();
-                    break;
-                }
-            }
             if is_listed {
                 self.results.push(PairResult {
                     object1: object1.id(),
@@ -540,8 +537,14 @@ impl Scene {
                     answer,
                 });
             }
+            if answer.outcome == Outcome::Intersecting {
+                intersecting = true;
+                if query.early_exit {
+                    return Ok(SceneAnswer { intersecting, pairs: &[], found: self.results.last() });
+                }
+            }
         }
-        Ok(SceneAnswer { intersecting, pairs: &self.results })
+        Ok(SceneAnswer { intersecting, pairs: &self.results, found: None })
     }
 }
 

@@ -154,13 +154,23 @@ fn early_exit_lists_nothing_when_something_intersects() {
     let query = SceneQuery { early_exit: true, ..Default::default() };
     let answer = scene.query_exact_distance(&query).unwrap();
     assert!(!answer.intersecting);
-    assert_eq!(answer.pairs.len(), 3);
+    assert_eq!((answer.pairs.len(), answer.found), (3, None));
 
     scene.set_pose(ids[2], &at(2.5, 0.0, 0.0)).unwrap();
     let answer = scene.query_exact_distance(&query).unwrap();
     assert!(answer.intersecting && answer.pairs.is_empty());
+    assert_eq!(answer.found.map(|found| [found.object1, found.object2]), Some([ids[1], ids[2]]));
     let answer = scene.query_intersection(&query).unwrap();
     assert!(answer.intersecting && answer.pairs.is_empty());
+    assert_eq!(answer.found.map(|found| (found.user_data1, found.user_data2)), Some((101, 102)));
+    // Of several the first in the order of results, however the objects came to where they are.
+    scene.set_pose(ids[0], &at(1.5, 0.0, 0.0)).unwrap();
+    for query in [query, SceneQuery { distance_tolerance: 0.0, ..query }] {
+        let found = scene.query_contacts(&query).unwrap().found.copied().unwrap();
+        assert_eq!([found.object1, found.object2], [ids[0], ids[1]]);
+        assert_eq!(found.answer.outcome, Outcome::Intersecting);
+    }
+    assert_eq!(scene.query_contacts(&SceneQuery::default()).unwrap().found, None);
 }
 
 /// Distances that no double holds are no reason to lose the others.
@@ -553,6 +563,7 @@ fn answers_do_not_depend_on_the_past() {
         let answer = scene.query_contacts(&early).unwrap();
         assert_eq!(answer.intersecting, !intersecting.is_empty());
         agree(answer.pairs, if intersecting.is_empty() { &near } else { &[] });
+        agree(answer.found.map_or(&[], std::slice::from_ref), &intersecting[..intersecting.len().min(1)]);
     }
     // The test saw what it is about.
     assert!(seen[0] > 1_000 && seen[1] - seen[0] > 1_000, "{seen:?}");

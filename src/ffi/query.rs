@@ -15,7 +15,8 @@ pub struct CSceneQuery {
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
     pub distance_tolerance: f64,
-    /// Not 0: stop at the first intersecting pair, and list no pairs at all then. Default: 0.
+    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then: swift_scene_answer.found
+    /// is it. Default: 0.
     pub early_exit: i32,
     /// A swift_bounds: which interval the answers carry. Default: the tight one.
     pub bounds: i32,
@@ -71,10 +72,15 @@ pub struct CSceneAnswer {
     pub count: usize,
     /// 1 if any tested pair intersects, else 0.
     pub intersecting: i32,
+    /// The intersecting pair at which the query stopped, if it did (swift_scene_query.early_exit), else null: of all that intersect
+    /// the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one undecided.)
+    /// Owned and valid as pairs are.
+    pub found: *const PairResult,
 }
 
 impl CSceneAnswer {
-    const EMPTY: CSceneAnswer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0 };
+    const EMPTY: CSceneAnswer =
+        CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
 }
 
 /// Fills `query` with the defaults, struct_size included.
@@ -190,10 +196,10 @@ unsafe fn ask(
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
-    let mut found = CSceneAnswer::EMPTY;
+    let mut said = CSceneAnswer::EMPTY;
     // Before the scene does anything.
     // SAFETY: by the caller.
-    let refused = guard(|| unsafe { output(answer, "answer", found) });
+    let refused = guard(|| unsafe { output(answer, "answer", said) });
     if refused != StatusCode::Ok {
         return refused;
     }
@@ -215,15 +221,16 @@ unsafe fn ask(
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {
-                found.pairs = listed.pairs.as_ptr();
+                said.pairs = listed.pairs.as_ptr();
             }
-            found.count = listed.pairs.len();
-            found.intersecting = i32::from(listed.intersecting);
+            said.count = listed.pairs.len();
+            said.intersecting = i32::from(listed.intersecting);
+            said.found = listed.found.map_or(std::ptr::null(), std::ptr::from_ref);
             Ok(())
         })
     };
     // SAFETY: by the caller.
-    match guard(|| unsafe { output(answer, "answer", found) }) {
+    match guard(|| unsafe { output(answer, "answer", said) }) {
         StatusCode::Ok => status,
         failure => failure,
     }
@@ -265,7 +272,7 @@ mod tests {
             assert!(last_message().contains("injected 42"), "{}", last_message());
             assert!(last_message().contains("query.rs"), "{}", last_message());
 
-            let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7 };
+            let mut answer = CSceneAnswer { count: 7, intersecting: 7, ..CSceneAnswer::EMPTY };
             let mut statistics = SceneStatistics::default();
             assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
@@ -284,7 +291,7 @@ mod tests {
         let (broken, sound) = (new_scene(), new_scene());
         let pieces = [Arc::as_ptr(&shape)];
         let mut id = ObjectId::NULL;
-        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7 };
+        let mut answer = CSceneAnswer { count: 7, intersecting: 7, ..CSceneAnswer::EMPTY };
         // SAFETY: living scenes, used by this thread only, a living shape, and room for every output.
         unsafe {
             for scene in [broken, broken, sound, sound] {

@@ -104,17 +104,19 @@ impl Program {
         query.step_budget = *u.choose(&BUDGETS)?;
         query.levels = *u.choose(&LEVELS)? as i32;
         query.refinement = *u.choose(&REFINEMENTS)? as i32;
-        let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0 };
+        let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
         // SAFETY: a living scene, query and answer; the results are the scene's until its next change.
         unsafe {
             let status = swift_scene_query_approximate_distance(scene.handle, &query, &mut answer);
             assert_eq!(status == StatusCode::Ok, query.error_budget >= 0.0, "{}", last_message());
             let listed: &[PairResult] =
                 if answer.count == 0 { &[] } else { std::slice::from_raw_parts(answer.pairs, answer.count) };
-            if status == StatusCode::Ok && !(query.early_exit != 0 && answer.intersecting != 0) {
-                assert_eq!(listed.len(), scene.tested().len());
+            let stopped = status == StatusCode::Ok && query.early_exit != 0 && answer.intersecting != 0;
+            assert_eq!(answer.found.is_null(), !stopped);
+            if status == StatusCode::Ok {
+                assert_eq!(listed.len(), if stopped { 0 } else { scene.tested().len() });
             }
-            for result in listed {
+            for result in listed.iter().chain(answer.found.as_ref()) {
                 match result.answer.outcome {
                     Outcome::Undecided => check_undecided(&result.answer),
                     _ => super::scenes::check_result(scene.handle, result),
