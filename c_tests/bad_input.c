@@ -210,9 +210,14 @@ static void pairs(void)
     config.rotation_limit = 1e-9;
     CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal",
                 swift_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
-    config.rotation_limit = NAN;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit",
-                swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        config.rotation_limit = bad[i];
+        CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit",
+                    swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    }
+    config.rotation_limit = 0.5;
+    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
+                swift_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
     CHECK_OK(swift_pair_config_init(&config));
     config.distance_tolerance = -1;
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "distance_tolerance",
@@ -284,7 +289,8 @@ static void scenes(void)
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_create(NULL, NULL));
     CHECK_OK(swift_scene_options_init(&options));
     options.rotation_limit = 0.5;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit", swift_scene_create(&options, &scene));
+    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
+                swift_scene_create(&options, &scene));
     CHECK(scene == NULL);
     CHECK_OK(swift_scene_destroy(NULL));
     CHECK_OK(swift_scene_create(NULL, &scene));

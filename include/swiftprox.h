@@ -448,7 +448,7 @@ typedef struct swift_pair_config {
   size_t struct_size;
   /** Of pairs farther apart than this only that is said, with a lower bound; +infinity (the default): of none. */
   double distance_tolerance;
-  /** Largest accepted |R^T R - I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2. */
+  /** Largest accepted |R^T R - I| entry, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /** Which interval. */
   swift_bounds bounds;

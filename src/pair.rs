@@ -11,6 +11,7 @@ mod levels;
 use attempt::Coherent;
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
+use config::check_config;
 pub use config::{Bounds, Levels, PairConfig, Start};
 use glance::Separation;
 
@@ -19,7 +20,7 @@ use crate::certificate::Interval;
 pub use crate::descent::Refinement;
 use crate::error::Result;
 use crate::frame::RIGID_TOGETHER;
-use crate::math::{Pose, clamp};
+use crate::math::{Pose, ROTATION_LIMIT, clamp};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::simd;
@@ -41,8 +42,8 @@ enum Query {
 ///
 /// # Errors
 /// [`Error::Pose`](crate::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
-/// above `config.rotation_limit`), [`Error::Argument`](crate::error::Error::Argument) for a tolerance or limit that is NaN or
-/// negative. Then `answer` and `cache` are as they were.
+/// above `config.rotation_limit`), [`Error::Argument`](crate::error::Error::Argument) for a tolerance that is NaN or negative and
+/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`]. Then `answer` and `cache` are as they were.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,
@@ -124,18 +125,20 @@ fn query(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if config.distance_tolerance < f64::INFINITY {
-        // Arrays of their own: those lent to it would have to live in memory here, too.
-        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
-        return query_with_tolerance(query, shapes, poses, cache, config, answer);
+    // Mostly. A NaN is neither.
+    if config.distance_tolerance >= f64::INFINITY && (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&config.rotation_limit)
+    {
+        let enough = (query == Query::Intersection).then_some(0.0);
+        return query_beyond(query, enough, shapes, poses, cache, config, answer);
     }
-    let asks_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
-    query_beyond(query, asks_verdict.then_some(0.0), shapes, poses, cache, config, answer)
+    // Arrays of their own: those lent to it would have to live in memory here, too.
+    let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
+    query_with_limits(query, shapes, poses, cache, config, answer)
 }
 
-/// Out of line, with all that follows: mostly there is no tolerance.
+/// With a distance tolerance, most likely. Out of line, with all that follows.
 #[inline(never)]
-fn query_with_tolerance(
+fn query_with_limits(
     query: Query,
     shapes: [&Shape; 2],
     poses: [&Pose; 2],
@@ -143,10 +146,33 @@ fn query_with_tolerance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_beyond(query, Some(config.distance_tolerance), shapes, poses, cache, config, answer)
+    if config.distance_tolerance >= 0.0 && (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&config.rotation_limit) {
+        return query_beyond(query, Some(config.distance_tolerance), shapes, poses, cache, config, answer);
+    }
+    query_strictly(query, shapes, poses, cache, config, answer)
 }
 
-/// A query that needs to know no more than that the bodies are farther apart than is `enough`, if they are.
+/// With a rotation limit below rounding, which asks for a closer look at the poses, or with limits that are none.
+#[cold]
+#[inline(never)]
+fn query_strictly(
+    query: Query,
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    check_config(config)?;
+    if query == Query::Intersection && levels::help_verdicts(shapes, config) {
+        return levels::of_large(query, shapes, poses, cache, config, answer);
+    }
+    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+    PairQuery { query, polyhedra, poses, cache, config, answer }.begin(shapes)
+}
+
+/// A query that needs to know no more than that the bodies are farther apart than is `enough`, if they are. The distance tolerance
+/// is one, and the rotation limit from [`RIGID_TOGETHER`] to [`ROTATION_LIMIT`].
 #[inline(always)]
 fn query_beyond(
     query: Query,
@@ -170,9 +196,7 @@ fn query_beyond(
         let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return levels::of_large(query, shapes, poses, pair.cache, config, pair.answer);
     }
-    let is_common = polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache();
-    // A NaN is not.
-    if is_common & (config.distance_tolerance >= 0.0) & (config.rotation_limit >= RIGID_TOGETHER) {
+    if polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache() {
         if query == Query::Intersection
             && pair.cache.recall_axis(polyhedra).is_some()
             && simd::dispatch(&mut Separation { pair: &mut pair })

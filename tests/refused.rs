@@ -9,8 +9,9 @@ use common::models::ellipsoid;
 use shapes::at;
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig, Start, Status};
+use swiftprox::scene::{Scene, SceneOptions};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
@@ -83,6 +84,10 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
                 PairConfig { distance_tolerance: f64::NAN, ..config },
                 PairConfig { distance_tolerance: -1.0, ..config },
                 PairConfig { rotation_limit: f64::NAN, ..config },
+                PairConfig { rotation_limit: -1e-9, ..config },
+                PairConfig { rotation_limit: ROTATION_LIMIT.next_up(), ..config },
+                PairConfig { rotation_limit: f64::INFINITY, ..config },
+                PairConfig { rotation_limit: 0.5, distance_tolerance: 0.1, ..config },
             ] {
                 let result =
                     query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &refused, &mut answer);
@@ -93,4 +98,30 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
         }
     }
     assert!(coherent > 0, "no cache held a proof of intersection");
+}
+
+/// Intervals are proved for rotations up to there: nobody is left to believe that a larger limit admits more.
+#[test]
+fn a_pair_takes_the_rotation_limits_that_a_scene_takes_and_refuses_others_in_the_same_words() {
+    let body = body();
+    for rotation_limit in [0.0, 1e-20, 1e-6, ROTATION_LIMIT] {
+        Scene::new(&SceneOptions { rotation_limit }).unwrap();
+        for (query, config) in configurations() {
+            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+            let config = PairConfig { rotation_limit, ..config };
+            query(&body, &at(0.0, 0.0, 0.0), &body, &at(5.0, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
+        }
+    }
+    for rotation_limit in [-1.0, 2.0 * ROTATION_LIMIT, f64::INFINITY, f64::NAN] {
+        let of_scene = Scene::new(&SceneOptions { rotation_limit }).unwrap_err();
+        for (query, config) in configurations() {
+            for x in [0.1, 5.0] {
+                let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                let config = PairConfig { rotation_limit, ..config };
+                let result =
+                    query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer);
+                assert_eq!(result, Err(of_scene.clone()), "{config:?}");
+            }
+        }
+    }
 }

@@ -108,7 +108,7 @@ impl Kernel for General<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.most_skew());
+        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit);
         if !frame.usual {
             return Attempt::Unusual;
         }

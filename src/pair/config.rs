@@ -60,7 +60,7 @@ pub struct PairConfig {
     pub struct_size: usize,
     /// Of pairs farther apart than this only that is said, with a lower bound; +∞ (the default): of none.
     pub distance_tolerance: f64,
-    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default); a larger number counts as 1e-2.
+    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// Which interval.
     pub bounds: Bounds,
@@ -99,12 +99,6 @@ impl Default for PairConfig {
 }
 
 impl PairConfig {
-    /// By how much rotations may miss being orthonormal.
-    #[inline(always)]
-    pub(super) fn most_skew(&self) -> f64 {
-        self.rotation_limit.min(ROTATION_LIMIT)
-    }
-
     /// What an approximate query wants to know.
     #[inline(always)]
     pub(super) fn accuracy(&self) -> Accuracy {
@@ -118,7 +112,7 @@ impl PairConfig {
 /// [`Error::Argument`], naming the first.
 pub(super) fn check_config(config: &PairConfig) -> Result<()> {
     check_range("distance_tolerance", config.distance_tolerance, 0.0..=f64::INFINITY)?;
-    check_range("rotation_limit", config.rotation_limit, 0.0..=f64::INFINITY)
+    check_range("rotation_limit", config.rotation_limit, 0.0..=ROTATION_LIMIT)
 }
 
 /// Refuses error tolerances and step budgets that are none.

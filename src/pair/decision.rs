@@ -3,7 +3,6 @@
 use super::acceptance::{Acceptance, Closely};
 use super::attempt::{General, RADIAN, has_jumped, has_moved, has_turned_away};
 use super::cache::bits;
-use super::config::check_config;
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
 use crate::contact_direction::contact_direction;
@@ -21,7 +20,6 @@ impl PairQuery<'_> {
     /// The whole query, for what is not the common case from the start.
     #[cold]
     pub(super) fn begin(&mut self, shapes: [&Shape; 2]) -> Result<()> {
-        check_config(self.config)?;
         if !self.config.start.asks_cache() {
             self.forget()?;
         }
@@ -29,7 +27,7 @@ impl PairQuery<'_> {
     }
 
     pub(super) fn check_poses(&self) -> Result<()> {
-        self.poses.iter().try_for_each(|pose| pose.check(self.config.most_skew()))
+        self.poses.iter().try_for_each(|pose| pose.check(self.config.rotation_limit))
     }
 
     /// Clears the cache, unless the poses are refused: who is refused finds nothing changed.
@@ -81,7 +79,7 @@ impl PairQuery<'_> {
     #[inline(never)]
     fn decide(&mut self, mut hint: Pairs, steps: u32) -> Result<()> {
         let &mut PairQuery { query, polyhedra, poses, config, .. } = self;
-        let frame = Frame::<Portable>::new(polyhedra, poses, config.most_skew());
+        let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit);
         let frame = frame.usual.then_some(frame);
         if frame.is_none() {
             self.check_poses()?;

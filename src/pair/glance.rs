@@ -9,13 +9,16 @@ use crate::simd::{self, Kernel, Lanes};
 
 impl PairQuery<'_> {
     /// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
-    /// than is enough; the answer then says so, and the cache stays as it is. NaN is for others to refuse.
+    /// than is enough; the answer then says so, and the cache stays as it is. A rotation limit below rounding asks for more than a
+    /// glance.
     #[inline(always)]
     pub(super) fn is_farther_than(&mut self, enough: f64) -> bool {
         let &mut PairQuery { polyhedra: [body1, body2], poses: [pose1, pose2], .. } = self;
         let reach = body1.radius + body2.radius + enough;
         let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
-        (x * x + y * y + z * z > reach * reach) & (enough >= 0.0) & (body1.ordinary & body2.ordinary)
+        (x * x + y * y + z * z > reach * reach)
+            & (body1.ordinary & body2.ordinary)
+            & (self.config.rotation_limit >= RIGID_TOGETHER)
             && simd::dispatch(&mut Spheres { pair: self, enough })
     }
 }
@@ -34,7 +37,7 @@ impl Kernel for Spheres<'_, '_> {
         let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let interval = separating_axis::between_spheres(&frame);
-        if !(frame.usual & (config.rotation_limit >= RIGID_TOGETHER) & (interval.lower > self.enough)) {
+        if !(frame.usual & (interval.lower > self.enough)) {
             return false;
         }
         answer.status = Status::BoundingSpheres;

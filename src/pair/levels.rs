@@ -179,7 +179,7 @@ impl PairQuery<'_> {
         }
         let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
         if let Some(pairs) = cache.recall_pairs(polyhedra) {
-            let frame = Frame::<Portable>::new(polyhedra, poses, config.most_skew());
+            let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit);
             if frame.usual
                 && let Some(weights) = encloses_origin(&frame, pairs.as_slice())
             {
@@ -210,7 +210,7 @@ impl PairQuery<'_> {
             bodies,
             accuracy,
             refinement: config.refinement,
-            rotation_limit: config.most_skew(),
+            rotation_limit: config.rotation_limit,
             place,
             is_trial,
             step_limit: if query == Query::Approximate { config.step_budget } else { u32::MAX },
@@ -394,7 +394,7 @@ impl Kernel for Finish<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut Finish { start, steps, limit, .. } = self;
         let &mut PairQuery { polyhedra, poses, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.most_skew());
+        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit);
         if !frame.usual {
             return Attempt::Unusual;
         }
