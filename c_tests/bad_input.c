@@ -373,6 +373,9 @@ static void scenes(void)
     query.distance_tolerance = NAN;
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "tolerance", swift_scene_query_exact_distance(scene, &query, &answer));
     CHECK_OK(swift_scene_query_init(&query));
+    query.step_budget = 0;
+    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "step_budget", swift_scene_query_intersection(scene, &query, &answer));
+    CHECK_OK(swift_scene_query_init(&query));
     query.bounds = -3;
     CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "bounds", swift_scene_query_contacts(scene, &query, &answer));
     query.struct_size = 0;

@@ -454,7 +454,10 @@ typedef struct swift_pair_config {
   swift_bounds bounds;
   /** Where marching starts. */
   swift_start start;
-  /** Of an approximate query: `upper - lower` may be as large as this ... */
+  /**
+   * Of an approximate query: `upper - lower` may be as large as this ... Other queries do not look at this and the two that
+   * follow, not even whether they are in range: from 0 to +infinity, and 1 or more for the budget.
+   */
   double absolute_error;
   /** ... or as this times `lower`. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
@@ -1045,8 +1048,9 @@ swift_status swift_pair_config_init(struct swift_pair_config *config);
  * the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
  * `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFT_OUTCOME_NONE.
  *
- * SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range.
- * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_BUG: the cache is reset, too.
+ * SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range;
+ * those that are for swift_pair_approximate alone only there. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names
+ * the argument. SWIFT_ERROR_BUG: the cache is reset, too.
  */
 swift_status swift_pair_distance(const struct swift_shape *shape1,
                                  const double *pose1,
@@ -1324,7 +1328,8 @@ swift_status swift_scene_query_init(struct swift_scene_query *query);
  * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
  * and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
  *
- * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range. SWIFT_ERROR_LIMIT: no memory for the list of pairs.
+ * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_LIMIT: no
+ * memory for the list of pairs.
  * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
  * then. What a scene has accepted it answers: no pair makes a query fail.
  */

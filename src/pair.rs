@@ -43,7 +43,8 @@ enum Query {
 /// # Errors
 /// [`Error::Pose`](crate::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
 /// above `config.rotation_limit`), [`Error::Argument`](crate::error::Error::Argument) for a tolerance that is NaN or negative and
-/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`]. Then `answer` and `cache` are as they were.
+/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`]. Then `answer` and `cache` are as they were. What of `config` is
+/// for [`approximate`] alone is not looked at.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,

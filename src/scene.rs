@@ -430,8 +430,8 @@ impl Scene {
     /// Lists the intersecting pairs (touching ones are), each with its verdict alone.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a distance tolerance that is negative or NaN, [`Error::Limit`] when the memory for a changed
-    /// list of pairs is not there.
+    /// [`Error::Argument`] for a tolerance, an error or a budget that is negative or NaN and a step budget of 0, also where the
+    /// query does without them; [`Error::Limit`] when the memory for a changed list of pairs is not there.
     pub fn query_intersection(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.run(query, None, pair::intersection)
     }
@@ -468,13 +468,9 @@ impl Scene {
     /// not count as intersecting.
     ///
     /// # Errors
-    /// As [`Scene::query_intersection`]; [`Error::Argument`] for an error or a budget that is negative or NaN and a step budget
-    /// of 0.
+    /// As [`Scene::query_intersection`].
     pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        let SceneQuery { absolute_error, relative_error, error_budget, step_budget, distance_tolerance, .. } = *query;
-        pair::check_accuracy(absolute_error, relative_error, step_budget)?;
-        check_range("error_budget", error_budget, 0.0..=f64::INFINITY)?;
-        self.run(query, Some(distance_tolerance), pair::approximate)
+        self.run(query, Some(query.distance_tolerance), pair::approximate)
     }
 
     /// What the queries did.
@@ -491,6 +487,8 @@ impl Scene {
     /// pairs are listed.
     fn run(&mut self, query: &SceneQuery, tolerance: Option<f64>, solver: Solver) -> Result<SceneAnswer<'_>> {
         check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
+        pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
+        check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;
         self.update_pairs()?;
         self.results.clear();
         self.statistics.queries += 1;

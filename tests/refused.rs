@@ -100,6 +100,29 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
     assert!(coherent > 0, "no cache held a proof of intersection");
 }
 
+/// What is for approximate queries alone changes nothing for the others, whatever it holds.
+#[test]
+fn exact_queries_do_not_look_at_what_is_for_approximate_ones() {
+    let body = body();
+    for query in [pair::distance as Query, pair::intersection, pair::contact] {
+        for levels in [Levels::None, Levels::All] {
+            for x in [0.1, 1.5, 5.0] {
+                let ask = |config: PairConfig| {
+                    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                    let poses = [at(0.0, 0.0, 0.0), at(x, 0.0, 0.0)];
+                    query(&body, &poses[0], &body, &poses[1], &mut cache, &config, &mut answer).unwrap();
+                    format!("{answer:?} {cache:?}")
+                };
+                let config = PairConfig { levels, ..PairConfig::default() };
+                let expected = ask(config);
+                assert_eq!(ask(PairConfig { absolute_error: -1.0, ..config }), expected);
+                assert_eq!(ask(PairConfig { relative_error: f64::NAN, ..config }), expected);
+                assert_eq!(ask(PairConfig { step_budget: 0, ..config }), expected);
+            }
+        }
+    }
+}
+
 /// Intervals are proved for rotations up to there: nobody is left to believe that a larger limit admits more.
 #[test]
 fn a_pair_takes_the_rotation_limits_that_a_scene_takes_and_refuses_others_in_the_same_words() {

@@ -607,7 +607,13 @@ fn approximate_distances_and_a_budget_for_all() {
         SceneQuery { relative_error: -1.0, ..Default::default() },
         SceneQuery { error_budget: -1.0, ..Default::default() },
         SceneQuery { step_budget: 0, ..Default::default() },
+        SceneQuery { distance_tolerance: f64::NAN, ..Default::default() },
     ] {
+        // By every query, whether it does without the member or not.
         assert!(matches!(scene.query_approximate_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_intersection(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_tolerance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_exact_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_contacts(&query), Err(Error::Argument(_))));
     }
 }

@@ -50,8 +50,9 @@ pub unsafe extern "C" fn swift_pair_config_init(config: *mut PairConfig) -> Stat
 /// the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
 /// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFT_OUTCOME_NONE.
 ///
-/// SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_BUG: the cache is reset, too.
+/// SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range;
+/// those that are for swift_pair_approximate alone only there. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names
+/// the argument. SWIFT_ERROR_BUG: the cache is reset, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_distance(
     shape1: *const Shape,

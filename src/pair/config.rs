@@ -66,7 +66,8 @@ pub struct PairConfig {
     pub bounds: Bounds,
     /// Where marching starts.
     pub start: Start,
-    /// Of an approximate query: `upper − lower` may be as large as this …
+    /// Of an approximate query: `upper − lower` may be as large as this … Other queries do not look at this and the two that
+    /// follow, not even whether they are in range: from 0 to +∞, and 1 or more for the budget.
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
