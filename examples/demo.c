@@ -6,6 +6,7 @@
  * The second model (or a copy of the first) flies around the first one; without models, the shipped samples fly. F is the
  * smallest distance between the two centres as a multiple of the sum of the two radii. Of a model that is not convex the convex
  * hull flies. */
+#include <errno.h>
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
@@ -111,7 +112,7 @@ static double nanoseconds_now(void)
 static bool fly(struct flight *flight)
 {
     for (int pass = 0; pass < PASSES; pass++) {
-        swift_pair_cache cache = {0};
+        swift_pair_cache cache = {{0}};
         for (int row = 0; row < ROWS; row++) {
             const double start = nanoseconds_now();
             for (int i = row * POSES_A_ROW; i < (row + 1) * POSES_A_ROW; i++) {
@@ -214,6 +215,12 @@ struct arguments {
     double orbit;
 };
 
+static const char *const USAGE =
+    "usage: demo [--orbit F] [--svg FILE] [MODEL [MODEL]]\n"
+    "The second model (or a copy of the first) flies around the first one; without models, samples fly.\n"
+    "F (0.8): the smallest distance of the two centres as a multiple of the sum of the two radii.\n"
+    "FILE (demo.svg): where the chart of distances over time goes.\n";
+
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
     *arguments = (struct arguments){.svg = "demo.svg", .orbit = 0.8};
@@ -231,11 +238,11 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
             }
         } else if (argv[i][0] != '-' && models < 2) {
             arguments->models[models++] = argv[i];
+        } else if (strcmp(argv[i], "--help") == 0) {
+            fputs(USAGE, stdout);
+            exit(EXIT_SUCCESS);
         } else {
-            fputs("usage: demo [--orbit F] [--svg FILE] [MODEL [MODEL]]\n"
-                  "The second model (or a copy of the first) flies around the first one; without models, samples fly.\n"
-                  "F (0.8): the smallest distance of the two centres as a multiple of the sum of the two radii.\n",
-                  stderr);
+            fputs(USAGE, stderr);
             return false;
         }
     }
@@ -306,7 +313,7 @@ static bool run(struct flight *flights, int count, const struct arguments *argum
         panels[i] = (struct chart_panel){flight->title, flight->subtitle, flight->distances, POSES};
     }
     if (!chart_write(arguments->svg, panels, (size_t)count)) {
-        perror(arguments->svg);
+        fprintf(stderr, "demo: %s: cannot be written: %s\n", arguments->svg, strerror(errno));
         return false;
     }
     printf("\nevery answer was checked again by swift_pair_verify; distances over time: %s\n", arguments->svg);

@@ -3,8 +3,8 @@
 
 int main(void)
 {
-    const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
-    const uint32_t faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}; /* x, y, z of four vertices */
+    const uint32_t faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}; /* four triangles, counter-clockwise seen from outside */
     const double pose1[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
     const double pose2[12] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1};
     swift_shape *tetrahedron;
