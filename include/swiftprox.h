@@ -77,7 +77,7 @@ enum {
   SWIFT_ERROR_POSE = 4,
   /** A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering. */
   SWIFT_ERROR_MESH = 5,
-  /** A file cannot be read or does not parse: the message names the file and the line. */
+  /** A file cannot be read or written, or does not parse: the message names the file and the line. */
   SWIFT_ERROR_FILE = 6,
   /** An object id is null, stale or of another scene. */
   SWIFT_ERROR_HANDLE = 7,

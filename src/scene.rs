@@ -523,8 +523,6 @@ impl Scene {
             };
             if is_listed {
                 self.statistics.error_spent += answer.upper - answer.lower;
-            }
-            if is_listed {
                 self.results.push(PairResult {
                     object1: object1.id(),
                     object2: object2.id(),

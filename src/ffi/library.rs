@@ -53,7 +53,7 @@ pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
         (StatusCode::ErrorStructSize, c"a struct_size is unknown"),
         (StatusCode::ErrorPose, c"a pose is refused"),
         (StatusCode::ErrorMesh, c"a mesh breaks the contract"),
-        (StatusCode::ErrorFile, c"a file cannot be read"),
+        (StatusCode::ErrorFile, c"a file cannot be read or written"),
         (StatusCode::ErrorHandle, c"an object id is null, stale or of another scene"),
         (StatusCode::ErrorLimit, c"a limit of the library is reached"),
         (StatusCode::ErrorCancelled, c"a callback asked to stop"),

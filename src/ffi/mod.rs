@@ -49,7 +49,7 @@ pub enum StatusCode {
     ErrorPose = 4,
     /// A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering.
     ErrorMesh = 5,
-    /// A file cannot be read or does not parse: the message names the file and the line.
+    /// A file cannot be read or written, or does not parse: the message names the file and the line.
     ErrorFile = 6,
     /// An object id is null, stale or of another scene.
     ErrorHandle = 7,
