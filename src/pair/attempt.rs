@@ -147,6 +147,14 @@ pub(super) fn has_jumped<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
     has_moved(frame, last, first.lookup.reach * second.lookup.reach)
 }
 
+/// The same of bodies that intersected, which mostly still do: their last vertex pairs are good for half as far again. (Of plates
+/// that mostly intersect that saves a fifth of the time at 5°, a tenth at 10°.)
+#[inline(always)]
+pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+    let [first, second] = frame.polyhedra();
+    has_moved(frame, last, 2.5 * first.lookup.reach * second.lookup.reach)
+}
+
 /// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
 /// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
 #[inline(always)]

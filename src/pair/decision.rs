@@ -1,7 +1,7 @@
 //! What marching leaves open: proofs re-tested, the fallback, the exact tier.
 
 use super::acceptance::{Acceptance, Closely};
-use super::attempt::{General, RADIAN, has_jumped, has_moved, has_turned_away};
+use super::attempt::{General, RADIAN, has_jumped_far, has_moved, has_turned_away};
 use super::cache::bits;
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
@@ -93,6 +93,7 @@ impl PairQuery<'_> {
             self.answer.statistics = statistics;
             self.answer.status = Status::Coherent;
             self.fill(&decision);
+            self.cache.marker = bits(frame.marker().0.to_vector());
             return Ok(());
         }
         // Bodies that intersected the last time and have jumped apart are for marching. Those whose cores overlap have not, and
@@ -101,7 +102,7 @@ impl PairQuery<'_> {
         if let Some(frame) = &frame
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
-            && has_jumped(frame, &self.cache.marker)
+            && has_jumped_far(frame, &self.cache.marker)
             && (has_moved(frame, &self.cache.marker, RADIAN) || !start::do_cores_overlap(polyhedra, poses))
         {
             let beginning = start::anew(polyhedra, poses, true);
