@@ -97,7 +97,8 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     if plan == Plan::None || !has_use {
         return Ok(Lookup::none());
     }
-    let reach = if Thickness::of(polyhedron).is_round() { REACH_OF_ROUND } else { REACH };
+    let is_once = matches!(plan, Plan::Shells { .. }) && Thickness::of(polyhedron).is_round();
+    let reach = if is_once { REACH_OF_ROUND } else { REACH };
     Ok(Lookup { plan, reach: reach / (vertex_count as f64).sqrt(), made: OnceLock::new() })
 }
 
@@ -143,7 +144,7 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 /// tables were quicker on poses new to the branch predictor, from twice as far on on all.
 const REACH: f64 = 4.2;
 
-/// The same of [round](Thickness::is_round) bodies, whose tables are looked up once and not three times.
+/// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
 const REACH_OF_ROUND: f64 = 3.3;
 
 /// Cells along a side such that a shell has a few for every vertex.
@@ -238,7 +239,7 @@ impl Thickness {
 
     /// Whether the body is thin in two directions. The vertices nearest to a point are then those next to it along the needle, on
     /// whatever side, while the nearest feature, which reaches farther along it, is on the near side. A vertex of that is the
-    /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 19, 23 and 25 steps of 31, 56 and 61.
+    /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 18, 22 and 23 steps of 31, 56 and 61.
     /// Finding it takes thirty times as long (12 ms), of 10,002 vertices twenty times (55 ms), of 100,002 ten times (180 ms).
     fn is_needle(&self) -> bool {
         self.spreads.iter().filter(|spread| **spread < NEEDLE).count() == 2

@@ -186,7 +186,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let least = L::splat(-frame.tolerance);
     if inside != 0b1111 && least.greater(values) != 0 {
         let lane = J::RULE.violated(values, least);
-        return Step::to(State::across_edge(NEAR, vertex, lane & 3, record.across[lane & 3]));
+        return Step::to(State::across_edge(NEAR, vertex, lane, record.across[lane & 3]));
     }
     // All in world axes: no transpose stands for an inverse. The difference of the nearest points, perpendicular to the edge.
     let along = edge_direction(&record.planes);

@@ -127,7 +127,7 @@ impl Alternate<'_> {
     /// From body 1's frame and unit to body 2's, and back.
     #[inline(always)]
     fn maps<L: Lanes>(&self) -> [Map; 2] {
-        let placed = [Placed::<L>::new(self.poses[0]), Placed::<L>::new(self.poses[1])];
+        let placed = [LanePose::<L>::new(self.poses[0]), LanePose::<L>::new(self.poses[1])];
         let [mass1, mass2] = self.polyhedra.map(|polyhedron| &polyhedron.mass);
         let between = placed[0].transform(&mass1.centre_of_mass).sub(placed[1].transform(&mass2.centre_of_mass));
         [
@@ -162,17 +162,17 @@ fn is_facing(outward: &[[f32; 3]; 3], vertex: [f32; 4], point: [f32; 3]) -> bool
 }
 
 /// A pose in lanes.
-struct Placed<L> {
+struct LanePose<L> {
     rows: [L; 3],
     /// The columns of R, and T.
     columns: [L; 4],
 }
 
-impl<L: Lanes> Placed<L> {
+impl<L: Lanes> LanePose<L> {
     #[inline(always)]
-    fn new(pose: &Pose) -> Placed<L> {
+    fn new(pose: &Pose) -> LanePose<L> {
         let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
-        Placed { rows, columns: L::transpose(&rows) }
+        LanePose { rows, columns: L::transpose(&rows) }
     }
 
     #[inline(always)]
@@ -200,7 +200,7 @@ impl Map {
     /// From one body to another; `between` is the way from the latter's centre of mass to the former's in the world. A transpose
     /// stands in for an inverse: it is all about a good guess.
     #[inline(always)]
-    fn new<L: Lanes>([from, to]: [&Placed<L>; 2], between: L, [radius, to_radius]: [f64; 2]) -> Map {
+    fn new<L: Lanes>([from, to]: [&LanePose<L>; 2], between: L, [radius, to_radius]: [f64; 2]) -> Map {
         let unit = 1.0 / to_radius;
         let (length, [x, y, z, _]) = (L::splat(radius * unit), from.columns);
         let columns = [

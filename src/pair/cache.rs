@@ -21,8 +21,8 @@ pub struct PairCache {
     /// Vertex pairs. With a feature pair, after a query for the verdict alone: the vertices of a separating axis, its direction
     /// as the bits of single-precision numbers, and [`AXIS`].
     pub(super) pairs: [VertexPair; 4],
-    /// With a feature pair: where body 1 saw a point of body 2 ([`crate::frame::Frame::marker`]), as the bits of
-    /// single-precision numbers.
+    /// With a feature pair: where body 1 saw a point of body 2 ([`crate::frame::Frame::marker`]) when it was found, as the bits of
+    /// single-precision numbers. With vertex pairs: when they last proved an intersection.
     pub(super) marker: [u32; 3],
 }
 

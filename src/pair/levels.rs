@@ -186,6 +186,7 @@ impl PairQuery<'_> {
                 self.answer.status = Status::Coherent;
                 self.answer.statistics = Statistics::default();
                 self.fill(&Decision::Intersecting { pairs, weights });
+                self.remember_marker();
                 return Ok(());
             }
         }
