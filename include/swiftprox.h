@@ -277,8 +277,9 @@ typedef void (*swift_log_callback)(int32_t status, const char *message, void *us
 
 /**
  * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
- * two, at least 8 and sometimes more than malloc keeps (64, for one). Null if there is no memory: that ends the program with a
- * message, as running out of the system's does. `user` is the pointer given to swift_library_set_allocator.
+ * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory: a call that can say so
+ * then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program with
+ * a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
  */
 typedef void *(*swift_allocate_callback)(void *user, size_t size, size_t alignment);
 
@@ -588,7 +589,7 @@ typedef struct swift_scene_query {
   size_t struct_size;
   /**
    * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-   * to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
+   * to infinity (the default: all pairs). swift_scene_query_intersection does without it, but refuses one out of range.
    */
   double distance_tolerance;
   /**
@@ -743,7 +744,7 @@ void swift_library_set_log(swift_log_callback callback,
 /**
  * Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
  * system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
- * set, and `user`, must stay good until the process ends.
+ * set, and `user`, must stay good until the process ends: they are called at the end of threads and after main, too.
  *
  * The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
  * library, and a C++ exception that leaves them ends the program.

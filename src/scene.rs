@@ -34,7 +34,7 @@ pub struct SceneQuery {
     /// Stop at the first intersecting pair in the order of results, and then list no pairs at all: [`SceneAnswer::found`] is it.
     pub early_exit: bool,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does not look at it.
+    /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does without it, but refuses one out of range.
     pub distance_tolerance: f64,
     /// Which interval the answers carry.
     pub bounds: Bounds,

@@ -183,7 +183,7 @@ struct Told {
     stop_after: usize,
 }
 
-unsafe extern "C" fn tell(user: *mut c_void, fraction: f64) -> i32 {
+unsafe extern "C-unwind" fn tell(user: *mut c_void, fraction: f64) -> i32 {
     // SAFETY: the test passes a Told that nobody else uses meanwhile.
     let told = unsafe { &mut *user.cast::<Told>() };
     assert!(fraction >= told.last);
@@ -449,7 +449,7 @@ fn messages_belong_to_their_thread() {
 #[test]
 fn the_log_hears_of_every_failure() {
     static HEARD: Mutex<Vec<(i32, String)>> = Mutex::new(Vec::new());
-    unsafe extern "C" fn hear(status: i32, message: *const c_char, user: *mut c_void) {
+    unsafe extern "C-unwind" fn hear(status: i32, message: *const c_char, user: *mut c_void) {
         // SAFETY: the library hands a message that lives during the call.
         let message = unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned();
         // Other tests of this process fail on purpose meanwhile; this one tells its failures by a number.
@@ -468,6 +468,7 @@ fn the_log_hears_of_every_failure() {
 
 /// The C libraries' allocator is tested by c_tests/allocator.c.
 #[test]
+#[cfg(not(feature = "allocator"))]
 fn a_rust_program_keeps_its_allocator() {
     assert_eq!(swift_library_set_allocator(None, None, null_mut()), StatusCode::ErrorUnsupported);
     assert!(last_message().contains("feature `allocator`"));

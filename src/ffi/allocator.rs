@@ -10,24 +10,25 @@ use std::ptr::null_mut;
 use std::sync::atomic::{AtomicPtr, Ordering};
 use std::sync::{Mutex, PoisonError};
 
-use super::{Failure, StatusCode, guard};
+use super::{Failure, StatusCode, guard, must_return};
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
-/// two, at least 8 and sometimes more than malloc keeps (64, for one). Null if there is no memory: that ends the program with a
-/// message, as running out of the system's does. `user` is the pointer given to swift_library_set_allocator.
+/// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory: a call that can say so
+/// then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program with
+/// a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
 pub type AllocateCallback =
-    Option<unsafe extern "C" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
+    Option<unsafe extern "C-unwind" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 
 /// Takes back memory that the swift_allocate_callback set with it gave for the same size and alignment. `user` is the pointer given
 /// with both.
 pub type DeallocateCallback =
-    Option<unsafe extern "C" fn(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
+    Option<unsafe extern "C-unwind" fn(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
 
 /// The functions of a program.
 #[derive(Clone, Copy)]
 struct Functions {
-    allocate: unsafe extern "C" fn(*mut c_void, usize, usize) -> *mut c_void,
-    deallocate: unsafe extern "C" fn(*mut c_void, *mut c_void, usize, usize),
+    allocate: unsafe extern "C-unwind" fn(*mut c_void, usize, usize) -> *mut c_void,
+    deallocate: unsafe extern "C-unwind" fn(*mut c_void, *mut c_void, usize, usize),
     user: *mut c_void,
 }
 
@@ -93,8 +94,10 @@ unsafe impl GlobalAlloc for Replaceable {
         let source = CURRENT.load(Ordering::Acquire);
         // SAFETY: sources are never freed; the layout is not empty.
         let block = match unsafe { source.as_ref() } {
-            // SAFETY: the functions take any size and alignment.
-            Some(Source { functions: f, .. }) => unsafe { (f.allocate)(f.user, whole.size(), whole.align()) }.cast(),
+            Some(Source { functions: f, .. }) => {
+                // SAFETY: the functions take any size and alignment.
+                must_return(|| unsafe { (f.allocate)(f.user, whole.size(), whole.align()) }).cast()
+            }
             // SAFETY: the layout is not empty.
             None => unsafe { System.alloc(whole) },
         };
@@ -123,7 +126,9 @@ unsafe impl GlobalAlloc for Replaceable {
         // SAFETY: `block` was given for the same layout, so it was signed there; its source is good for ever.
         unsafe {
             match block.add(at).cast::<*mut Source>().read().as_ref() {
-                Some(Source { functions: f, .. }) => (f.deallocate)(f.user, block.cast(), whole.size(), whole.align()),
+                Some(Source { functions: f, .. }) => {
+                    must_return(|| (f.deallocate)(f.user, block.cast(), whole.size(), whole.align()));
+                }
                 None => System.dealloc(block, whole),
             }
         }
@@ -153,7 +158,7 @@ unsafe impl GlobalAlloc for Replaceable {
 
 /// Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
 /// system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
-/// set, and `user`, must stay good until the process ends.
+/// set, and `user`, must stay good until the process ends: they are called at the end of threads and after main, too.
 ///
 /// The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
 /// library, and a C++ exception that leaves them ends the program.
@@ -230,7 +235,7 @@ mod tests {
         bytes: AtomicIsize,
     }
 
-    unsafe extern "C" fn take(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void {
+    unsafe extern "C-unwind" fn take(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void {
         assert!(size > 0 && size.is_multiple_of(alignment) && alignment.is_power_of_two() && alignment >= 8);
         // SAFETY: the test hands an account that is static.
         let account = unsafe { &*user.cast::<Account>() };
@@ -240,7 +245,7 @@ mod tests {
         unsafe { System.alloc(Layout::from_size_align(size, alignment).unwrap()) }.cast()
     }
 
-    unsafe extern "C" fn give_back(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize) {
+    unsafe extern "C-unwind" fn give_back(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize) {
         // SAFETY: as above.
         let account = unsafe { &*user.cast::<Account>() };
         account.blocks.fetch_sub(1, Ordering::Relaxed);

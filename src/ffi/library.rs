@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
-use super::{Failure, LAST_ERROR, StatusCode, guard};
+use super::{Failure, LAST_ERROR, StatusCode, guard, must_return};
 use crate::enumerator::Enumerator;
 use crate::pair::{FeatureKind, Outcome};
 
@@ -105,7 +105,7 @@ pub extern "C" fn swift_library_last_error_message() -> *const c_char {
 
 /// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
 /// and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
-pub type LogCallback = Option<unsafe extern "C" fn(status: i32, message: *const c_char, user: *mut c_void)>;
+pub type LogCallback = Option<unsafe extern "C-unwind" fn(status: i32, message: *const c_char, user: *mut c_void)>;
 
 #[derive(Clone, Copy)]
 struct Log {
@@ -135,6 +135,6 @@ pub(super) fn log(status: StatusCode, message: &CStr) {
     let log = *LOG.read().unwrap_or_else(PoisonError::into_inner);
     if let Some(callback) = log.callback {
         // SAFETY: the callback takes any status and message and its own user pointer (swift_library_set_log).
-        unsafe { callback(status as i32, message.as_ptr(), log.user) };
+        must_return(|| unsafe { callback(status as i32, message.as_ptr(), log.user) });
     }
 }

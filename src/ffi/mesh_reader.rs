@@ -32,12 +32,13 @@ pub struct MeshSink {
 /// program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
 /// and sink are gone when the callback returns; what the sink was given it has copied. The callback may call the library: read
 /// other files, and register readers. It must return, and a C++ exception that leaves it ends the program.
-pub type MeshReaderCallback =
-    Option<unsafe extern "C" fn(user: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32>;
+pub type MeshReaderCallback = Option<
+    unsafe extern "C-unwind" fn(user: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32,
+>;
 
 /// A callback and its user pointer.
 struct Reader {
-    callback: unsafe extern "C" fn(*mut c_void, *const c_char, usize, *mut MeshSink) -> i32,
+    callback: unsafe extern "C-unwind" fn(*mut c_void, *const c_char, usize, *mut MeshSink) -> i32,
     user: *mut c_void,
 }
 

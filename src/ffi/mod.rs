@@ -157,10 +157,25 @@ thread_local! {
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
+/// Calls what must not unwind, and ends the program if it does: an exception of C++ would go through frames that expect none.
+#[inline(always)]
+fn must_return<T>(callback: impl FnOnce() -> T) -> T {
+    struct Abort;
+    impl Drop for Abort {
+        fn drop(&mut self) {
+            std::process::abort();
+        }
+    }
+    let abort = Abort;
+    let result = callback();
+    std::mem::forget(abort);
+    result
+}
+
 /// Calls a callback of the caller's, whose panics are no bugs of ours.
 fn call_out<T>(callback: impl FnOnce() -> T) -> T {
     let inside = INSIDE.replace(false);
-    let result = callback();
+    let result = must_return(callback);
     INSIDE.set(inside);
     result
 }

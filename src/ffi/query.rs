@@ -13,7 +13,7 @@ pub struct CSceneQuery {
     /// Set by swift_scene_query_init.
     pub struct_size: usize,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to infinity (the default: all pairs). swift_scene_query_intersection does not look at it.
+    /// to infinity (the default: all pairs). swift_scene_query_intersection does without it, but refuses one out of range.
     pub distance_tolerance: f64,
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then: swift_scene_answer.found
     /// is it. Default: 0.

@@ -13,7 +13,7 @@ use crate::shape::{InputPolicy, Shape, ShapeOptions};
 /// Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
 /// with the callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that
 /// builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
-pub type ProgressCallback = Option<unsafe extern "C" fn(user: *mut c_void, fraction: f64) -> i32>;
+pub type ProgressCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, fraction: f64) -> i32>;
 
 /// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]

@@ -59,7 +59,7 @@ fn check_undecided(answer: &PairAnswer) {
 }
 
 /// Receives failures.
-extern "C" fn log(status: i32, message: *const c_char, user: *mut c_void) {
+extern "C-unwind" fn log(status: i32, message: *const c_char, user: *mut c_void) {
     // SAFETY: a string, by the header.
     let message = unsafe { CStr::from_ptr(message) };
     assert!(status != StatusCode::Ok as i32 && !message.is_empty() && user.is_null(), "{status} {message:?}");

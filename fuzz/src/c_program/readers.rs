@@ -37,7 +37,7 @@ pub fn reading(call: impl FnOnce() -> StatusCode) -> StatusCode {
     status
 }
 
-unsafe extern "C" fn read(_: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32 {
+unsafe extern "C-unwind" fn read(_: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32 {
     // SAFETY: the bytes of the file and a zero byte.
     let bytes = unsafe { std::slice::from_raw_parts(data.cast::<u8>(), size + 1) };
     assert_eq!(bytes[size], 0);
