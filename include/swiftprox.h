@@ -278,8 +278,8 @@ typedef void (*swift_log_callback)(int32_t status, const char *message, void *us
 /**
  * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
  * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory: a call that can say so
- * then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program with
- * a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
+ * then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program
+ * with a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
  */
 typedef void *(*swift_allocate_callback)(void *user, size_t size, size_t alignment);
 
