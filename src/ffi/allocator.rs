@@ -266,7 +266,9 @@ mod tests {
         let count = |i: usize| ACCOUNTS[i].blocks.load(Ordering::Relaxed);
         let settings = [functions(&ACCOUNTS[0]), None, functions(&ACCOUNTS[1]), functions(&ACCOUNTS[0])];
         let lasting = |i: usize| std::ptr::from_ref(source_of(settings[i].unwrap()));
-        assert!(lasting(0) == lasting(3) && lasting(0) != lasting(2), "functions set again are no new source");
+        // Under Miri a function has another address each time it is asked for.
+        assert!(cfg!(miri) || lasting(0) == lasting(3), "functions set again are no new source");
+        assert!(lasting(0) != lasting(2));
 
         for (size, alignment) in [(1, 1), (7, 8), (8, 8), (9, 1), (64, 64), (100, 16), (1000, 4096)] {
             let [layout, grown, shrunk] =
