@@ -19,8 +19,7 @@ pub use crate::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, S
 use crate::certificate::Interval;
 pub use crate::descent::Refinement;
 use crate::error::Result;
-use crate::frame::RIGID_TOGETHER;
-use crate::math::{Pose, ROTATION_LIMIT, clamp};
+use crate::math::{Pose, clamp};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::simd;
@@ -43,8 +42,8 @@ enum Query {
 /// # Errors
 /// [`Error::Pose`](crate::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
 /// above `config.rotation_limit`), [`Error::Argument`](crate::error::Error::Argument) for a tolerance that is NaN or negative and
-/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`]. Then `answer` and `cache` are as they were. What of `config` is
-/// for [`approximate`] alone is not looked at.
+/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::math::ROTATION_LIMIT). Then `answer` and `cache` are as
+/// they were. What of `config` is for [`approximate`] alone is not looked at.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,
@@ -127,8 +126,7 @@ fn query(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     // Mostly. A NaN is neither.
-    if config.distance_tolerance >= f64::INFINITY && (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&config.rotation_limit)
-    {
+    if config.distance_tolerance >= f64::INFINITY && config.admits_rounding() {
         let enough = (query == Query::Intersection).then_some(0.0);
         return query_beyond(query, enough, shapes, poses, cache, config, answer);
     }
@@ -147,7 +145,7 @@ fn query_with_limits(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if config.distance_tolerance >= 0.0 && (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&config.rotation_limit) {
+    if config.distance_tolerance >= 0.0 && config.admits_rounding() {
         return query_beyond(query, Some(config.distance_tolerance), shapes, poses, cache, config, answer);
     }
     query_strictly(query, shapes, poses, cache, config, answer)
@@ -173,7 +171,7 @@ fn query_strictly(
 }
 
 /// A query that needs to know no more than that the bodies are farther apart than is `enough`, if they are. The distance tolerance
-/// is one, and the rotation limit from [`RIGID_TOGETHER`] to [`ROTATION_LIMIT`].
+/// is one, and the rotation limit [admits rounding](PairConfig::admits_rounding).
 #[inline(always)]
 fn query_beyond(
     query: Query,

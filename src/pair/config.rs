@@ -2,6 +2,7 @@
 
 use crate::descent::{Accuracy, Refinement};
 use crate::error::{Error, Result, check_range};
+use crate::frame::RIGID_TOGETHER;
 use crate::math::ROTATION_LIMIT;
 
 /// Which interval a query computes.
@@ -100,6 +101,12 @@ impl Default for PairConfig {
 }
 
 impl PairConfig {
+    /// Whether the rotation limit is one, and no rotation that is right up to rounding is refused.
+    #[inline(always)]
+    pub(super) fn admits_rounding(&self) -> bool {
+        (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&self.rotation_limit)
+    }
+
     /// What an approximate query wants to know.
     #[inline(always)]
     pub(super) fn accuracy(&self) -> Accuracy {
