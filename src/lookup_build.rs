@@ -145,7 +145,7 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 const REACH: f64 = 4.2;
 
 /// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
-const REACH_OF_ROUND: f64 = 3.3;
+const REACH_OF_ROUND: f64 = 3.1;
 
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {

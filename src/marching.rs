@@ -13,7 +13,7 @@ use crate::certificate::{
 };
 use crate::frame::Frame;
 use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
-use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
+use crate::polyhedron::{Edge, NONE, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
 use crate::state::{Kind, State};
 use crate::voronoi::{
@@ -130,10 +130,10 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
     let rotated = [body1.rotate(point1), body2.rotate(point2)];
     let direction = rotated[0].add(body1.offset).sub(rotated[1]);
     let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
-    let square = direction.dot(direction);
-    let length = square.sqrt();
-    let test1 = test_vertex(J::RULE, body1.polyhedron, indices[0], towards[0], length, frame.tolerance);
-    let test2 = test_vertex(J::RULE, body2.polyhedron, indices[1], towards[1], length, frame.tolerance);
+    // At most √3 times the length, without the root for which the tests would wait.
+    let bound = direction.norm1();
+    let test1 = test_vertex(J::RULE, body1.polyhedron, indices[0], towards[0], bound, frame.tolerance);
+    let test2 = test_vertex(J::RULE, body2.polyhedron, indices[1], towards[1], bound, frame.tolerance);
     Step::to(match (test1, test2) {
         (VertexTest::Leaves { edge, head }, VertexTest::Leaves { edge: edge2, head: head2 }) => {
             // Both features change in one step (Ehmann & Lin 2000, §5.1).
@@ -149,6 +149,8 @@ fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], j
         (_, VertexTest::Leaves { edge: NONE, head }) => State::vertex_vertex([indices[0], head]),
         (_, VertexTest::Leaves { edge, .. }) => State::vertex_edge(0, indices[0], edge),
         _ => {
+            let square = direction.dot(direction);
+            let length = square.sqrt();
             let minimum = Minimum {
                 points: [L::from_vector(point1), L::from_vector(point2)],
                 rotated,
@@ -181,6 +183,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let rotated = body.rotate(position);
     let point = far.rotate_back(rotated.add(body.offset));
     let record = &far.polyhedron.edges[edge as usize];
+    prefetch_across::<L>(far.polyhedron, record);
     let values = plane_values(&record.planes, point);
     let inside = values.greater(L::splat(MARGIN * frame.tolerance));
     let least = L::splat(-frame.tolerance);
@@ -200,17 +203,17 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let t = clamp(free, 0.0, record.length);
     let difference = along_world.negated_mul_add(L::splat(t), from_tail);
     let mut direction = difference;
-    let mut square = difference.dot(difference);
-    let distance = square.sqrt();
+    let distance_squared = difference.dot(difference);
+    let mut square = distance_squared;
     // Close to a long edge the rounding of x − tail leaves a part along the edge that a second time removes.
     let mut leaning = t;
-    if t > 4.0 * distance {
+    if t * t > 16.0 * distance_squared {
         leaning = difference.dot(along_world) * correction;
         direction = along_world.negated_mul_add(L::splat(leaning), difference);
         square = direction.dot(direction);
     }
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, distance, frame.tolerance);
+    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, direction.norm1(), frame.tolerance);
     if let VertexTest::Leaves { edge: leaving, head } = test {
         return Step::to(if leaving == NONE {
             State::vertex_edge(NEAR, head, edge)
@@ -218,6 +221,7 @@ fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
             State::edge_edge(ordered::<NEAR>(leaving, edge))
         });
     }
+    let distance = distance_squared.sqrt();
     let inverse = reciprocal_length(square);
     let reach = direction.dot(difference) * inverse;
     // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals but for a part along the edge:
@@ -260,6 +264,9 @@ fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let rotated = body.rotate(position);
     let point = far.rotate_back(rotated.add(body.offset));
     let record = &far.polyhedron.faces[face as usize];
+    for side in record.first_sides {
+        L::prefetch(&far.polyhedron.edges, side);
+    }
     // Lane 0 is the height over the face, lanes 1 to 3 the sides.
     let values = plane_values(&record.planes, point);
     // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
@@ -363,6 +370,8 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     let [body1, body2] = &frame.bodies;
     let record1 = &body1.polyhedron.edges[indices[0] as usize];
     let record2 = &body2.polyhedron.edges[indices[1] as usize];
+    prefetch_ends::<L>(body1.polyhedron, record1);
+    prefetch_ends::<L>(body2.polyhedron, record2);
     let (along1, along2) = (edge_direction(&record1.planes), edge_direction(&record2.planes));
     let (world1, world2) = (body1.rotate(&along1), body2.rotate(&along2));
     let (tail1, tail2) = (&record1.tail_position, &record2.tail_position);
@@ -401,8 +410,8 @@ fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge
     }
     let towards = [body1.rotate_back(normal).negate(), body2.rotate_back(normal)];
     // In the normal cone of an edge the direction leaves both faces; the first two lanes are along the edge and vanish.
-    let sine = sine_squared.sqrt();
-    let slack = L::splat(-STRICT * if sine > 2.0 * STRICT { sine } else { 2.0 * STRICT });
+    let bound = normal.norm1();
+    let slack = L::splat(-STRICT * if bound > 2.0 * STRICT { bound } else { 2.0 * STRICT });
     let values1 = plane_slopes(&record1.planes, towards[0]);
     let values2 = plane_slopes(&record2.planes, towards[1]);
     let across = L::upper_halves(values1, values2);
@@ -514,6 +523,20 @@ fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &V
 #[inline(never)]
 fn support_towards(far: &Polyhedron, point: &Vector, face: u32) -> u32 {
     far.support(point, far.faces[face as usize].vertex).0
+}
+
+/// Asks the memory for all that lies across the planes of an edge: a step there waits for it otherwise.
+#[inline(always)]
+fn prefetch_across<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge) {
+    L::prefetch(&polyhedron.faces, edge.left());
+    L::prefetch(&polyhedron.faces, edge.right());
+    prefetch_ends::<L>(polyhedron, edge);
+}
+
+#[inline(always)]
+fn prefetch_ends<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge) {
+    L::prefetch(&polyhedron.vertices, edge.tail());
+    L::prefetch(&polyhedron.vertices, edge.head());
 }
 
 /// What belongs to body NEAR and what to the other, in the order of the bodies.

@@ -107,9 +107,12 @@ impl Kernel for Alternate<'_> {
         let [table1, table2] = self.tables;
         let [there, back] = self.maps::<L>();
         let mut vertices = [table1.nearest(back.offset), table2.nearest(there.offset)];
+        self.prefetch::<L>(vertices);
         for _ in 1..table1.rounds.max(table2.rounds) {
             let [point1, point2] = [table1.position(vertices[0]), table2.position(vertices[1])];
             vertices = [table1.nearest(back.apply(point2)), table2.nearest(there.apply(point1))];
+            // The last ones are where marching begins; those before are often the same, or neighbours.
+            self.prefetch::<L>(vertices);
         }
         let mut guess = self.guess([&there, &back], vertices);
         if guess == Guess::Overlapping {
@@ -124,6 +127,13 @@ impl Kernel for Alternate<'_> {
 }
 
 impl Alternate<'_> {
+    #[inline(always)]
+    fn prefetch<L: Lanes>(&self, vertices: [u32; 2]) {
+        for (polyhedron, vertex) in self.polyhedra.into_iter().zip(vertices) {
+            L::prefetch(&polyhedron.vertices, vertex);
+        }
+    }
+
     /// From body 1's frame and unit to body 2's, and back.
     #[inline(always)]
     fn maps<L: Lanes>(&self) -> [Map; 2] {

@@ -17,7 +17,7 @@ use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Bounds, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use swiftprox::scene::{Scene, SceneAnswer, SceneOptions, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
-use swiftprox::simd;
+use swiftprox::simd::{self, Features};
 
 /// Of the verdicts and the order of results, on every machine. It stays as long as the flight does.
 const VERDICTS: u64 = 0x5733_1957_f757_a2bb;
@@ -260,7 +260,11 @@ fn a_flight_is_the_same_each_time() {
     assert!(separated > 10_000 && beyond > 500 && intersecting > 5_000 && undecided > 100, "{:?}", flight.outcomes);
     assert_eq!(Outcome::Undecided as usize, flight.outcomes.len());
 
-    simd::narrow_to_baseline();
+    // AVX-512 brings registers, no other numbers.
+    simd::narrow_to(Features::Avx2);
+    assert_eq!(fly(&shapes()), flight);
+
+    simd::narrow_to(Features::Baseline);
     let narrow = fly(&shapes());
     check(narrow);
     if cfg!(target_arch = "x86_64") {

@@ -38,7 +38,8 @@ impl Kernel for Coherent<'_, '_> {
         if step.way == Way::Minimum {
             return Attempt::Open { at: state, is_minimum: true, steps: 1 };
         }
-        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS })
+        // In line: the frame stays in registers.
+        MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS }.run()
     }
 }
 
