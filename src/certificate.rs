@@ -136,6 +136,8 @@ impl<L: Lanes> Minimum<L> {
 pub trait Certify<L: Lanes> {
     /// Across which plane marching goes on where several are violated.
     const RULE: Rule = Rule::Most;
+    /// Whether to ask the memory for what marching may need next, where a state has much of it.
+    const LOOKS_AHEAD: bool = true;
 
     /// Looks whether a minimum is good enough, and puts it where it belongs.
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>);

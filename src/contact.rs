@@ -23,7 +23,7 @@ const NOTHING: [f64; 3] = [f64::NAN; 3];
 #[inline(always)]
 pub fn fill_normal<L: Lanes>(answer: &mut PairAnswer, normal: L) {
     fill_nothing(answer);
-    answer.normal = components(normal);
+    normal.store_vector(&mut answer.normal);
 }
 
 /// An answer that says no points, normal and features.
@@ -49,19 +49,13 @@ pub fn fill_separated<L: Lanes>(
     features: [FeatureId; 2],
 ) {
     let [body1, body2] = &frame.bodies;
-    answer.local1 = components(points[0].add(L::from_vector(&body1.polyhedron.centre)));
-    answer.local2 = components(points[1].add(L::from_vector(&body2.polyhedron.centre)));
-    answer.world1 = components(rotated[0].add(body1.translation));
-    answer.world2 = components(rotated[1].add(body2.translation));
-    answer.normal = components(normal);
+    points[0].add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut answer.local1);
+    points[1].add(L::from_vector(&body2.polyhedron.centre)).store_vector(&mut answer.local2);
+    rotated[0].add(body1.translation).store_vector(&mut answer.world1);
+    rotated[1].add(body2.translation).store_vector(&mut answer.world2);
+    normal.store_vector(&mut answer.normal);
     answer.feature1 = label(body1.polyhedron, features[0], &points[0].to_vector());
     answer.feature2 = label(body2.polyhedron, features[1], &points[1].to_vector());
-}
-
-#[inline(always)]
-fn components<L: Lanes>(vector: L) -> [f64; 3] {
-    let [x, y, z, _] = vector.to_array();
-    [x, y, z]
 }
 
 /// As [`fill_separated`] without a frame, for any magnitudes.

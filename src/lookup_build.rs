@@ -140,12 +140,12 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 }
 
 /// Over √n, how far (as an angle) a pair may have turned or moved before a query begins from the tables and no longer from the last
-/// features: 1.1 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. From about there on the
+/// features: 1.4 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. From about there on the
 /// tables were quicker on poses new to the branch predictor, from twice as far on on all.
-const REACH: f64 = 4.2;
+const REACH: f64 = 5.4;
 
 /// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
-const REACH_OF_ROUND: f64 = 3.1;
+const REACH_OF_ROUND: f64 = 3.4;
 
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {

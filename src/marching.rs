@@ -7,18 +7,16 @@
 //! Marching proposes. What it finds is accepted by the certificate alone, which is fused with the last step; what it cannot
 //! finish (a suspected penetration, a cycle, the step limit) is decided elsewhere.
 
-use crate::certificate::{
-    Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_in_cone, of_facing_face,
-    reciprocal_length,
-};
+mod ahead;
+mod shortcuts;
+mod states;
+mod walks;
+
+use crate::certificate::Certify;
 use crate::frame::Frame;
-use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
-use crate::polyhedron::{Edge, NONE, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
 use crate::state::{Kind, State};
-use crate::voronoi::{
-    STRICT, VertexTest, edge_direction, end_of, exit_of_prism, plane_slopes, plane_values, test_vertex, violated_side,
-};
+use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
 
 /// What marching came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +48,8 @@ pub enum Way {
     Behind,
     /// An edge of one body crosses a face of the other.
     Crossing,
+    /// Not at all: the bodies have no such features.
+    Nowhere,
 }
 
 impl Step {
@@ -66,6 +66,11 @@ impl Step {
     #[inline(always)]
     fn crossing(at: State) -> Step {
         Step { way: Way::Crossing, at }
+    }
+
+    #[inline(always)]
+    fn nowhere() -> Step {
+        Step { way: Way::Nowhere, at: State::vertex_vertex([0, 0]) }
     }
 }
 
@@ -100,7 +105,7 @@ pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit
         if way != Way::Move {
             // A local minimum of Voronoi marching (Mirtich 1998, §4.3) is left once; the second time penetration is likely, and
             // decided elsewhere.
-            if way == Way::Crossing || jumped {
+            if way != Way::Behind || jumped {
                 return (March::Open(next), steps);
             }
             jumped = true;
@@ -118,447 +123,8 @@ pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit
     }
 }
 
-// ---------------------------------------------------------------------------------------------------------------------
-// The states. Where a state has a vertex, that is a vertex of the body NEAR, and the other body is "far".
-// ---------------------------------------------------------------------------------------------------------------------
-
-#[inline(always)]
-fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
-    let [body1, body2] = &frame.bodies;
-    let point1 = &body1.polyhedron.vertices[indices[0] as usize].position;
-    let point2 = &body2.polyhedron.vertices[indices[1] as usize].position;
-    let rotated = [body1.rotate(point1), body2.rotate(point2)];
-    let direction = rotated[0].add(body1.offset).sub(rotated[1]);
-    let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
-    // At most √3 times the length, without the root for which the tests would wait.
-    let bound = direction.norm1();
-    let test1 = test_vertex(J::RULE, body1.polyhedron, indices[0], towards[0], bound, frame.tolerance);
-    let test2 = test_vertex(J::RULE, body2.polyhedron, indices[1], towards[1], bound, frame.tolerance);
-    Step::to(match (test1, test2) {
-        (VertexTest::Leaves { edge, head }, VertexTest::Leaves { edge: edge2, head: head2 }) => {
-            // Both features change in one step (Ehmann & Lin 2000, §5.1).
-            match (edge == NONE, edge2 == NONE) {
-                (false, false) => State::edge_edge([edge, edge2]),
-                (false, true) => State::vertex_edge(1, head2, edge),
-                (true, false) => State::vertex_edge(0, head, edge2),
-                (true, true) => State::vertex_vertex([head, head2]),
-            }
-        }
-        (VertexTest::Leaves { edge: NONE, head }, _) => State::vertex_vertex([head, indices[1]]),
-        (VertexTest::Leaves { edge, .. }, _) => State::vertex_edge(1, indices[1], edge),
-        (_, VertexTest::Leaves { edge: NONE, head }) => State::vertex_vertex([indices[0], head]),
-        (_, VertexTest::Leaves { edge, .. }) => State::vertex_edge(0, indices[0], edge),
-        _ => {
-            let square = direction.dot(direction);
-            let length = square.sqrt();
-            let minimum = Minimum {
-                points: [L::from_vector(point1), L::from_vector(point2)],
-                rotated,
-                difference: direction,
-                error: 0.0,
-                direction,
-                inverse: reciprocal_length(square),
-                distance: length,
-                reach: length,
-                beyond: beyond_vertex(test1) + beyond_vertex(test2),
-                outside: 0.0,
-                height: 0.0,
-            };
-            let at = State::vertex_vertex(indices);
-            judge.certify(frame, at, &minimum);
-            return Step::minimum(at);
-        }
-    })
-}
-
-#[inline(always)]
-fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
-    frame: &Frame<L>,
-    vertex: u32,
-    edge: u32,
-    judge: &mut J,
-) -> Step {
-    let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    let position = &body.polyhedron.vertices[vertex as usize].position;
-    let rotated = body.rotate(position);
-    let point = far.rotate_back(rotated.add(body.offset));
-    let record = &far.polyhedron.edges[edge as usize];
-    prefetch_across::<L>(far.polyhedron, record);
-    let values = plane_values(&record.planes, point);
-    let inside = values.greater(L::splat(MARGIN * frame.tolerance));
-    let least = L::splat(-frame.tolerance);
-    if inside != 0b1111 && least.greater(values) != 0 {
-        let lane = J::RULE.violated(values, least);
-        return Step::to(State::across_edge(NEAR, vertex, lane, record.across[lane & 3]));
-    }
-    // All in world axes: no transpose stands for an inverse. The difference of the nearest points, perpendicular to the edge.
-    let along = edge_direction(&record.planes);
-    let tail = &record.tail_position;
-    let (along_world, tail_world) = (far.rotate(&along), far.rotate(tail));
-    let from_far = rotated.add(body.offset);
-    let from_tail = from_far.sub(tail_world);
-    // One step of Newton's iteration for the reciprocal of |Rê|², which is 1 up to the defect of R.
-    let correction = 2.0 - along_world.dot(along_world);
-    let free = from_tail.dot(along_world) * correction;
-    let t = clamp(free, 0.0, record.length);
-    let difference = along_world.negated_mul_add(L::splat(t), from_tail);
-    let mut direction = difference;
-    let distance_squared = difference.dot(difference);
-    let mut square = distance_squared;
-    // Close to a long edge the rounding of x − tail leaves a part along the edge that a second time removes.
-    let mut leaning = t;
-    if t * t > 16.0 * distance_squared {
-        leaning = difference.dot(along_world) * correction;
-        direction = along_world.negated_mul_add(L::splat(leaning), difference);
-        square = direction.dot(direction);
-    }
-    let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, direction.norm1(), frame.tolerance);
-    if let VertexTest::Leaves { edge: leaving, head } = test {
-        return Step::to(if leaving == NONE {
-            State::vertex_edge(NEAR, head, edge)
-        } else {
-            State::edge_edge(ordered::<NEAR>(leaving, edge))
-        });
-    }
-    let distance = distance_squared.sqrt();
-    let inverse = reciprocal_length(square);
-    let reach = direction.dot(difference) * inverse;
-    // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals but for a part along the edge:
-    // of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of a
-    // feature miss each other by.
-    let is_plain = frame.rigid & (inside == 0b1111);
-    let misfit = UNIT_ROUNDOFF * (29.0 + 10.5 * leaning.abs() * inverse);
-    let beyond = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
-    // R·tail is one of the products that the frame's bound is for; R·ê, the length of x − tail and the last difference come on top.
-    let error = 10.0 * UNIT_ROUNDOFF * (t + distance);
-    let foot = L::from_vector(&along).mul_add(L::splat(t), L::from_vector(tail));
-    let minimum = Minimum {
-        points: in_order::<L, NEAR>(L::from_vector(position), foot),
-        // Not x − (x − foot), which loses the foot's digits where x is far away.
-        rotated: in_order::<L, NEAR>(rotated, along_world.mul_add(L::splat(t), tail_world)),
-        difference: signed::<L, NEAR>(difference),
-        error,
-        direction: signed::<L, NEAR>(direction),
-        inverse,
-        distance,
-        reach,
-        beyond: beyond + beyond_vertex(test),
-        outside: edge_rounding(far.polyhedron),
-        height: 0.0,
-    };
-    let at = State::vertex_edge(NEAR, vertex, edge);
-    judge.certify(frame, at, &minimum);
-    Step::minimum(at)
-}
-
-#[inline(always)]
-fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
-    frame: &Frame<L>,
-    vertex: u32,
-    face: u32,
-    judge: &mut J,
-) -> Step {
-    let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    let position = &body.polyhedron.vertices[vertex as usize].position;
-    let rotated = body.rotate(position);
-    let point = far.rotate_back(rotated.add(body.offset));
-    let record = &far.polyhedron.faces[face as usize];
-    for side in record.first_sides {
-        L::prefetch(&far.polyhedron.edges, side);
-    }
-    // Lane 0 is the height over the face, lanes 1 to 3 the sides.
-    let values = plane_values(&record.planes, point);
-    // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
-    let inside = values.greater(L::splat(MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
-    if (record.side_count > 3) | !inside
-        && let Some(side) = violated_side(J::RULE, far.polyhedron, record, values, point, frame.tolerance)
-    {
-        let edge = far.polyhedron.side(record, side);
-        return Step::to(State::vertex_edge(NEAR, vertex, edge));
-    }
-    let [height, ..] = values.to_array();
-    if height <= 0.0 {
-        return behind::<NEAR>(far.polyhedron, vertex, face, &point.to_vector());
-    }
-    let normal = L::from_vector(&record.normal);
-    let direction = far.lift(normal);
-    let towards_far = body.rotate_back(direction).negate();
-    let test = test_vertex(J::RULE, body.polyhedron, vertex, towards_far, NEARLY_UNIT, STRICT);
-    if let VertexTest::Leaves { edge: leaving, head } = test {
-        return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], leaving, head);
-    }
-    let foot = normal.negated_mul_add(L::splat(height), point);
-    let square = direction.dot(direction);
-    let is_plain = frame.rigid && inside && (record.side_count == 3 || is_inside_sides(far.polyhedron, record, foot));
-    let (inverse, beyond) = if is_plain {
-        // |U|² = 1 + ε, |ε| < 100u: one step of Newton's iteration for the reciprocal root.
-        (1.5 - 0.5 * square, of_facing_face(far.polyhedron, record, height, RIGID_MISFIT))
-    } else {
-        (reciprocal_length(square), f64::INFINITY)
-    };
-    let rotated_foot = far.rotate_lanes(foot);
-    let difference = rotated.add(body.offset).sub(rotated_foot);
-    let minimum = Minimum {
-        points: in_order::<L, NEAR>(L::from_vector(position), foot),
-        rotated: in_order::<L, NEAR>(rotated, rotated_foot),
-        difference: signed::<L, NEAR>(difference),
-        error: 0.0,
-        direction: signed::<L, NEAR>(direction),
-        inverse,
-        distance: difference.dot(difference).sqrt(),
-        reach: direction.dot(difference) * inverse,
-        beyond: beyond + beyond_vertex(test),
-        outside: record.slack + face_rounding(far.polyhedron.radius, height),
-        height,
-    };
-    let at = State::vertex_face(NEAR, vertex, face);
-    judge.certify(frame, at, &minimum);
-    Step::minimum(at)
-}
-
-/// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as inside for sure.
-///
-/// Over a triangle, whose sides do not lean: its foot q has to be inside by 24u·max(ρ, |q|), see [`is_inside_sides`]; the
-/// foot's values differ from the point's by a few u of the height and of both points' magnitudes. By an edge: with x seen from
-/// the far body as p = Rᵀx and U = x − R·foot, RᵀU = p − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what
-/// they would say of RᵀU + foot by 37u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x,
-/// 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|: at most 70u·(ρ₁ + ρ₂ + |Δ|) in all.
-const MARGIN: f64 = 3.0;
-
-/// An upper bound of the length of a vector that is unit up to 1 %.
-const NEARLY_UNIT: f64 = 1.02;
-
-/// A vertex over a face descends along an edge towards it: to the edge's end, or to the side of the prism where it leaves.
-#[inline(always)]
-fn walk_over_face<L: Lanes, const NEAR: usize>(
-    frame: &Frame<L>,
-    vertex: u32,
-    face: u32,
-    [point, values]: [L; 2],
-    leaving: u32,
-    head: u32,
-) -> Step {
-    let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too.
-    let end = if leaving == NONE {
-        head
-    } else {
-        let record = &body.polyhedron.edges[leaving as usize];
-        if record.tail() == vertex { record.head() } else { record.tail() }
-    };
-    let end_position = &body.polyhedron.vertices[end as usize].position;
-    let end_point = far.rotate_back(body.rotate(end_position).add(body.offset));
-    let record = &far.polyhedron.faces[face as usize];
-    let end_values = plane_values(&record.planes, end_point);
-    let (fraction, side) = exit_of_prism(far.polyhedron, record, [point, end_point], [values, end_values], NONE);
-    let ([height, ..], [end_height, ..]) = (values.to_array(), end_values.to_array());
-    if height + fraction * (end_height - height) <= 0.0 {
-        return Step::crossing(State::vertex_face(NEAR, vertex, face));
-    }
-    Step::to(match side {
-        Some(side) if leaving != NONE => {
-            let far_edge = far.polyhedron.side(record, side);
-            State::edge_edge(if NEAR == 0 { [leaving, far_edge] } else { [far_edge, leaving] })
-        }
-        _ => State::vertex_face(NEAR, end, face),
-    })
-}
-
-#[inline(always)]
-fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
-    let [body1, body2] = &frame.bodies;
-    let record1 = &body1.polyhedron.edges[indices[0] as usize];
-    let record2 = &body2.polyhedron.edges[indices[1] as usize];
-    prefetch_ends::<L>(body1.polyhedron, record1);
-    prefetch_ends::<L>(body2.polyhedron, record2);
-    let (along1, along2) = (edge_direction(&record1.planes), edge_direction(&record2.planes));
-    let (world1, world2) = (body1.rotate(&along1), body2.rotate(&along2));
-    let (tail1, tail2) = (&record1.tail_position, &record2.tail_position);
-    let (rotated1, rotated2) = (body1.rotate(tail1), body2.rotate(tail2));
-    let between = rotated1.add(body1.offset).sub(rotated2);
-    let mut normal = world1.cross(world2);
-    // sin² of the angle from the cross product: 1 − cos² has no digits left below 1e-8.
-    let sine_squared = normal.dot(normal);
-    let cosine = world1.dot(world2);
-    let (c, f) = (world1.dot(between), world2.dot(between));
-    // Nearest points of two segments (Ericson 2005, §5.1.9). Parallel ones, whose cross product is rounding, start at a tail.
-    let (length1, length2) = (record1.length, record2.length);
-    let parallel = sine_squared <= PARALLEL;
-    let free = if parallel { 0.0 } else { (cosine * f - c) / sine_squared };
-    let mut s = clamp(free, 0.0, length1);
-    let t_free = cosine * s + f;
-    let t = clamp(t_free, 0.0, length2);
-    if t != t_free {
-        s = clamp(cosine * t - c, 0.0, length1);
-    }
-    let end1 = end_of(s, length1, record1.tail(), record1.head());
-    let end2 = end_of(t, length2, record2.tail(), record2.head());
-    match (end1, end2) {
-        (Some(vertex1), Some(vertex2)) => return Step::to(State::vertex_vertex([vertex1, vertex2])),
-        (Some(vertex), None) => return Step::to(State::vertex_edge(0, vertex, indices[1])),
-        (None, Some(vertex)) => return Step::to(State::vertex_edge(1, vertex, indices[0])),
-        (None, None) => {}
-    }
-    if parallel {
-        // Every point is nearest; let a vertex and the other edge finish.
-        let vertex = if s <= 0.5 * length1 { record1.tail() } else { record1.head() };
-        return Step::to(State::vertex_edge(0, vertex, indices[1]));
-    }
-    if between.dot(normal) < 0.0 {
-        normal = normal.negate();
-    }
-    let towards = [body1.rotate_back(normal).negate(), body2.rotate_back(normal)];
-    // In the normal cone of an edge the direction leaves both faces; the first two lanes are along the edge and vanish.
-    let bound = normal.norm1();
-    let slack = L::splat(-STRICT * if bound > 2.0 * STRICT { bound } else { 2.0 * STRICT });
-    let values1 = plane_slopes(&record1.planes, towards[0]);
-    let values2 = plane_slopes(&record2.planes, towards[1]);
-    let across = L::upper_halves(values1, values2);
-    if slack.greater(across) != 0 {
-        let lane = J::RULE.violated(across, slack);
-        return if lane < 2 {
-            let face = if lane == 0 { record1.left() } else { record1.right() };
-            walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)
-        } else {
-            let face = if lane == 2 { record2.left() } else { record2.right() };
-            walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
-        };
-    }
-    // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
-    // the slopes, found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a
-    // feature miss each other by.
-    let inverse = reciprocal_length(sine_squared);
-    let misfit = UNIT_ROUNDOFF * (28.0 + 3.0 * inverse);
-    let is_plain = L::splat(0.0).greater(across) == 0;
-    let beyond = if is_plain {
-        of_edge_in_cone(body1.polyhedron, record1, misfit) + of_edge_in_cone(body2.polyhedron, record2, misfit)
-    } else {
-        f64::INFINITY
-    };
-    let points = [
-        L::from_vector(&along1).mul_add(L::splat(s), L::from_vector(tail1)),
-        L::from_vector(&along2).mul_add(L::splat(t), L::from_vector(tail2)),
-    ];
-    let rotated = [world1.mul_add(L::splat(s), rotated1), world2.mul_add(L::splat(t), rotated2)];
-    let difference = world2.negated_mul_add(L::splat(t), world1.mul_add(L::splat(s), between));
-    let distance = difference.dot(difference).sqrt();
-    let minimum = Minimum {
-        points,
-        rotated,
-        difference,
-        // R·tail are the products that the frame's bound is for; R·ê, the length of x − y between the tails and two sums come
-        // on top.
-        error: 10.0 * UNIT_ROUNDOFF * (s + t + distance),
-        direction: normal,
-        inverse,
-        distance,
-        reach: normal.dot(difference) * inverse,
-        beyond,
-        outside: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
-        height: 0.0,
-    };
-    let at = State::edge_edge(indices);
-    judge.certify(frame, at, &minimum);
-    Step::minimum(at)
-}
-
-/// Below this sin² of the angle between two edges their cross product of unit vectors (error 4u a component) has fewer than
-/// two digits.
-const PARALLEL: f64 = 1e-28;
-
-/// The point at parameter `t` of body NEAR's edge lies over the face beside the other body's edge: walks along the edge, which
-/// descends towards the face, until it ends or leaves the face's prism. `lane` (2 or 3) of the far edge's planes looks out of
-/// the face.
-#[inline(always)]
-fn walk_along_edge<L: Lanes, const NEAR: usize>(
-    frame: &Frame<L>,
-    indices: [u32; 2],
-    t: f64,
-    face: u32,
-    far_planes: &PlaneBlock,
-    lane: usize,
-) -> Step {
-    let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    let (edge, far_edge) = (indices[NEAR], indices[1 - NEAR]);
-    let record = &body.polyhedron.edges[edge as usize];
-    let along = edge_direction(&record.planes);
-    let point = far.rotate_back(body.rotate(&(record.tail_position + along * t)).add(body.offset));
-    let direction = far.rotate_back(body.rotate(&along));
-    // Into the face is away from the far edge.
-    let forward = plane_slopes(far_planes, direction).to_array()[lane] <= 0.0;
-    let end = if forward { record.head() } else { record.tail() };
-    let face_record = &far.polyhedron.faces[face as usize];
-    let values = plane_values(&face_record.planes, point);
-    let [height, ..] = values.to_array();
-    if height <= 0.0 {
-        return behind::<NEAR>(far.polyhedron, end, face, &point.to_vector());
-    }
-    let end_position = &body.polyhedron.vertices[end as usize].position;
-    let end_point = far.rotate_back(body.rotate(end_position).add(body.offset));
-    let end_values = plane_values(&face_record.planes, end_point);
-    let (fraction, side) =
-        exit_of_prism(far.polyhedron, face_record, [point, end_point], [values, end_values], far_edge);
-    let [end_height, ..] = end_values.to_array();
-    if height + fraction * (end_height - height) <= 0.0 {
-        return Step::crossing(State::vertex_face(NEAR, end, face));
-    }
-    Step::to(match side {
-        Some(side) => {
-            let side = far.polyhedron.side(face_record, side);
-            State::edge_edge(if NEAR == 0 { [edge, side] } else { [side, edge] })
-        }
-        None => State::vertex_face(NEAR, end, face),
-    })
-}
-
-/// A vertex, or a point near it, behind a face: jumps to the far body's support vertex towards the point.
-#[inline(always)]
-fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &Vector) -> Step {
-    let support = support_towards(far, point, face);
-    Step { way: Way::Behind, at: State::vertex_vertex(ordered::<NEAR>(vertex, support)) }
-}
-
-/// Out of line, with a number for an answer: a step would be handed back in memory, where then all steps would be made.
-#[inline(never)]
-fn support_towards(far: &Polyhedron, point: &Vector, face: u32) -> u32 {
-    far.support(point, far.faces[face as usize].vertex).0
-}
-
-/// Asks the memory for all that lies across the planes of an edge: a step there waits for it otherwise.
-#[inline(always)]
-fn prefetch_across<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge) {
-    L::prefetch(&polyhedron.faces, edge.left());
-    L::prefetch(&polyhedron.faces, edge.right());
-    prefetch_ends::<L>(polyhedron, edge);
-}
-
-#[inline(always)]
-fn prefetch_ends<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge) {
-    L::prefetch(&polyhedron.vertices, edge.tail());
-    L::prefetch(&polyhedron.vertices, edge.head());
-}
-
-/// What belongs to body NEAR and what to the other, in the order of the bodies.
-#[inline(always)]
-fn in_order<L: Lanes, const NEAR: usize>(near: L, far: L) -> [L; 2] {
-    if NEAR == 0 { [near, far] } else { [far, near] }
-}
-
-/// A direction from the far body to body NEAR as one from body 2 to body 1.
-#[inline(always)]
-fn signed<L: Lanes, const NEAR: usize>(direction: L) -> L {
-    if NEAR == 0 { direction } else { direction.negate() }
-}
-
 /// The index of body NEAR's feature and that of the other body's, in the order of the bodies.
 #[inline(always)]
 fn ordered<const NEAR: usize>(near: u32, far: u32) -> [u32; 2] {
     if NEAR == 0 { [near, far] } else { [far, near] }
-}
-
-/// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look has to tell.
-#[inline(always)]
-fn beyond_vertex(test: VertexTest) -> f64 {
-    if matches!(test, VertexTest::Strict) { 0.0 } else { f64::INFINITY }
 }

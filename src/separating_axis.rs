@@ -10,7 +10,7 @@ use crate::lookup::{Plan, Table};
 use crate::lookup_build::tables;
 use crate::math::Vector;
 use crate::simd::{Lanes, Work};
-use crate::voronoi::{Rule, VertexTest, test_vertex};
+use crate::voronoi::{Corner, Rule, VertexTest, test_vertex};
 
 /// What one query remembers for the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -163,7 +163,8 @@ fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
 fn climb<L: Lanes>(body: &Body<L>, vertex: &mut u32, towards: L, length: f64, longest: u32, steps: &mut u32) -> bool {
     for _ in 0..longest {
         *steps += 1;
-        match test_vertex(Rule::Most, body.polyhedron, *vertex, towards, length, 0.0) {
+        let Some(corner) = Corner::of(body.polyhedron, *vertex) else { return false };
+        match test_vertex(Rule::Most, corner, towards, length, 0.0) {
             VertexTest::Strict => return true,
             VertexTest::Tied => return false,
             VertexTest::Leaves { head, .. } => *vertex = head,

@@ -122,21 +122,28 @@ impl State {
         })
     }
 
+    /// A state from the number of its kind, and of indices that may be anything.
+    #[inline(always)]
+    pub fn unchecked(kind: u32, indices: [u32; 2]) -> Option<State> {
+        use Kind::{EdgeEdge, EdgeVertex, FaceVertex, VertexEdge, VertexFace, VertexVertex};
+        let kind = match kind {
+            1 => VertexVertex,
+            2 => VertexEdge,
+            3 => EdgeVertex,
+            4 => VertexFace,
+            5 => FaceVertex,
+            6 => EdgeEdge,
+            _ => return None,
+        };
+        Some(State::new(kind, indices))
+    }
+
     /// A state from the number of its kind and its indices, if the polyhedra have such features.
     #[inline(always)]
     pub fn checked(kind: u32, indices: [u32; 2], polyhedra: [&Polyhedron; 2]) -> Option<State> {
-        use Kind::{EdgeEdge, EdgeVertex, FaceVertex, VertexEdge, VertexFace, VertexVertex};
-        let [first, second] = polyhedra;
-        let (kind, count1, count2) = match kind {
-            1 => (VertexVertex, first.vertices.len(), second.vertices.len()),
-            2 => (VertexEdge, first.vertices.len(), second.edges.len()),
-            3 => (EdgeVertex, first.edges.len(), second.vertices.len()),
-            4 => (VertexFace, first.vertices.len(), second.faces.len()),
-            5 => (FaceVertex, first.faces.len(), second.vertices.len()),
-            6 => (EdgeEdge, first.edges.len(), second.edges.len()),
-            _ => return None,
-        };
-        ((indices[0] as usize) < count1 && (indices[1] as usize) < count2).then_some(State::new(kind, indices))
+        let state = State::unchecked(kind, indices)?;
+        let [first, second] = state.features();
+        (first.is_of(polyhedra[0]) && second.is_of(polyhedra[1])).then_some(state)
     }
 
     /// A vertex of each feature.
@@ -148,6 +155,16 @@ impl State {
 }
 
 impl FeatureId {
+    /// Whether the polyhedron has it.
+    #[inline(always)]
+    fn is_of(self, polyhedron: &Polyhedron) -> bool {
+        match self {
+            FeatureId::Vertex(v) => (v as usize) < polyhedron.vertices.len(),
+            FeatureId::Edge(e) => (e as usize) < polyhedron.edges.len(),
+            FeatureId::Face(f) => (f as usize) < polyhedron.faces.len(),
+        }
+    }
+
     /// A vertex of the feature, one of this polyhedron.
     #[inline(always)]
     pub fn vertex(self, polyhedron: &Polyhedron) -> u32 {

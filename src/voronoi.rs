@@ -1,7 +1,7 @@
 //! Tests of Voronoi regions: planes around edges and faces, neighbours around vertices, prisms over faces.
 
 use crate::math::{UNIT_ROUNDOFF, Vector};
-use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Steepest, clear_slope};
+use crate::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Steepest, Vertex, clear_slope};
 use crate::side_search::{self, MANY_SIDES};
 use crate::simd::Lanes;
 
@@ -38,7 +38,29 @@ pub enum VertexTest {
         edge: u32,
         /// The neighbour.
         head: u32,
+        /// How far the edge is to be followed, for a direction of the length of the way to the other body: where the nearest point
+        /// on its line is.
+        reach: f32,
     },
+}
+
+/// A vertex with its body.
+#[derive(Clone, Copy)]
+pub struct Corner<'a> {
+    /// The body.
+    pub polyhedron: &'a Polyhedron,
+    /// Its number there.
+    pub index: u32,
+    /// What the body knows of it.
+    pub record: &'a Vertex,
+}
+
+impl<'a> Corner<'a> {
+    /// The vertex of that number, if the body has one.
+    #[inline(always)]
+    pub fn of(polyhedron: &'a Polyhedron, index: u32) -> Option<Corner<'a>> {
+        polyhedron.vertices.get(index as usize).map(|record| Corner { polyhedron, index, record })
+    }
 }
 
 /// Relative error of a computed slope g·ê: 6u of g = RᵀU for |U|, 3u of the stored unit direction, 3u of the product, and
@@ -48,54 +70,29 @@ pub const STRICT: f64 = 16.0 * UNIT_ROUNDOFF;
 /// Tests all neighbours of a vertex in direction g (towards the other body), whose length is at most `length`, but for the few per
 /// cent that a skewed R makes of it: the margins have as much to spare several times over.
 #[inline(always)]
-pub fn test_vertex<L: Lanes>(
-    rule: Rule,
-    polyhedron: &Polyhedron,
-    vertex: u32,
-    g: L,
-    length: f64,
-    tolerance: f64,
-) -> VertexTest {
-    let record = &polyhedron.vertices[vertex as usize];
-    prefetch_edges::<L>(polyhedron, &record.neighbours);
+pub fn test_vertex<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, tolerance: f64) -> VertexTest {
+    let record = corner.record;
     if g.products_are_below(directions(&record.neighbours), -clear_slope(length)) & (record.more == 0) {
         return VertexTest::Strict;
     }
-    test_vertex_further(rule, polyhedron, vertex, g, length, tolerance)
-}
-
-/// Asks the memory for the edges to most neighbours (a vertex of a large hull has six on average): marching goes on along one of
-/// them if that neighbour is ahead. No edge has no place; to ask for what is there costs less than to ask for what is nowhere.
-#[inline(always)]
-fn prefetch_edges<L: Lanes>(polyhedron: &Polyhedron, neighbours: &NeighbourBlock) {
-    let [first, ..] = neighbours.edge;
-    for &edge in &neighbours.edge[..6] {
-        L::prefetch(&polyhedron.edges, if edge == NONE { first } else { edge });
-    }
+    test_vertex_further(rule, corner, g, length, tolerance)
 }
 
 /// The rest of [`test_vertex`]: some neighbour is not clearly behind, or there are more than eight.
 #[inline(always)]
-fn test_vertex_further<L: Lanes>(
-    rule: Rule,
-    polyhedron: &Polyhedron,
-    vertex: u32,
-    g: L,
-    length: f64,
-    tolerance: f64,
-) -> VertexTest {
-    let (slope, edge, head) = steepest(polyhedron, vertex, g);
+fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, tolerance: f64) -> VertexTest {
+    let (slope, edge, head) = steepest(corner, g);
     let clear = clear_slope(length);
     if (slope > clear) & (f64::from(slope) > tolerance) {
         if (edge == NONE) | (rule == Rule::First) {
-            leave_by_edge(rule, polyhedron, vertex, g.to_vector(), length, head)
+            leave_by_edge(rule, corner.polyhedron, corner.index, g.to_vector(), length, head)
         } else {
-            VertexTest::Leaves { edge, head }
+            VertexTest::Leaves { edge, head, reach: slope }
         }
     } else if slope < -clear {
         VertexTest::Strict
     } else {
-        test_vertex_closely(polyhedron, vertex, &g.to_vector(), length, tolerance)
+        test_vertex_closely(corner.polyhedron, corner.index, &g.to_vector(), length, tolerance)
     }
 }
 
@@ -103,7 +100,9 @@ fn test_vertex_further<L: Lanes>(
 #[cold]
 fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length: f64, tolerance: f64) -> VertexTest {
     match polyhedron.steepest_closely(vertex, g, length) {
-        Some(Steepest { slope, edge, head }) if slope > tolerance => VertexTest::Leaves { edge, head },
+        Some(Steepest { slope, edge, head }) if slope > tolerance => {
+            VertexTest::Leaves { edge, head, reach: slope as f32 }
+        }
         Some(Steepest { slope, .. }) if !(slope < -STRICT * length) => VertexTest::Tied,
         _ => VertexTest::Strict,
     }
@@ -111,11 +110,11 @@ fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length:
 
 /// The neighbour with the greatest slope g·ê in single precision: the slope, the edge to it or NONE, and the neighbour itself.
 #[inline(always)]
-pub fn steepest<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, g: L) -> (f32, u32, u32) {
-    let record = &polyhedron.vertices[vertex as usize];
+pub fn steepest<L: Lanes>(corner: Corner, g: L) -> (f32, u32, u32) {
+    let record = corner.record;
     let mut best = steepest_of_block(&record.neighbours, g);
     for index in record.first_more..record.first_more + record.more {
-        let other = steepest_of_block(&polyhedron.more_neighbours[index as usize], g);
+        let other = steepest_of_block(&corner.polyhedron.more_neighbours[index as usize], g);
         if other.0 > best.0 {
             best = other;
         }
@@ -131,7 +130,8 @@ pub fn climb<L: Lanes>(polyhedron: &Polyhedron, g: L, start: u32) -> u32 {
     // Rounding could make steps along edges normal to g go round in circles: a vertex seen at a power of two is met again (Brent).
     let (mut vertex, mut mark) = (start, start);
     for step in 1..=polyhedron.vertices.len() {
-        let (slope, _, head) = steepest(polyhedron, vertex, g);
+        let Some(corner) = Corner::of(polyhedron, vertex) else { break };
+        let (slope, _, head) = steepest(corner, g);
         // A NaN does not rise.
         if !(slope > 0.0) || head == mark {
             break;
@@ -155,11 +155,11 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
 #[cold]
 fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
     let rough = g.map(|d| d as f32).into();
-    let mut best = (clear_slope(length), VertexTest::Leaves { edge: NONE, head });
+    let mut best = (clear_slope(length), VertexTest::Leaves { edge: NONE, head, reach: 0.0 });
     for block in polyhedron.neighbour_blocks(vertex) {
         for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
             if slope > best.0 && block.edge[lane] != NONE {
-                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane] });
+                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane], reach: slope });
                 if rule == Rule::First {
                     return best.1;
                 }
@@ -303,7 +303,8 @@ mod tests {
         type Output = VertexTest;
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> VertexTest {
-            test_vertex(Rule::Most, self.polyhedron, self.vertex, L::from_vector(&self.g), self.length, 0.0)
+            let corner = Corner::of(self.polyhedron, self.vertex).unwrap();
+            test_vertex(Rule::Most, corner, L::from_vector(&self.g), self.length, 0.0)
         }
     }
 

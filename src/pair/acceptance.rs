@@ -31,6 +31,18 @@ impl<L: Lanes> Certify<L> for Acceptance<'_> {
     }
 }
 
+/// The same at the first state of a query: mostly it is the last one, too, and what the memory is asked for then goes unused.
+pub(super) struct AtFirst<'a, 'b>(pub(super) &'a mut Acceptance<'b>);
+
+impl<L: Lanes> Certify<L> for AtFirst<'_, '_> {
+    const LOOKS_AHEAD: bool = false;
+
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        self.0.certify(frame, state, minimum);
+    }
+}
+
 impl Acceptance<'_> {
     /// Whether an interval answers the query.
     #[inline(always)]

@@ -1,7 +1,7 @@
 //! Attempts at the bodies themselves: marching from the last features, from where the tables say, or afresh, each minimum judged
 //! as it is found.
 
-use super::acceptance::Acceptance;
+use super::acceptance::{Acceptance, AtFirst};
 use super::cache::bits;
 use super::{Attempt, PairQuery, Start, Statistics};
 use crate::frame::Frame;
@@ -28,15 +28,17 @@ impl Kernel for Coherent<'_, '_> {
         if !frame.usual {
             return Attempt::Unusual;
         }
-        let Some(state) = State::checked(cache.kind, cache.indices, polyhedra) else { return Attempt::Cold };
+        let Some(state) = State::unchecked(cache.kind, cache.indices) else { return Attempt::Cold };
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
-        let step = marching::visit(&frame, state, &mut judge);
+        let step = marching::visit(&frame, state, &mut AtFirst(&mut judge));
         if judge.accepted {
             judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
             return Attempt::Done;
         }
-        if step.way == Way::Minimum {
-            return Attempt::Open { at: state, is_minimum: true, steps: 1 };
+        match step.way {
+            Way::Minimum => return Attempt::Open { at: state, is_minimum: true, steps: 1 },
+            Way::Nowhere => return Attempt::Cold,
+            Way::Move | Way::Behind | Way::Crossing => {}
         }
         // In line: the frame stays in registers.
         MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS }.run()
@@ -163,8 +165,8 @@ pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bo
     has_moved(frame, last, 0.25)
 }
 
-/// The square of an angle.
-pub(super) const RADIAN: f64 = 1.0;
+/// The square of an angle of 72°.
+pub(super) const FAR: f64 = 1.6;
 
 /// Whether the square of the angle by which the pair has moved is more than so much.
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! What marching leaves open: proofs re-tested, the fallback, the exact tier.
 
 use super::acceptance::{Acceptance, Closely};
-use super::attempt::{General, RADIAN, has_jumped_far, has_moved, has_turned_away};
+use super::attempt::{FAR, General, has_jumped_far, has_moved, has_turned_away};
 use super::cache::bits;
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
@@ -103,7 +103,7 @@ impl PairQuery<'_> {
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
             && has_jumped_far(frame, &self.cache.marker)
-            && (has_moved(frame, &self.cache.marker, RADIAN) || !start::do_cores_overlap(polyhedra, poses))
+            && (has_moved(frame, &self.cache.marker, FAR) || !start::do_cores_overlap(polyhedra, poses))
         {
             let beginning = start::anew(polyhedra, poses, true);
             if has_turned_away(frame, &self.cache.marker) {
