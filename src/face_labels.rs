@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::ops::Range;
 
 use crate::face_merge::merge_bound;
+use crate::locality::places_of;
 use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::{Face, Polyhedron};
@@ -22,15 +23,19 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) {
 }
 
 /// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour. `points` are the mesh's
-/// vertices, centred like the polyhedron.
+/// vertices, centred like the polyhedron; `numbers` gives the labels of the mesh's faces, if they are not their indices.
 ///
 /// Polygons lie on the hull up to the convexity tolerance, so some of their vertices may not be hull vertices, or by an ulp only
 /// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
 /// around the hull's support in its normal's direction. Among those whose planes hold it within rounding, or else hold it
 /// best, the one with the closest normal wins.
-pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &PolygonMesh) {
+pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &PolygonMesh, numbers: Option<&[u32]>) {
     let face_count = polyhedron.faces.len();
-    let mut holders = faces_of_polygons(polyhedron, points, mesh);
+    let found = faces_of_polygons(polyhedron, points, mesh);
+    // From here on in the order of labels.
+    let polygons = numbers.map(places_of);
+    let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
+    let mut holders: Vec<u32> = (0..found.len() as u32).map(|label| found[polygon(label)]).collect();
     let borrowed = borrowed_labels(polyhedron, &holders);
     holders.extend(borrowed.iter().map(|(face, _)| *face));
     let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
@@ -53,7 +58,7 @@ pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &
         let labels = &sorted[of_face[0] as usize..of_face[1] as usize];
         for &label in labels {
             if labels.len() > 1 {
-                polyhedron.polygon_corners.extend(mesh.face(label as usize).iter().map(|c| points[*c as usize]));
+                polyhedron.polygon_corners.extend(mesh.face(polygon(label)).iter().map(|c| points[*c as usize]));
             }
             polyhedron.polygon_starts.push(polyhedron.polygon_corners.len() as u32);
         }

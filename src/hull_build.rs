@@ -25,9 +25,8 @@
 //! vertices are found at the end (fewer than three edges between planes that differ meet there), and the hull is built once
 //! more from the vertices without them.
 
-use std::collections::VecDeque;
-
 use crate::error::{Error, Result};
+use crate::locality::{along_curve, is_identity, sort_triangles};
 use crate::math::Vector;
 use crate::mesh::check_vertex;
 use crate::predicates::{ExactPoints, FilteredPlane};
@@ -80,6 +79,22 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
         return Err(Error::Limit(format!("{} points; a convex hull takes at most {MOST_POINTS}", points.len())));
     }
     points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))?;
+    // Along the curve: what is near on the hull is then near in memory.
+    let order = along_curve(points);
+    if is_identity(&order) {
+        return hull_in_order(points, progress);
+    }
+    let sorted: Vec<Vector> = order.iter().map(|&v| points[v as usize]).collect();
+    let mut hull = hull_in_order(&sorted, progress)?;
+    for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
+        *v = order[*v as usize];
+    }
+    hull.vertices.sort_unstable();
+    Ok(hull)
+}
+
+/// The hull of finite points in about the order of the curve.
+fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
     let exact = ExactPoints::new(points);
     match AffineBasis::find(points, &exact) {
         AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: vec![a], triangles: Vec::new() }),
@@ -87,9 +102,10 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
         AffineBasis::Plane(corners) => Ok(polygon(points, &exact, corners)),
         AffineBasis::Space(corners) => {
             let hull = Quickhull::run(&exact, corners, &mut progress.part(0.0, 0.9))?;
-            let (vertices, triangles) = (hull.extreme_vertices(), hull.triangles());
+            let (vertices, mut triangles) = (hull.extreme_vertices(), hull.triangles());
             // Euler's formula: a triangulated sphere has half as many vertices as triangles, and two.
             if vertices.len() == triangles.len() / 2 + 2 {
+                sort_triangles(&mut triangles, points.len());
                 Ok(Hull { dimension: 3, vertices, triangles })
             } else {
                 hull_of_some(points, &vertices, &mut progress.part(0.9, 1.0))
@@ -101,7 +117,7 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
 /// The hull of the points named in `some`, ascending and without duplicates.
 fn hull_of_some(points: &[Vector], some: &[u32], progress: &mut Progress) -> Result<Hull> {
     let chosen: Vec<Vector> = some.iter().map(|&v| points[v as usize]).collect();
-    let mut hull = convex_hull_in_steps(&chosen, progress)?;
+    let mut hull = hull_in_order(&chosen, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
         *v = some[*v as usize];
     }
@@ -254,9 +270,9 @@ struct Quickhull<'a> {
     facets: Vec<Facet>,
     /// Removed facets.
     free: Vec<u32>,
-    /// Facets that had points in their lists, oldest first, so that the hull grows evenly on all
-    /// sides. One that was removed, and perhaps reused, while it waited does no harm.
-    waiting: VecDeque<u32>,
+    /// Facets that had points in their lists, for the next round. One that was removed, and perhaps reused, while it waited does no
+    /// harm.
+    waiting: Vec<u32>,
     /// The next point in a facet's list, per point.
     next_outside: Vec<u32>,
     /// The new facet whose first corner a point is, per point; valid while the facets of one new
@@ -270,7 +286,7 @@ impl<'a> Quickhull<'a> {
             points,
             facets: Vec::new(),
             free: Vec::new(),
-            waiting: VecDeque::new(),
+            waiting: Vec::new(),
             next_outside: vec![NONE; points.len()],
             new_facet_from: vec![NONE; points.len()],
         };
@@ -284,7 +300,12 @@ impl<'a> Quickhull<'a> {
         hull.distribute(&outside, &new);
         let (mut visible, mut horizon) = (Vec::new(), Vec::new());
         let mut vertex_count = 4;
-        while let Some(f) = hull.waiting.pop_front() {
+        let mut round = Vec::new();
+        loop {
+            if round.is_empty() {
+                hull.begin_round(&mut round);
+            }
+            let Some((_, f)) = round.pop() else { break };
             let Facet { first_outside, farthest: apex, .. } = *hull.facet(f);
             if first_outside != NONE {
                 if vertex_count % VERTICES_A_REPORT == 0 {
@@ -298,6 +319,14 @@ impl<'a> Quickhull<'a> {
             }
         }
         Ok(hull)
+    }
+
+    /// Moves all that wait into a round, last first: in rounds, so that the hull grows evenly on all sides, and each along the
+    /// curve, as points are numbered.
+    fn begin_round(&mut self, round: &mut Vec<(u32, u32)>) {
+        round.extend(self.waiting.iter().map(|&f| (self.facet(f).farthest, f)));
+        round.sort_unstable_by(|a, b| b.cmp(a));
+        self.waiting.clear();
     }
 
     fn triangles(&self) -> Vec<[u32; 3]> {
@@ -369,7 +398,7 @@ impl<'a> Quickhull<'a> {
         }
         for &f in facets {
             if self.facet(f).first_outside != NONE {
-                self.waiting.push_back(f);
+                self.waiting.push(f);
             }
         }
     }

@@ -10,10 +10,9 @@ use convexity::{Side, most_inward};
 pub use convexity::check_convexity;
 pub use proof::check_hull;
 
-use std::collections::HashMap;
-
 use crate::error::{Error, Result};
 use crate::hull_build::convex_hull;
+use crate::locality::for_each_cell;
 use crate::math::Vector;
 use crate::mesh::{PolygonMesh, check_vertex};
 use edges::match_edges;
@@ -59,9 +58,16 @@ fn violation<T>(message: String) -> Result<T> {
 
 /// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
 fn first_of_equal(points: &[Vector]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(points.len());
-    let key = |p: &Vector| [p.x, p.y, p.z].map(|x| (x + 0.0).to_bits());
-    points.iter().enumerate().map(|(i, p)| *first.entry(key(p)).or_insert(i as u32)).collect()
+    // Equal points are in one cell of the curve; there are few in one nearly always.
+    let mut first: Vec<u32> = (0..points.len() as u32).collect();
+    for_each_cell(points, |cell| {
+        let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
+        cell.sort_unstable_by(|i, j| key(i).iter().cmp(key(j).iter()).then(i.cmp(j)));
+        for equal in cell.chunk_by(|i, j| points[*i as usize] == points[*j as usize]) {
+            equal.iter().for_each(|i| first[*i as usize] = equal[0]);
+        }
+    });
+    first
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
@@ -246,10 +252,10 @@ impl Corners {
     /// Euler's formula. Where it fails no single face is at fault; but somewhere such a surface bends inward or winds about itself
     /// (Gauss & Bonnet): the edge where it bends most is named.
     fn check_genus(&self, twins: &[u32], mesh: &PolygonMesh) -> Result<()> {
-        let mut vertices = self.vertex.clone();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let (v, e, f) = (vertices.len() as i64, twins.len() as i64 / 2, self.starts.len() as i64 - 1);
+        let mut used = vec![false; self.first.len()];
+        self.vertex.iter().for_each(|v| used[*v as usize] = true);
+        let vertices = used.into_iter().filter(|used| *used).count();
+        let (v, e, f) = (vertices as i64, twins.len() as i64 / 2, self.starts.len() as i64 - 1);
         if v - e + f == 2 {
             return Ok(());
         }

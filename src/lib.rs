@@ -28,6 +28,7 @@ pub mod error;
 mod enumerator;
 pub mod progress;
 pub mod math;
+mod locality;
 #[doc(hidden)]
 pub mod simd;
 #[doc(hidden)]

@@ -2,6 +2,7 @@
 //! degenerate here: whether that is an error depends on what is made of the mesh.
 
 use crate::error::{Error, Result};
+use crate::locality::places_of;
 use crate::math::Vector;
 
 /// A polygon mesh in the caller's own numbering.
@@ -15,6 +16,15 @@ pub struct PolygonMesh {
     pub starts: Vec<u32>,
     /// The coordinates went through single precision (STL): convexity is judged accordingly.
     pub single_precision: bool,
+}
+
+/// What the caller calls the vertices and the faces of a mesh in another order.
+#[derive(Debug, Clone)]
+pub struct Numbers {
+    /// The caller's index of each vertex.
+    pub vertices: Vec<u32>,
+    /// The caller's index of each face.
+    pub faces: Vec<u32>,
 }
 
 impl Default for PolygonMesh {
@@ -79,6 +89,42 @@ impl PolygonMesh {
     /// The number of faces.
     pub fn face_count(&self) -> usize {
         self.starts.len().saturating_sub(1)
+    }
+
+    /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near each
+    /// other. With it what the numbers were before. `None` if the faces are no faces over the vertices.
+    pub(crate) fn in_order(&self, order: Vec<u32>) -> Option<(PolygonMesh, Numbers)> {
+        let count = self.vertices.len();
+        let whole = self.starts.first() == Some(&0) && self.starts.last().copied() == Some(self.indices.len() as u32);
+        if !whole || !self.starts.is_sorted() || self.indices.iter().any(|v| *v as usize >= count) {
+            return None;
+        }
+        let places = places_of(&order);
+        let lowest = |f: usize| self.face(f).iter().map(|v| places[*v as usize]).min().unwrap_or(0) as usize;
+        // Counting sort; it keeps the order of faces with the same lowest vertex.
+        let lowest: Vec<usize> = (0..self.face_count()).map(lowest).collect();
+        let mut fill = vec![0_u32; count + 1];
+        lowest.iter().for_each(|v| fill[v + 1] += 1);
+        for v in 0..count {
+            fill[v + 1] += fill[v];
+        }
+        let mut faces = vec![0; lowest.len()];
+        for (f, v) in (0..).zip(lowest) {
+            faces[fill[v] as usize] = f;
+            fill[v] += 1;
+        }
+        let mut mesh = PolygonMesh {
+            vertices: order.iter().map(|v| self.vertices[*v as usize]).collect(),
+            indices: Vec::with_capacity(self.indices.len()),
+            starts: Vec::with_capacity(self.starts.len()),
+            single_precision: self.single_precision,
+        };
+        mesh.starts.push(0);
+        for &f in &faces {
+            mesh.indices.extend(self.face(f as usize).iter().map(|v| places[*v as usize]));
+            mesh.starts.push(mesh.indices.len() as u32);
+        }
+        Some((mesh, Numbers { vertices: order, faces }))
     }
 
     /// The vertex indices of face `f`.

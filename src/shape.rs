@@ -7,11 +7,12 @@ use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
 use crate::hull_build::convex_hull_in_steps;
-use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_surface};
+use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh, check_surface};
+use crate::locality::along_curve;
 pub use crate::lookup_build::{LookupKind, LookupOptions};
 use crate::lookup_build::{plan_lookup, table};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
-use crate::mesh::{PolygonMesh, check_vertex};
+use crate::mesh::{Numbers, PolygonMesh, check_vertex};
 use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::build_in_steps;
@@ -130,17 +131,33 @@ impl Shape {
             None => CONVEXITY_TOLERANCE,
         };
         let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
+        mesh.vertices.iter().enumerate().try_for_each(|(v, vertex)| check_vertex(v, vertex))?;
         let mut of_body = progress.part(0.0, options.share_of_body());
-        let hull = convex_hull_in_steps(&mesh.vertices, &mut of_body.part(0.0, 0.2))?;
         let allow_flat = options.input != InputPolicy::Strict;
-        let closed = check_surface(&mesh);
-        of_body.report(0.32)?;
-        let checked = closed.and_then(|()| check_convexity(&mesh, &hull, tolerance, allow_flat));
-        let polygons = match options.input {
-            InputPolicy::Strict | InputPolicy::Flat => checked.map(|()| Some(&mesh))?,
-            InputPolicy::Hull => checked.is_ok().then_some(&mesh),
+        let check_as_given = || check_mesh(&mesh, tolerance, allow_flat);
+        // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
+        let Some((ordered, numbers)) = mesh.in_order(along_curve(&mesh.vertices)) else {
+            return match options.input {
+                InputPolicy::Strict | InputPolicy::Flat => {
+                    check_as_given().and(Err(Error::Bug("faces that are none passed the check".into())))
+                }
+                InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, progress),
+            };
         };
-        let polyhedron = build_in_steps(&mesh.vertices, hull, polygons, &mut of_body.part(0.45, 1.0))?;
+        let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.0, 0.2))?;
+        let closed = check_surface(&ordered);
+        of_body.report(0.32)?;
+        let checked = closed.and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat));
+        let polygons = match options.input {
+            // A message is about the caller's numbers. A face may pass by a plane that the search meets in one order only: that is
+            // good enough, as the plane is one of the hull whichever way led there.
+            InputPolicy::Strict | InputPolicy::Flat => {
+                checked.or_else(|_| check_as_given()).map(|()| Some(&ordered))?
+            }
+            InputPolicy::Hull => checked.is_ok().then_some(&ordered),
+        };
+        let building = &mut of_body.part(0.45, 1.0);
+        let polyhedron = build_in_steps(&ordered.vertices, hull, polygons, Some(&numbers), building)?;
         Shape::admitted(polyhedron, options, progress)
     }
 
@@ -159,9 +176,18 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let points = transformed(points, options)?;
+        points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))?;
+        Shape::of_points(&points, options, progress)
+    }
+
+    /// From finite points that went through the input transform.
+    fn of_points(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let order = along_curve(points);
+        let ordered: Vec<Vector> = order.iter().map(|v| points[*v as usize]).collect();
+        let numbers = Numbers { vertices: order, faces: Vec::new() };
         let mut of_body = progress.part(0.0, options.share_of_body());
-        let hull = convex_hull_in_steps(&points, &mut of_body.part(0.0, 0.3))?;
-        let polyhedron = build_in_steps(&points, hull, None, &mut of_body.part(0.3, 1.0))?;
+        let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.0, 0.3))?;
+        let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
         Shape::admitted(polyhedron, options, progress)
     }
 

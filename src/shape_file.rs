@@ -312,7 +312,7 @@ impl<'a> Reader<'a> {
             return damaged("the vertices are not those of a hull");
         }
         progress.report(SHARE_OF_PROOF)?;
-        let mut polyhedron = sound(build_in_steps(&points, hull, None, &mut progress.part(SHARE_OF_PROOF, 1.0)))?;
+        let mut polyhedron = sound(build_in_steps(&points, hull, None, None, &mut progress.part(SHARE_OF_PROOF, 1.0)))?;
         let expected = if body.is_some() { Vector::zeros() } else { centre };
         let is_same = polyhedron.vertices.iter().zip(&positions).all(|(vertex, p)| vertex.position == *p);
         if !(is_same && polyhedron.centre == expected && body.is_none_or(|body| body == centre)) {

@@ -309,3 +309,45 @@ fn threads_may_prepare_cancel_and_ask_at_once() {
     });
     assert_eq!(shape.hierarchy(), &automatic_levels(&shape));
 }
+
+/// A body of so many vertices that it is built in an order of its own: labels and messages are in the caller's numbers.
+#[test]
+#[cfg_attr(miri, ignore = "builds a large body, which takes it hours")]
+fn large_meshes_keep_their_numbers() {
+    let mut mesh = common::models::ellipsoid([1.0, 1.0, 0.1], 5000).unwrap();
+    // In no order at all.
+    let mut random = common::random::Random::new(3);
+    let mut faces: Vec<[u32; 3]> = mesh.indices.chunks(3).map(|corners| corners.try_into().unwrap()).collect();
+    for i in (1..faces.len()).rev() {
+        faces.swap(i, random.uniform(0.0, i as f64) as usize);
+    }
+    mesh.indices = faces.concat();
+    let shape = Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
+    let polyhedron = shape.polyhedron();
+    let mut seen = vec![false; mesh.face_count()];
+    for face in 0..polyhedron.faces.len() as u32 {
+        for &label in polyhedron.labels_of_face(face) {
+            assert!(!std::mem::replace(&mut seen[label as usize], true));
+            let planes = &polyhedron.faces[face as usize].planes;
+            let corners = mesh.face(label as usize).iter().map(|v| mesh.vertices[*v as usize] - polyhedron.centre);
+            assert!(corners.into_iter().all(|corner| planes.value(0, &corner).abs() < 1e-14));
+        }
+    }
+    assert!(seen.iter().all(|seen| *seen));
+    let of_points = Shape::from_points(&mesh.vertices, &ShapeOptions::default()).unwrap();
+    for polyhedron in [shape.polyhedron(), of_points.polyhedron()] {
+        for (v, label) in (0..).zip(&polyhedron.vertex_labels) {
+            assert_eq!(polyhedron.local_position(v), mesh.vertices[*label as usize]);
+        }
+    }
+
+    let message = |mesh: &PolygonMesh| Shape::from_mesh(mesh, &ShapeOptions::default()).unwrap_err().to_string();
+    let as_given = |mesh: &PolygonMesh| swiftprox::hull_check::check_mesh(mesh, 2e-9, false).unwrap_err().to_string();
+    let before_tolerance = |message: String| message.split(" (allowed").next().unwrap().to_string();
+    mesh.indices[3 * 1234..3 * 1235].reverse();
+    assert!(message(&mesh).contains("runs in the same direction in face") && message(&mesh).contains("1234"));
+    assert_eq!(message(&mesh), as_given(&mesh));
+    mesh.indices[3 * 1234..3 * 1235].reverse();
+    mesh.vertices[faces[1234][0] as usize] *= 0.5;
+    assert_eq!(before_tolerance(message(&mesh)), before_tolerance(as_given(&mesh)));
+}

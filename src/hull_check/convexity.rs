@@ -1,5 +1,6 @@
 //! How far a mesh is from the boundary of its own convex hull.
 
+use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use super::edges::match_edges;
@@ -69,17 +70,18 @@ pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_fl
     let origin = exact.approximate(hull.vertices[0]);
     let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v) - origin).collect();
     let boundary = Boundary::new(hull, &position);
-    let polygons: Vec<Polygon> = (0..mesh.face_count()).map(|f| Polygon::new(mesh.face(f), &position)).collect();
-    let surface = Extent::of(polygons.iter());
+    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
+    let surface = Extent::of((0..mesh.face_count()).map(polygon));
     if hull.dimension == 3 && surface.volume < -surface.volume_rounding() {
         return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
     }
     let allowed = exact.to_scaled(tolerance) + ROUNDING;
     let mut search = boundary.search();
-    for (f, polygon) in polygons.iter().enumerate() {
-        if boundary.has_triangle_under(polygon.corners, &exact, allowed) {
+    for f in 0..mesh.face_count() {
+        if boundary.has_triangle_under(mesh.face(f), &exact, allowed) {
             continue;
         }
+        let polygon = polygon(f);
         let Err(Outside { vertex, distance }) = polygon.check_plane(&position, &mut search, allowed) else {
             continue;
         };
@@ -156,8 +158,8 @@ impl<'a> Polygon<'a> {
         if self.corners.iter().any(|&v| boundary.valence(v) > 0 && reaches_all(v)) {
             return true;
         }
-        search.walk_to(&self.centre);
-        search.boundary.around(search.triangle).into_iter().any(|t| {
+        let triangle = search.walk_to(&self.centre);
+        search.boundary.around(triangle).into_iter().any(|t| {
             let normal = search.boundary.normal(t);
             if normal == Vector::zeros() {
                 return false;
@@ -181,12 +183,12 @@ pub(super) struct Side {
 pub(super) fn most_inward(mesh: &PolygonMesh, sides: impl Iterator<Item = Side>) -> Option<Side> {
     let exact = ExactPoints::new(&mesh.vertices);
     let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v)).collect();
-    let polygons: Vec<Polygon> = (0..mesh.face_count()).map(|f| Polygon::new(mesh.face(f), &position)).collect();
+    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
     // The faces may all run clockwise.
-    let outward = Extent::of(polygons.iter()).volume.signum();
+    let outward = Extent::of((0..mesh.face_count()).map(polygon)).volume.signum();
     let mut best = (ROUNDING, None);
     for side in sides {
-        let [normal, across] = side.faces.map(|f| unit(&polygons[f as usize].area));
+        let [normal, across] = side.faces.map(|f| unit(&polygon(f as usize).area));
         let [tail, head] = side.ends.map(|v| position[v as usize]);
         // The sine of the angle between the faces: positive where they bend inward.
         let rise = outward * unit(&(head - tail)).dot(&across.cross(&normal));
@@ -210,7 +212,7 @@ struct Extent {
 }
 
 impl Extent {
-    fn of<'a>(polygons: impl Iterator<Item = &'a Polygon<'a>>) -> Extent {
+    fn of<'a>(polygons: impl Iterator<Item = Polygon<'a>>) -> Extent {
         let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, squares: 0.0, faces: 0 };
         for p in polygons {
             sum.area += p.area.norm();
@@ -240,8 +242,7 @@ fn check_single_cover(
     surface: &Extent,
     allowed: f64,
 ) -> Result<()> {
-    let triangles: Vec<Polygon> = hull.triangles.iter().map(|t| Polygon::new(t, position)).collect();
-    let whole = Extent::of(triangles.iter());
+    let whole = Extent::of(hull.triangles.iter().map(|t| Polygon::new(t, position)));
     let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
     let volume_allowed =
         2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();
@@ -270,12 +271,17 @@ fn check_single_cover(
     ))
 }
 
+/// The directed edges of the hull's triangles, three each.
+fn edges_of(hull: &Hull) -> Vec<(u32, u32)> {
+    hull.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect()
+}
+
 /// The hull's boundary, for floating-point searches.
 struct Boundary<'a> {
     hull: &'a Hull,
     position: &'a [Vector],
-    /// The triangle across each of its edges, three each; empty for a flat hull.
-    across: Vec<u32>,
+    /// The triangle across each of its edges, three each; empty for a flat hull. An exactly convex mesh never asks for it.
+    across: OnceCell<Vec<u32>>,
     /// The neighbours of vertex v (an input index) are `neighbours[starts[v]..starts[v + 1]]`.
     neighbours: Vec<u32>,
     /// The triangle left of the edge to each of `neighbours`.
@@ -287,7 +293,7 @@ struct Boundary<'a> {
 
 impl<'a> Boundary<'a> {
     fn new(hull: &'a Hull, position: &'a [Vector]) -> Boundary<'a> {
-        let edges: Vec<(u32, u32)> = hull.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
+        let edges = edges_of(hull);
         // In a hull of dimension 3 each directed edge occurs once; in a flat one twice, which does
         // no harm.
         let mut starts = vec![0_u32; position.len() + 1];
@@ -304,13 +310,18 @@ impl<'a> Boundary<'a> {
             (neighbours[place], beside[place]) = (head, corner as u32 / 3);
             free[tail as usize] += 1;
         }
-        let across = if hull.dimension == 3 {
-            match_edges(position.len(), &edges).unwrap_or_default().iter().map(|c| c / 3).collect()
-        } else {
-            Vec::new()
-        };
         let centre = hull.vertices.iter().map(|v| position[*v as usize]).sum::<Vector>() / hull.vertices.len() as f64;
-        Boundary { hull, position, across, neighbours, beside, starts, centre }
+        Boundary { hull, position, across: OnceCell::new(), neighbours, beside, starts, centre }
+    }
+
+    fn across(&self) -> &[u32] {
+        self.across.get_or_init(|| {
+            if self.hull.dimension < 3 {
+                return Vec::new();
+            }
+            let edges = edges_of(self.hull);
+            match_edges(self.position.len(), &edges).unwrap_or_default().iter().map(|c| c / 3).collect()
+        })
     }
 
     /// Edges (lower vertex first) between triangles of clearly different planes, once each.
@@ -326,7 +337,7 @@ impl<'a> Boundary<'a> {
                 t < triangles.len() / 2
                     && (side == 1 || (side == 0 && t == rim_spokes[0]) || (side == 2 && t == rim_spokes[1]))
             } else {
-                let other = self.across[corner] as usize;
+                let other = self.across()[corner] as usize;
                 t < other && self.normal(t).dot(&self.normal(other)) < 0.999
             };
             sharp.then(|| (tail.min(head), tail.max(head)))
@@ -367,8 +378,8 @@ impl<'a> Boundary<'a> {
     fn around(&self, start: usize) -> Vec<usize> {
         let mut found = vec![start];
         let mut done = 0;
-        while done < found.len() && found.len() < MOST_PLANES && !self.across.is_empty() {
-            for next in &self.across[3 * found[done]..3 * found[done] + 3] {
+        while done < found.len() && found.len() < MOST_PLANES && !self.across().is_empty() {
+            for next in &self.across()[3 * found[done]..3 * found[done] + 3] {
                 if !found.contains(&(*next as usize)) {
                     found.push(*next as usize);
                 }
@@ -378,10 +389,13 @@ impl<'a> Boundary<'a> {
         found
     }
 
-    fn search(&'a self) -> Search<'a> {
+    fn largest_triangle(&self) -> usize {
         let area = |t: &usize| Polygon::new(&self.hull.triangles[*t], self.position).area.norm();
-        let largest = (0..self.hull.triangles.len()).max_by(|s, t| area(s).total_cmp(&area(t)));
-        Search { boundary: self, vertex: self.hull.vertices[0], triangle: largest.unwrap_or(0) }
+        (0..self.hull.triangles.len()).max_by(|s, t| area(s).total_cmp(&area(t))).unwrap_or(0)
+    }
+
+    fn search(&'a self) -> Search<'a> {
+        Search { boundary: self, vertex: self.hull.vertices[0], triangle: None }
     }
 }
 
@@ -389,7 +403,7 @@ impl<'a> Boundary<'a> {
 struct Search<'a> {
     boundary: &'a Boundary<'a>,
     vertex: u32,
-    triangle: usize,
+    triangle: Option<usize>,
 }
 
 impl Search<'_> {
@@ -424,19 +438,20 @@ impl Search<'_> {
         }
     }
 
-    /// Goes to about the triangle that the ray from the centre through `p` meets. A walk that
-    /// rounding leads in circles is cut short: it only steers. On a flat hull nothing happens.
-    fn walk_to(&mut self, p: &Vector) {
+    /// About the triangle that the ray from the centre through `p` meets, by a walk from the last one, or else from the largest. A
+    /// walk that rounding leads in circles is cut short: it only steers. On a flat hull nothing happens.
+    fn walk_to(&mut self, p: &Vector) -> usize {
         let b = self.boundary;
+        let mut triangle = self.triangle.unwrap_or_else(|| b.largest_triangle());
         let target = p - b.centre;
-        let most_steps = if b.across.is_empty() { 0 } else { 64 + 4 * b.across.len().isqrt() };
+        let most_steps = if b.across().is_empty() { 0 } else { 64 + 4 * b.across().len().isqrt() };
         for _ in 0..most_steps {
-            let corners = b.hull.triangles[self.triangle].map(|v| b.position[v as usize] - b.centre);
+            let corners = b.hull.triangles[triangle].map(|v| b.position[v as usize] - b.centre);
             let outside = |i: &usize| corners[*i].cross(&corners[(i + 1) % 3]).dot(&target) < 0.0;
-            let Some(side) = (0..3).find(outside) else {
-                return;
-            };
-            self.triangle = b.across[3 * self.triangle + side] as usize;
+            let Some(side) = (0..3).find(outside) else { break };
+            triangle = b.across()[3 * triangle + side] as usize;
         }
+        self.triangle = Some(triangle);
+        triangle
     }
 }

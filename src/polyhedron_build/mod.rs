@@ -9,10 +9,11 @@ use crate::error::Result;
 use crate::face_labels::{label_by_index, label_by_polygons};
 use crate::face_merge::{MergedFaces, merge_bound, merge_faces};
 use crate::hull_build::{Hull, convex_hull};
+use crate::locality::{sort_along_curve, sort_triangles};
 use crate::lookup::Lookup;
 use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
-use crate::mesh::PolygonMesh;
+use crate::mesh::{Numbers, PolygonMesh};
 use crate::normal::{area_vector, normal_of};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::progress::Progress;
@@ -27,10 +28,11 @@ use scale::{factor_to_middle_scale, scale_back};
 /// # Errors
 /// No points, too many, or one that is not finite ([`convex_hull`]).
 pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhedron> {
-    build_in_steps(points, convex_hull(points)?, polygons, &mut Progress::new(&mut |_| true))
+    build_in_steps(points, convex_hull(points)?, polygons, None, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`build`], for points whose exact hull is known, saying how far it is.
+/// As [`build`], for points whose exact hull is known, saying how far it is. `numbers` gives the labels of points and polygons, if
+/// they are not their indices.
 ///
 /// # Errors
 /// [`crate::error::Error::Bug`] if `hull` is not the hull of the points; [`crate::error::Error::Cancelled`] when the caller does
@@ -39,12 +41,13 @@ pub fn build_in_steps(
     points: &[Vector],
     mut hull: Hull,
     polygons: Option<&PolygonMesh>,
+    numbers: Option<&Numbers>,
     progress: &mut Progress,
 ) -> Result<Polyhedron> {
     let centre = centre_of(points);
     // The sum with +0 turns −0 into 0.
     let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
-    sort_for_locality(&mut hull.vertices, &centred);
+    sort_along_curve(&mut hull.vertices, &centred);
 
     let factor = factor_to_middle_scale(&centred);
     let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
@@ -53,9 +56,12 @@ pub fn build_in_steps(
     let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about, &mut progress.part(0.1, 0.9))?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
-            label_by_polygons(&mut polyhedron, &scaled, mesh);
+            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers.map(|numbers| &numbers.faces[..]));
         }
         _ => label_by_index(&mut polyhedron),
+    }
+    if let Some(Numbers { vertices, .. }) = numbers {
+        polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
     }
     copy_labels(&mut polyhedron);
     if factor != 1.0 {
@@ -157,34 +163,6 @@ fn centre_of(points: &[Vector]) -> Vector {
     })
 }
 
-/// Orders vertices along a Z-order curve (G. M. Morton, 1966), so that neighbours on the hull tend to be neighbours in memory.
-fn sort_for_locality(vertices: &mut [u32], points: &[Vector]) {
-    let mut low = Vector::repeat(f64::INFINITY);
-    let mut high = Vector::repeat(f64::NEG_INFINITY);
-    for &v in vertices.iter() {
-        low = low.inf(&points[v as usize]);
-        high = high.sup(&points[v as usize]);
-    }
-    // Halves, so that the size of the largest box does not overflow.
-    let half_size = (0.5 * high - 0.5 * low).amax();
-    let cell = |x: f64, low: f64| (((0.5 * x - 0.5 * low) / half_size) * f64::from((1_u32 << 21) - 1)) as u64;
-    let code = |v: &u32| {
-        let p = &points[*v as usize];
-        spread(cell(p.x, low.x)) | spread(cell(p.y, low.y)) << 1 | spread(cell(p.z, low.z)) << 2
-    };
-    vertices.sort_by_cached_key(|v| (code(v), *v));
-}
-
-/// The low 21 bits of x, two zeros after each.
-fn spread(x: u64) -> u64 {
-    let mut x = x & 0x1f_ffff;
-    x = (x | x << 32) & 0x001f_0000_0000_ffff;
-    x = (x | x << 16) & 0x001f_0000_ff00_00ff;
-    x = (x | x << 8) & 0x100f_00f0_0f00_f00f;
-    x = (x | x << 4) & 0x10c3_0c30_c30c_30c3;
-    (x | x << 2) & 0x1249_2492_4924_9249
-}
-
 /// The hull over its own vertices in their final order.
 struct HullSurface {
     dimension: u8,
@@ -204,14 +182,8 @@ impl HullSurface {
             index[old as usize] = new as u32;
         }
         // Like the vertices in order of place, each triangle from its lowest vertex.
-        let from_lowest = |mut t: [u32; 3]| {
-            let lowest = (0..3).min_by_key(|k| t[*k]).unwrap_or(0);
-            t.rotate_left(lowest);
-            t
-        };
-        let mut triangles: Vec<[u32; 3]> =
-            hull.triangles.iter().map(|t| from_lowest(t.map(|v| index[v as usize]))).collect();
-        triangles.sort_unstable();
+        let mut triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(|v| index[v as usize])).collect();
+        sort_triangles(&mut triangles, positions.len());
         let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
         let areas: Vec<WideVector> = triangles
             .iter()
