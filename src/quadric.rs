@@ -147,6 +147,47 @@ struct Waiting {
     stamp: u32,
 }
 
+/// Half-edges in order. A heap of all would be larger than the caches, and every step through it a wait for memory; so only those
+/// of about the least key are in one.
+struct Queue {
+    /// By the key's exponent and first bits of its mantissa: all keys in one are below those in the next.
+    buckets: Vec<Vec<Waiting>>,
+    /// Where the next bucket is; all of those before are in the heap.
+    next: usize,
+    heap: BinaryHeap<Reverse<Waiting>>,
+}
+
+impl Queue {
+    /// Bits of a key that do not count for its bucket: an eighth of an octave goes into one.
+    const SHIFT: u32 = 49;
+
+    /// Keys of a body of size 1 are below 16; all from there on share the last bucket.
+    const BUCKETS: usize = (16.0_f64.to_bits() >> Queue::SHIFT) as usize + 1;
+
+    fn new() -> Queue {
+        Queue { buckets: vec![Vec::new(); Queue::BUCKETS], next: 0, heap: BinaryHeap::new() }
+    }
+
+    fn push(&mut self, waiting: Waiting) {
+        let bucket = ((waiting.key >> Queue::SHIFT) as usize).min(Queue::BUCKETS - 1);
+        if bucket < self.next {
+            self.heap.push(Reverse(waiting));
+        } else {
+            self.buckets[bucket].push(waiting);
+        }
+    }
+
+    /// The first, taken out.
+    fn pop(&mut self) -> Option<Waiting> {
+        while self.heap.is_empty() && self.next < self.buckets.len() {
+            let bucket = std::mem::take(&mut self.buckets[self.next]);
+            self.heap = bucket.into_iter().map(Reverse).collect();
+            self.next += 1;
+        }
+        self.heap.pop().map(|Reverse(waiting)| waiting)
+    }
+}
+
 /// A place for the vertex that replaces an edge.
 #[derive(Debug, Clone, Copy)]
 struct Place {
@@ -167,7 +208,7 @@ struct Collapse {
     outgoing: Vec<u32>,
     quadrics: Vec<Quadric>,
     versions: Vec<u32>,
-    queue: BinaryHeap<Reverse<Waiting>>,
+    queue: Queue,
     /// Triangles that are left.
     count: usize,
     /// Marks of vertices that need no clearing.
@@ -204,7 +245,7 @@ impl Collapse {
             positions,
             quadrics,
             versions: vec![0; count],
-            queue: BinaryHeap::new(),
+            queue: Queue::new(),
             marks: vec![0; count],
             mark: 0,
             looked_at: 0,
@@ -220,7 +261,7 @@ impl Collapse {
             let before = self.count;
             self.fill_queue();
             while self.count > target
-                && let Some(Reverse(waiting)) = self.queue.pop()
+                && let Some(waiting) = self.queue.pop()
             {
                 if !self.is_current(&waiting) {
                     continue;
@@ -236,7 +277,7 @@ impl Collapse {
                 match self.best_place(h) {
                     // Its better places turn triangles over; its turn comes later.
                     Some(place) if place.key.to_bits() > waiting.key => {
-                        self.queue.push(Reverse(Waiting { key: place.key.to_bits(), ..waiting }));
+                        self.queue.push(Waiting { key: place.key.to_bits(), ..waiting });
                     }
                     Some(place) => self.collapse(h, &place.at),
                     None => {}
@@ -249,7 +290,7 @@ impl Collapse {
     }
 
     fn fill_queue(&mut self) {
-        self.queue.clear();
+        self.queue = Queue::new();
         for h in 0..self.twins.len() as u32 {
             if self.tail(h) != GONE && h < self.twins[h as usize] {
                 self.enqueue(h);
@@ -260,7 +301,7 @@ impl Collapse {
     fn enqueue(&mut self, h: u32) {
         let (_, places) = self.places(h);
         let key = places.iter().map(|place| place.key).fold(f64::INFINITY, f64::min).to_bits();
-        self.queue.push(Reverse(Waiting { key, half_edge: h, stamp: self.stamp(h) }));
+        self.queue.push(Waiting { key, half_edge: h, stamp: self.stamp(h) });
     }
 
     fn is_current(&self, waiting: &Waiting) -> bool {
@@ -424,5 +465,36 @@ impl Collapse {
         let is_left = |t: &&[u32; 3]| t[0] != GONE;
         let triangles = self.triangles.iter().filter(is_left).map(|t| t.map(|v| index[v as usize])).collect();
         Simplified { points, triangles }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use swiftprox::random::Random;
+
+    /// As a heap of all, whatever comes in while it is emptied.
+    #[test]
+    fn the_queue_is_in_order() {
+        let mut random = Random::new(8);
+        let (mut queue, mut heap) = (Queue::new(), BinaryHeap::new());
+        for half_edge in 0..2000 {
+            let key = match half_edge % 100 {
+                0 => f64::INFINITY,
+                1 => 0.0,
+                2 => 100.0,
+                _ => random.uniform(0.0, 1.0).powi(9),
+            };
+            let waiting = Waiting { key: key.to_bits(), half_edge, stamp: half_edge % 7 };
+            queue.push(waiting);
+            heap.push(Reverse(waiting));
+            if half_edge % 3 == 0 {
+                assert_eq!(queue.pop(), heap.pop().map(|Reverse(waiting)| waiting));
+            }
+        }
+        while let Some(Reverse(waiting)) = heap.pop() {
+            assert_eq!(queue.pop(), Some(waiting));
+        }
+        assert_eq!(queue.pop(), None);
     }
 }
