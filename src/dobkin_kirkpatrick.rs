@@ -15,8 +15,7 @@
 //! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
 //! (see `hierarchy`).
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
+use std::cmp::Ordering;
 
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
@@ -50,12 +49,16 @@ pub struct DobkinKirkpatrick<'a> {
     exact: ExactPoints,
     /// The body's vertices as seen from its centre of mass.
     rays: Vec<Vector>,
-    /// Some are free, to be reused.
+    /// Free ones, to be reused, only while vertices are removed.
     triangles: Vec<Triangle>,
     free: Vec<u32>,
     /// For each vertex that is left one of its triangles; NONE for the others.
     triangle_at: Vec<u32>,
+    /// For each removed vertex the next one in the same region, or NONE.
+    next_in_region: Vec<u32>,
     triangle_count: usize,
+    /// The vertices that are left, ascending.
+    left: Vec<u32>,
 }
 
 /// A triangle of the hull of the vertices that are left.
@@ -66,18 +69,33 @@ struct Triangle {
     neighbours: [u32; 3],
     /// Unit outward normal.
     normal: Vector,
-    /// The removed vertices of the body in this triangle's centre-of-mass region.
-    region: Vec<u32>,
+    /// The first of the removed vertices of the body in this triangle's centre-of-mass region, or NONE; then
+    /// [`DobkinKirkpatrick::next_in_region`].
+    region: u32,
     is_free: bool,
 }
 
-/// What a triangle of a level demands of the x of its corners a, b, c, each by its coefficients α, β, γ.
-#[derive(Default)]
+/// What the triangles of a level demand of the x of their corners a, b, c, each by its coefficients α, β, γ.
 struct Conditions {
-    /// α·x_a + β·x_b + γ·x_c ≤ 1 for the body's vertices in its region.
+    /// α·x_a + β·x_b + γ·x_c ≤ 1 for the body's vertices in the region of triangle t: `bounds[starts[t]..starts[t + 1]]`.
     bounds: Vec<[f64; 3]>,
-    /// α·x_a + β·x_b + γ·x_c ≤ x_d for the vertex d beyond each edge.
-    beyond: [(u32, [f64; 3]); 3],
+    starts: Vec<u32>,
+    /// α·x_a + β·x_b + γ·x_c ≤ x_d for the vertex d beyond each edge of each triangle.
+    beyond: Vec<[(u32, [f64; 3]); 3]>,
+}
+
+/// The cone of a triangle from the centre of mass, to find coefficients of points in.
+struct Cone {
+    /// Normals of its sides, each opposite to a corner.
+    sides: [Vector; 3],
+    volume: f64,
+}
+
+impl Cone {
+    /// α, β, γ with q = α·r_a + β·r_b + γ·r_c for the corners of the triangle.
+    fn coefficients(&self, q: &Vector) -> [f64; 3] {
+        self.sides.map(|side| side.dot(q) / self.volume)
+    }
 }
 
 /// The next level as it comes from here.
@@ -104,7 +122,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         let mut triangles = Vec::with_capacity(base.triangles.len());
         for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
             let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
-            triangles.push(Triangle { corners, neighbours, normal, region: Vec::new(), is_free: false });
+            triangles.push(Triangle { corners, neighbours, normal, region: NONE, is_free: false });
             for v in corners {
                 triangle_at[v as usize] = t as u32;
             }
@@ -114,9 +132,11 @@ impl<'a> DobkinKirkpatrick<'a> {
             exact: ExactPoints::new(&positions),
             rays: positions.iter().map(|p| p - centre).collect(),
             triangle_count: triangles.len(),
+            left: (0..positions.len() as u32).collect(),
             triangles,
             free: Vec::new(),
             triangle_at,
+            next_in_region: vec![NONE; positions.len()],
         })
     }
 
@@ -144,14 +164,15 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         filled.sort_unstable();
         progress.report(0.3)?;
-        let x = self.relaxed(&self.conditions());
+        self.left.retain(|v| self.triangle_at[*v as usize] != NONE);
+        self.pack_triangles();
+        let vertices = self.left.clone();
+        let x = self.relaxed(&vertices, &self.conditions());
         progress.report(0.9)?;
 
-        let vertices: Vec<u32> =
-            (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE).collect();
         // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
         let radius = self.base.mass.radius;
-        let least = (0..self.triangles.len()).filter(|t| !self.triangles[*t].is_free).map(|t| self.height(t as u32));
+        let least = (0..self.triangles.len() as u32).map(|t| self.height(t));
         let grown = 1.0 + 64.0 * UNIT_ROUNDOFF * radius / least.fold(radius, f64::min);
         if !(1.0..2.0).contains(&grown) {
             return Ok(None);
@@ -171,35 +192,55 @@ impl<'a> DobkinKirkpatrick<'a> {
         (0..star.len()).map(|k| 1.0 - normal(k).dot(normal(k + 1))).sum()
     }
 
-    /// Vertices to be removed, no two of them neighbours: the least important ones first.
+    /// Vertices to be removed, no two of them neighbours: the least important ones first, of equal ones the lowest; ascending.
+    ///
+    /// Such a vertex is taken unless a less important neighbour is. So they need not be visited in order of importance, which
+    /// jumps about in memory: whoever asks for one decides its less important neighbours before.
     fn independent_set(&self, minimum: usize) -> Vec<u32> {
-        let mut candidates = Vec::new();
         let mut star = Vec::new();
-        for v in (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE) {
+        // Infinite for a vertex that stays in any case.
+        let mut importances = vec![f64::INFINITY; self.rays.len()];
+        for &v in &self.left {
             self.star(v, &mut star);
             let importance = self.importance(v, &star);
             if importance <= MOST_IMPORTANT && star.len() <= LARGEST_VALENCE {
-                candidates.push((importance, v));
+                importances[v as usize] = importance;
             }
         }
-        candidates.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let before = |v: u32, w: u32| {
+            let order = importances[v as usize].total_cmp(&importances[w as usize]);
+            order.then(v.cmp(&w)).is_lt()
+        };
+        let mut is_decided: Vec<bool> = importances.iter().map(|importance| importance.is_infinite()).collect();
+        let mut set = Vec::new();
+        let mut waiting = Vec::new();
+        for &v in &self.left {
+            waiting.push(v);
+            while let Some(&v) = waiting.last() {
+                if is_decided[v as usize] {
+                    waiting.pop();
+                    continue;
+                }
+                self.star(v, &mut star);
+                let ring = || star.iter().map(|t| self.following(*t, v));
+                match ring().find(|w| !is_decided[*w as usize] && before(*w, v)) {
+                    Some(w) => waiting.push(w),
+                    None => {
+                        // None of its neighbours is taken: that would have decided this vertex.
+                        set.push(v);
+                        is_decided[v as usize] = true;
+                        ring().for_each(|w| is_decided[w as usize] = true);
+                    }
+                }
+            }
+        }
         // Each vertex takes two triangles with it.
         let most = self.triangle_count.saturating_sub(minimum) / 2;
-        let mut is_taken = vec![false; self.rays.len()];
-        let mut set = Vec::new();
-        for (_, v) in candidates {
-            if set.len() == most {
-                break;
-            }
-            if is_taken[v as usize] {
-                continue;
-            }
-            set.push(v);
-            self.star(v, &mut star);
-            for w in star.iter().flat_map(|t| self.triangles[*t as usize].corners) {
-                is_taken[w as usize] = true;
-            }
+        if set.len() > most {
+            set.sort_unstable_by(|v, w| if before(*v, *w) { Ordering::Less } else { Ordering::Greater });
+            set.truncate(most);
         }
+        set.sort_unstable();
         set
     }
 
@@ -231,8 +272,9 @@ impl<'a> DobkinKirkpatrick<'a> {
             let next = (place_of(triangle, v) + 1) % 3;
             ring.push(triangle.corners[next]);
             outer.push(triangle.neighbours[next]);
-            region.append(&mut triangle.region);
             triangle.is_free = true;
+            let first = triangle.region;
+            region.extend(self.region(first));
         }
         self.free.extend_from_slice(&star);
         self.triangle_at[v as usize] = NONE;
@@ -244,15 +286,44 @@ impl<'a> DobkinKirkpatrick<'a> {
             corners.sort_unstable();
             filled.push((corners, v));
         }
+        let cones: Vec<Cone> = filling.iter().map(|t| self.cone(*t)).collect();
         for q in region {
             // The cones of the filling are those of the hole: q is in one of them, up to rounding.
-            let inside = |t: &u32| self.cone(*t, q).into_iter().fold(f64::INFINITY, f64::min);
-            let best = filling.iter().copied().max_by(|s, t| inside(s).total_cmp(&inside(t)));
-            if let Some(t) = best {
-                self.triangles[t as usize].region.push(q);
+            let ray = &self.rays[q as usize];
+            let inside = |cone: &Cone| cone.coefficients(ray).into_iter().fold(f64::INFINITY, f64::min);
+            let depths = filling.iter().zip(&cones).map(|(t, cone)| (*t, inside(cone)));
+            if let Some((t, _)) = depths.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
+                let first = &mut self.triangles[t as usize].region;
+                self.next_in_region[q as usize] = std::mem::replace(first, q);
             }
         }
         is_inside
+    }
+
+    /// Drops free triangles; the others keep their order, in which neighbours are near each other.
+    fn pack_triangles(&mut self) {
+        let mut number = 0;
+        let numbers: Vec<u32> = (self.triangles.iter())
+            .map(|triangle| {
+                number += u32::from(!triangle.is_free);
+                number.wrapping_sub(1)
+            })
+            .collect();
+        self.triangles.retain(|triangle| !triangle.is_free);
+        for triangle in &mut self.triangles {
+            triangle.neighbours = triangle.neighbours.map(|t| numbers[t as usize]);
+        }
+        for v in &self.left {
+            let t = &mut self.triangle_at[*v as usize];
+            *t = numbers[*t as usize];
+        }
+        self.free.clear();
+    }
+
+    /// The removed vertices in a region, from its first.
+    fn region(&self, first: u32) -> impl Iterator<Item = u32> {
+        let some = |q: u32| (q != NONE).then_some(q);
+        std::iter::successors(some(first), move |q| some(self.next_in_region[*q as usize]))
     }
 
     /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from
@@ -303,7 +374,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// A new triangle; `across` is beyond the edge from its last corner to its first.
     fn add(&mut self, corners: [u32; 3], across: u32) -> u32 {
         let normal = normal(&self.rays, corners);
-        let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: Vec::new(), is_free: false };
+        let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: NONE, is_free: false };
         let t = match self.free.pop() {
             Some(t) => {
                 self.triangles[t as usize] = new;
@@ -326,85 +397,103 @@ impl<'a> DobkinKirkpatrick<'a> {
         triangle.normal.dot(&self.rays[triangle.corners[0] as usize])
     }
 
-    /// α, β, γ with r_q = α·r_a + β·r_b + γ·r_c for the corners of a triangle.
-    fn cone(&self, t: u32, q: u32) -> [f64; 3] {
+    /// The cone of a triangle.
+    fn cone(&self, t: u32) -> Cone {
         let [a, b, c] = self.triangles[t as usize].corners.map(|v| &self.rays[v as usize]);
-        let q = &self.rays[q as usize];
-        let normal = b.cross(c);
-        let volume = normal.dot(a);
-        [normal.dot(q) / volume, c.cross(a).dot(q) / volume, a.cross(b).dot(q) / volume]
+        let sides = [b.cross(c), c.cross(a), a.cross(b)];
+        Cone { volume: sides[0].dot(a), sides }
     }
 
     /// The linear conditions of a level; see the head of this file.
-    fn conditions(&self) -> Vec<Conditions> {
-        let of_triangle = |(t, triangle): (usize, &Triangle)| {
-            if triangle.is_free {
-                return Conditions::default();
-            }
-            let beyond = |k: usize| {
-                let opposite = self.opposite(triangle.neighbours[k], triangle.corners[(k + 1) % 3]);
-                (opposite, self.cone(t as u32, opposite))
-            };
-            Conditions {
-                bounds: triangle.region.iter().map(|q| self.cone(t as u32, *q)).collect(),
-                beyond: [beyond(0), beyond(1), beyond(2)],
-            }
+    fn conditions(&self) -> Conditions {
+        let count = self.triangles.len();
+        let mut conditions = Conditions {
+            bounds: Vec::with_capacity(self.rays.len()),
+            starts: Vec::with_capacity(count + 1),
+            beyond: Vec::with_capacity(count),
         };
-        self.triangles.iter().enumerate().map(of_triangle).collect()
+        for (t, triangle) in (0..).zip(&self.triangles) {
+            conditions.starts.push(conditions.bounds.len() as u32);
+            let cone = self.cone(t);
+            let coefficients = |q: u32| cone.coefficients(&self.rays[q as usize]);
+            conditions.bounds.extend(self.region(triangle.region).map(coefficients));
+            conditions.beyond.push([0, 1, 2].map(|k| {
+                let opposite = self.opposite(triangle.neighbours[k], triangle.corners[(k + 1) % 3]);
+                (opposite, coefficients(opposite))
+            }));
+        }
+        conditions.starts.push(conditions.bounds.len() as u32);
+        conditions
     }
 
-    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertex that
-    /// can slide farthest does. The factor is the one about the centre of mass that makes the hull of the vertices that are
-    /// left bound the body.
-    fn relaxed(&self, conditions: &[Conditions]) -> Vec<f64> {
-        let sums = conditions.iter().flat_map(|of| &of.bounds).map(|cone| cone.iter().sum());
+    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertices slide
+    /// that can slide far: at first those that can slide by a quarter of what scaling has moved the farthest one by, then by a
+    /// sixteenth, and so on. They do so in sweeps along the curve that vertices are in order of: to let always the one slide that
+    /// can slide farthest brings the level no nearer to the body, and jumps about in memory. The factor is the one about the centre
+    /// of mass that makes the hull of the vertices that are left bound the body.
+    fn relaxed(&self, left: &[u32], conditions: &Conditions) -> Vec<f64> {
+        let sums = conditions.bounds.iter().map(|cone| cone.iter().sum());
         let factor = sums.fold(1.0, f64::max);
         let mut x = vec![1.0 / factor; self.rays.len()];
-        let least = LEAST_SLIDE * (factor - 1.0) * self.base.mass.radius;
-        // For each vertex how far it can slide, and to which x; in the heap, too, where all but the latest of a vertex are out
-        // of date.
-        let mut slides = vec![(0.0, 0.0); self.rays.len()];
-        let mut heap = BinaryHeap::new();
+        let farthest = (factor - 1.0) * self.base.mass.radius;
+        let least = LEAST_SLIDE * farthest;
+        // For each vertex how far it can slide, and to which x; NaN where that has to be found out anew.
+        let mut slides = vec![(f64::NAN, 0.0); self.rays.len()];
         let mut star = Vec::new();
-        let mut look = |v: u32, x: &[f64], slides: &mut [(f64, f64)], heap: &mut BinaryHeap<(u64, Reverse<u32>)>| {
-            self.star(v, &mut star);
-            let limit = self.limit(x, v, &star, conditions);
-            let slide = self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit);
-            if slide != slides[v as usize].0 && slide > least {
-                heap.push((slide.to_bits(), Reverse(v))); // bits of numbers ≥ 0 are in order
-            }
-            slides[v as usize] = (slide, limit);
-        };
-        for v in (0..self.rays.len() as u32).filter(|v| self.triangle_at[*v as usize] != NONE) {
-            look(v, &x, &mut slides, &mut heap);
-        }
-        let mut ring = Vec::new();
-        for _ in 0..MOST_SLIDES * self.triangle_count {
-            let Some((bits, Reverse(v))) = heap.pop() else { break };
-            let (slide, limit) = slides[v as usize];
-            if slide.to_bits() != bits {
-                continue;
-            }
-            x[v as usize] = limit;
-            slides[v as usize] = (0.0, limit);
-            self.star(v, &mut ring);
-            for &t in &ring {
-                let triangle = &self.triangles[t as usize];
-                let next = (place_of(triangle, v) + 1) % 3;
-                look(triangle.corners[next], &x, &mut slides, &mut heap);
-                look(conditions[t as usize].beyond[next].0, &x, &mut slides, &mut heap);
+        let mut slides_left = MOST_SLIDES * self.triangle_count;
+        let mut threshold = farthest;
+        let (mut round, mut dirty) = (Vec::new(), Vec::new());
+        while threshold > least {
+            threshold = (0.25 * threshold).max(least);
+            round.extend(left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)));
+            while !round.is_empty() {
+                for &v in &round {
+                    let (mut slide, mut limit) = slides[v as usize];
+                    if slide <= threshold {
+                        continue;
+                    }
+                    self.star(v, &mut star);
+                    if slide.is_nan() {
+                        limit = self.limit(&x, v, &star, conditions);
+                        slide = self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit);
+                        slides[v as usize] = (slide, limit);
+                    }
+                    if !(slide > threshold) {
+                        continue;
+                    }
+                    if slides_left == 0 {
+                        return x;
+                    }
+                    slides_left -= 1;
+                    x[v as usize] = limit;
+                    slides[v as usize].0 = 0.0;
+                    for &t in &star {
+                        let next = (place_of(&self.triangles[t as usize], v) + 1) % 3;
+                        for w in [self.triangles[t as usize].corners[next], conditions.beyond[t as usize][next].0] {
+                            // One whose turn is still to come in this sweep is looked at then, and need not be in the next.
+                            if !slides[w as usize].0.is_nan() {
+                                slides[w as usize].0 = f64::NAN;
+                                dirty.push(w);
+                            }
+                        }
+                    }
+                }
+                std::mem::swap(&mut round, &mut dirty);
+                dirty.clear();
+                round.sort_unstable();
             }
         }
         x
     }
 
     /// The largest x of a vertex that the others allow, at least its own.
-    fn limit(&self, x: &[f64], v: u32, star: &[u32], conditions: &[Conditions]) -> f64 {
+    fn limit(&self, x: &[f64], v: u32, star: &[u32], conditions: &Conditions) -> f64 {
         let at = |w: u32| x[w as usize];
         let mut limit = 1.0_f64;
         for &t in star {
             let triangle = &self.triangles[t as usize];
-            let Conditions { bounds, beyond } = &conditions[t as usize];
+            let [first, end] = [0, 1].map(|i| conditions.starts[t as usize + i] as usize);
+            let bounds = &conditions.bounds[first..end];
             let k = place_of(triangle, v);
             let [next, last] = [(k + 1) % 3, (k + 2) % 3];
             let [b, c] = [at(triangle.corners[next]), at(triangle.corners[last])];
@@ -414,13 +503,19 @@ impl<'a> DobkinKirkpatrick<'a> {
                 }
             }
             // The vertex beyond the edge to `next` stays below this triangle. Both triangles of an edge say the same.
-            let (d, cone) = beyond[k];
+            let (d, cone) = conditions.beyond[t as usize][k];
             if cone[k] > 0.0 {
                 limit = limit.min((at(d) - cone[next] * b - cone[last] * c) / cone[k]);
             }
         }
         // Not f64::max: a NaN of a degenerate cone must not spread.
         if limit > at(v) { limit } else { at(v) }
+    }
+
+    /// The corner of a triangle after a vertex.
+    fn following(&self, t: u32, v: u32) -> u32 {
+        let triangle = &self.triangles[t as usize];
+        triangle.corners[(place_of(triangle, v) + 1) % 3]
     }
 
     /// The corner of a triangle opposite to its edge that begins at `from`.
