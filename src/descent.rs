@@ -8,7 +8,8 @@
 
 use crate::certificate::{Certify, CloserLook, Minimum};
 use crate::frame::Frame;
-use crate::marching::{self, March};
+use crate::hierarchy::Level;
+use crate::marching::{self, March, Step, Way};
 use crate::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
@@ -56,7 +57,9 @@ impl Accuracy {
 #[derive(Clone, Copy)]
 pub struct Leveled<'a> {
     /// Body 1 and body 2.
-    pub shapes: [&'a Shape; 2],
+    bodies: [&'a Polyhedron; 2],
+    /// Their levels that are made, the finest first.
+    levels: [&'a [Level]; 2],
     /// Where they are.
     pub poses: [&'a Pose; 2],
 }
@@ -71,9 +74,21 @@ pub struct Place {
 }
 
 impl<'a> Leveled<'a> {
+    /// The shapes with the levels that they have now.
+    #[inline(always)]
+    pub fn new(shapes: [&'a Shape; 2], poses: [&'a Pose; 2]) -> Leveled<'a> {
+        let [shape1, shape2] = shapes;
+        Leveled {
+            bodies: [shape1.polyhedron(), shape2.polyhedron()],
+            levels: [&shape1.hierarchy().levels, &shape2.hierarchy().levels],
+            poses,
+        }
+    }
+
     /// The coarsest levels.
+    #[inline(always)]
     pub fn coarsest(&self) -> [u16; 2] {
-        self.shapes.map(|shape| u16::try_from(shape.hierarchy().levels.len()).unwrap_or(u16::MAX))
+        self.levels.map(|levels| u16::try_from(levels.len()).unwrap_or(u16::MAX))
     }
 
     /// The polyhedra of a pair of levels.
@@ -82,11 +97,17 @@ impl<'a> Leveled<'a> {
         [self.polyhedron(0, levels[0]), self.polyhedron(1, levels[1])]
     }
 
+    /// ρ₁ + ρ₂ of the bodies themselves.
+    #[inline(always)]
+    fn size(&self) -> f64 {
+        self.bodies[0].radius + self.bodies[1].radius
+    }
+
     #[inline(always)]
     fn polyhedron(&self, i: usize, level: u16) -> &'a Polyhedron {
         match level {
-            0 => self.shapes[i].polyhedron(),
-            level => &self.shapes[i].hierarchy().levels[usize::from(level) - 1].polyhedron,
+            0 => self.bodies[i],
+            level => &self.levels[i][usize::from(level) - 1].polyhedron,
         }
     }
 
@@ -95,7 +116,7 @@ impl<'a> Leveled<'a> {
     pub fn deviation(&self, i: usize, level: u16) -> f64 {
         match level {
             0 => 0.0,
-            level => self.shapes[i].hierarchy().levels[usize::from(level) - 1].deviation,
+            level => self.levels[i][usize::from(level) - 1].deviation,
         }
     }
 
@@ -104,7 +125,7 @@ impl<'a> Leveled<'a> {
         let mut features = from.state.features();
         for (i, feature) in features.iter_mut().enumerate() {
             for level in (to[i]..from.levels[i]).rev() {
-                *feature = self.shapes[i].hierarchy().levels[usize::from(level)].children.of(*feature);
+                *feature = self.levels[i][usize::from(level)].children.of(*feature);
             }
         }
         self.place(to, features)
@@ -117,30 +138,42 @@ impl<'a> Leveled<'a> {
         Place { levels, state: State::of_features(features).unwrap_or_else(vertices) }
     }
 
+    /// Whether [`Leveled::climbed`] stays where it is.
+    #[inline(always)]
+    pub fn stays(&self, at: Place, gap: f64, most: f64) -> bool {
+        let off = self.deviation(0, at.levels[0]) + self.deviation(1, at.levels[1]);
+        self.next_rise(at.levels, gap, most - off).is_none()
+    }
+
     /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap`
     /// of the levels being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by
     /// no more than `most`.
     pub fn climbed(&self, from: Place, gap: f64, most: f64) -> Place {
-        let coarsest = self.coarsest();
         let Place { mut levels, state } = from;
         let mut features = state.features();
         let (mut left, mut off) = (gap, self.deviation(0, levels[0]) + self.deviation(1, levels[1]));
-        loop {
-            let rise = |i: usize| match levels[i] < coarsest[i] {
-                true => self.deviation(i, levels[i] + 1) - self.deviation(i, levels[i]),
-                false => f64::INFINITY,
-            };
-            let i = if rise(0) <= rise(1) { 0 } else { 1 };
-            let rise = rise(i);
-            // False where no level is left.
-            if !(rise < left && off + rise <= most) {
-                return self.place(levels, features);
-            }
+        while let Some((i, rise)) = self.next_rise(levels, left, most - off) {
             left -= rise;
             off += rise;
-            features[i] = self.shapes[i].hierarchy().levels[usize::from(levels[i])].parents.of(features[i]);
+            features[i] = self.levels[i][usize::from(levels[i])].parents.of(features[i]);
             levels[i] += 1;
         }
+        self.place(levels, features)
+    }
+
+    /// Which body goes to its next coarser level, and by how much farther that stands off, if there is one by less than `left` and
+    /// no more than `most`.
+    #[inline(always)]
+    fn next_rise(&self, levels: [u16; 2], left: f64, most: f64) -> Option<(usize, f64)> {
+        let coarsest = self.coarsest();
+        let rise = |i: usize| match levels[i] < coarsest[i] {
+            true => self.deviation(i, levels[i] + 1) - self.deviation(i, levels[i]),
+            false => f64::INFINITY,
+        };
+        let rises = [rise(0), rise(1)];
+        let i = if rises[0] <= rises[1] { 0 } else { 1 };
+        // False where no level is left.
+        (rises[i] < left && rises[i] <= most).then_some((i, rises[i]))
     }
 
     /// The finer levels that come next.
@@ -175,7 +208,7 @@ pub enum Descended {
     Enough,
     /// The bodies themselves have to be looked at, from the place reached.
     Finest,
-    /// The trial took too long.
+    /// The pair has jumped since the marker, or the trial took too long.
     Lost,
     /// The steps are spent.
     Spent,
@@ -195,6 +228,8 @@ pub struct Descent<'a> {
     pub place: Place,
     /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
     pub is_trial: bool,
+    /// Where a trial is given up at once if the pair has [jumped](Frame::has_jumped) since it had this marker.
+    pub marker: Option<[u32; 3]>,
     /// Steps of marching that it may make, at least 1.
     pub step_limit: u32,
     /// Steps made.
@@ -204,22 +239,24 @@ pub struct Descent<'a> {
 }
 
 /// Steps of a trial.
-const TRIAL_STEPS: u32 = 3;
+pub const TRIAL_STEPS: u32 = 16;
 
 impl Kernel for Descent<'_> {
     type Output = Descended;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Descended {
-        let Leveled { poses, .. } = self.bodies;
         while self.place.levels != [0, 0] {
             let Place { levels, state } = self.place;
             let polyhedra = self.bodies.polyhedra(levels);
-            let frame = Frame::<L>::new(polyhedra, poses, self.rotation_limit);
+            let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
             if frame.usual {
+                if self.is_trial && has_jumped(&frame, &self.bodies, self.marker) {
+                    return Descended::Lost;
+                }
                 let all = 64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32;
                 let limit = if self.is_trial { TRIAL_STEPS } else { all }.min(self.step_limit - self.steps);
-                let mut keep = Keep { interval: [f64::NEG_INFINITY, f64::INFINITY], normal: L::splat(0.0) };
+                let mut keep = Keep::nothing();
                 let (march, more) = marching::march(&frame, state, limit, &mut keep);
                 self.steps += more;
                 let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
@@ -229,15 +266,9 @@ impl Kernel for Descent<'_> {
                     if !(keep.interval[0] > f64::NEG_INFINITY) {
                         look_closer(&frame, &mut keep, at);
                     }
-                    let [lower, upper] = keep.interval;
-                    if lower > 0.0 {
-                        // Ends of the shortest connection of the levels have points of the bodies within the deviations.
-                        let off1 = self.bodies.deviation(0, levels[0]) * stretch(&frame, poses[0]);
-                        let off2 = self.bodies.deviation(1, levels[1]) * stretch(&frame, poses[1]);
-                        let upper = (upper + off1 + off2) * (1.0 + 8.0 * U);
-                        let normal = keep.normal.to_vector();
-                        self.found = Some(Found { place: self.place, lower, upper, normal });
-                        if self.accuracy.is_met_by(lower, upper) {
+                    if let Some(found) = keep.found(&frame, &self.bodies, self.place) {
+                        self.found = Some(found);
+                        if self.accuracy.is_met_by(found.lower, found.upper) {
                             return Descended::Enough;
                         }
                     }
@@ -254,6 +285,42 @@ impl Kernel for Descent<'_> {
         }
         Descended::Finest
     }
+}
+
+/// The beginning of a search alone, the trial at its first levels, for [ordinary](Polyhedron::ordinary) levels and a rotation limit
+/// of at least [`RIGID_TOGETHER`](crate::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the marker of
+/// the pair. It is what the search would find.
+#[inline(always)]
+pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<[u32; 3]>) -> Option<(Found, u32, L)> {
+    let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
+    if !frame.usual || has_jumped(&frame, bodies, marker) {
+        return None;
+    }
+    let mut keep = Keep::nothing();
+    // Most often the features still are the nearest: one state, without the loop that would keep so much in registers.
+    let Step { way, at: mut state } = marching::visit(&frame, place.state, &mut keep);
+    let mut steps = 1;
+    if way == Way::Move {
+        let (march, more) = marching::march(&frame, state, TRIAL_STEPS - 1, &mut keep);
+        let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
+        state = at;
+        steps += more;
+    }
+    // Of a minimum alone it has kept something.
+    let found = keep.found(&frame, bodies, Place { state, ..place })?;
+    Some((found, steps, with_size_of(&frame, bodies).marker().0))
+}
+
+/// Whether the pair has jumped since it had a marker.
+#[inline(always)]
+fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<[u32; 3]>) -> bool {
+    marker.is_some_and(|marker| with_size_of(frame, bodies).has_jumped(&marker))
+}
+
+/// A frame of levels whose markers are those of the bodies.
+#[inline(always)]
+fn with_size_of<'a, L: Lanes>(frame: &Frame<'a, L>, bodies: &Leveled) -> Frame<'a, L> {
+    Frame { size: bodies.size(), ..*frame }
 }
 
 /// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.
@@ -276,6 +343,27 @@ impl<L: Lanes> Certify<L> for Keep<L> {
         let interval = minimum.gap(frame).interval;
         self.interval = [interval.lower, interval.upper];
         self.normal = minimum.direction.mul(L::splat(minimum.inverse));
+    }
+}
+
+impl<L: Lanes> Keep<L> {
+    #[inline(always)]
+    fn nothing() -> Self {
+        Keep { interval: [f64::NEG_INFINITY, f64::INFINITY], normal: L::splat(0.0) }
+    }
+
+    /// What it says of the bodies, if it proves that the levels are disjoint.
+    #[inline(always)]
+    fn found(&self, frame: &Frame<L>, bodies: &Leveled, place: Place) -> Option<Found> {
+        let [lower, upper] = self.interval;
+        if !(lower > 0.0) {
+            return None;
+        }
+        // Ends of the shortest connection of the levels have points of the bodies within the deviations.
+        let off1 = bodies.deviation(0, place.levels[0]) * stretch(frame, bodies.poses[0]);
+        let off2 = bodies.deviation(1, place.levels[1]) * stretch(frame, bodies.poses[1]);
+        let upper = (upper + off1 + off2) * (1.0 + 8.0 * U);
+        Some(Found { place, lower, upper, normal: self.normal.to_vector() })
     }
 }
 
@@ -323,14 +411,14 @@ mod tests {
     fn refinement_goes_as_documented() {
         let [large, small] = shapes();
         let poses = [&Pose::IDENTITY; 2];
-        let bodies = Leveled { shapes: [&large, &small], poses };
+        let bodies = Leveled::new([&large, &small], poses);
         assert_eq!(bodies.coarsest(), [5, 2]);
         let single = [[5, 2], [4, 2], [3, 2], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
         assert_eq!(path(&bodies, Refinement::Single), single);
         assert_eq!(path(&bodies, Refinement::SingleSingle), [[5, 2], [4, 1], [3, 0], [2, 0], [1, 0], [0, 0]]);
         assert_eq!(path(&bodies, Refinement::DoubleDouble), [[5, 2], [3, 0], [1, 0], [0, 0]]);
         // The other way round: object 1 goes first where both are at the same level.
-        let swapped = Leveled { shapes: [&small, &large], poses };
+        let swapped = Leveled::new([&small, &large], poses);
         let single = [[2, 5], [2, 4], [2, 3], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
         assert_eq!(path(&swapped, Refinement::Single), single);
         assert_eq!(path(&swapped, Refinement::SingleSingle), [[2, 5], [1, 4], [0, 3], [0, 2], [0, 1], [0, 0]]);
@@ -342,7 +430,7 @@ mod tests {
     fn adaptive_refinement_leaves_the_largest_deviation() {
         let [large, small] = shapes();
         for shapes in [[&large, &small], [&small, &large], [&large, &large]] {
-            let bodies = Leveled { shapes, poses: [&Pose::IDENTITY; 2] };
+            let bodies = Leveled::new(shapes, [&Pose::IDENTITY; 2]);
             // Whatever the levels, and where both are the same object 1 goes first.
             for level1 in 0..=bodies.coarsest()[0] {
                 for level2 in 0..=bodies.coarsest()[1] {
@@ -370,7 +458,7 @@ mod tests {
     #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn climbing_stops_before_levels_would_meet_or_stand_off_too_far() {
         let [large, small] = shapes();
-        let bodies = Leveled { shapes: [&large, &small], poses: [&Pose::IDENTITY; 2] };
+        let bodies = Leveled::new([&large, &small], [&Pose::IDENTITY; 2]);
         let off = |levels: [u16; 2]| bodies.deviation(0, levels[0]) + bodies.deviation(1, levels[1]);
         let finest = Place { levels: [0, 0], state: State::edge_edge([7, 9]) };
         let coarsest = bodies.climbed(finest, f64::INFINITY, f64::INFINITY);
@@ -396,7 +484,7 @@ mod tests {
             // The features are the parents of the parents.
             let mut features = finest.state.features();
             for i in 0..2 {
-                for level in &bodies.shapes[i].hierarchy().levels[..usize::from(levels[i])] {
+                for level in &bodies.levels[i][..usize::from(levels[i])] {
                     features[i] = level.parents.of(features[i]);
                 }
             }
@@ -419,7 +507,7 @@ mod tests {
         for _ in 0..40 {
             let away = random.direction() * random.uniform(0.9, 1.5);
             let poses = [Pose::IDENTITY, Pose::new(&random.rotation(), &away)];
-            let bodies = Leveled { shapes: [&large, &small], poses: [&poses[0], &poses[1]] };
+            let bodies = Leveled::new([&large, &small], [&poses[0], &poses[1]]);
             let solve = |levels: [u16; 2]| {
                 let [first, second] = bodies.polyhedra(levels);
                 exact::solve(first, &poses[0], second, &poses[1], &[])

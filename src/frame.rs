@@ -171,6 +171,24 @@ impl<'a, L: Lanes> Frame<'a, L> {
         (body1.rotate_back(column.mul_add(L::splat(lever), body2.offset)), lever)
     }
 
+    /// Whether the square of the angle by which the pair has moved since it had a marker, given as the bits of single-precision
+    /// numbers, is more than so much.
+    #[inline(always)]
+    pub fn has_moved(&self, last: &[u32; 3], square: f64) -> bool {
+        let (marker, lever) = self.marker();
+        let [x, y, z] = *last;
+        let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
+        let moved = marker.sub(L::from_vector(&last));
+        moved.dot(moved) > lever * lever * square
+    }
+
+    /// Whether it has moved so far that the tables know better than the last features where to start. Not for garbage.
+    #[inline(always)]
+    pub fn has_jumped(&self, last: &[u32; 3]) -> bool {
+        let [first, second] = self.polyhedra();
+        self.has_moved(last, first.lookup.reach * second.lookup.reach)
+    }
+
     /// The computed x − y for x = point `p` of body 1 and y = point `q` of body 2, both in centred local coordinates.
     #[inline(always)]
     pub fn difference(&self, p: &Vector, q: &Vector) -> L {

@@ -102,6 +102,17 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     Ok(Lookup { plan, reach: reach / (vertex_count as f64).sqrt(), made: OnceLock::new() })
 }
 
+/// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
+pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
+    let (kind, radius_factor) = match body.lookup.plan {
+        Plan::None => (LookupKind::None, LookupOptions::DEFAULT.radius_factor),
+        Plan::Shells { .. } => (LookupKind::Automatic, LookupOptions::DEFAULT.radius_factor),
+        Plan::Spherical { radius_factor, .. } => (LookupKind::Spherical, radius_factor),
+    };
+    // The options are in range.
+    plan_lookup(level, &LookupOptions { kind, resolution: 0, radius_factor }).unwrap_or_else(|_| Lookup::none())
+}
+
 /// The table of a body. The first to look makes it; others who come meanwhile wait.
 #[inline(always)]
 pub fn table(polyhedron: &Polyhedron) -> &Table {

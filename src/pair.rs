@@ -6,6 +6,7 @@ mod cache;
 mod config;
 mod decision;
 mod glance;
+mod level_glance;
 mod levels;
 
 use attempt::Coherent;
@@ -163,7 +164,7 @@ fn query_strictly(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     check_config(config)?;
-    if query == Query::Intersection && levels::help_verdicts(shapes, config) {
+    if query == Query::Intersection && levels::help_verdicts(shapes, cache, config) {
         return levels::of_large(query, shapes, poses, cache, config, answer);
     }
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
@@ -190,7 +191,7 @@ fn query_beyond(
     {
         return Ok(());
     }
-    if (query == Query::Intersection) && levels::help_verdicts(shapes, config) {
+    if (query == Query::Intersection) && levels::help_verdicts(shapes, pair.cache, config) {
         // Arrays of their own: those lent to it would have to live in memory here, too.
         let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return levels::of_large(query, shapes, poses, pair.cache, config, pair.answer);

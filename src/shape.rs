@@ -85,8 +85,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, the look-up table
-/// and automatic levels, is all that is ever added.
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
+/// tables of the body and of its levels and automatic levels, is all that is ever added.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -301,7 +301,7 @@ impl Shape {
         Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), progress)
     }
 
-    /// Makes now what the first query that needs it would, saying how far it is: the look-up table, a small part of the work
+    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables, a small part of the work
     /// (of needles up to a third) which is not interrupted, and automatic levels. After that no query of this shape allocates
     /// or waits, but for the integer arithmetic.
     ///
@@ -322,10 +322,13 @@ impl Shape {
             };
             // Another thread may have been first.
             let _ = self.hierarchy.set(levels);
-            Ok(())
         } else {
-            progress.report(1.0)
+            progress.report(1.0)?;
         }
+        self.hierarchy().levels.iter().for_each(|level| {
+            table(&level.polyhedron);
+        });
+        Ok(())
     }
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.

@@ -488,6 +488,55 @@ fn queries_begin_at_the_levels_that_answered_the_last() {
     }
 }
 
+/// The short way that mostly answers a query near the last one, through levels that the cache holds, against the general way, to
+/// which a rotation limit below rounding sends all queries: they agree to the last bit, and leave the same cache.
+#[test]
+fn the_short_way_through_levels_answers_as_the_general_way() {
+    let half_axes = [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]];
+    let shapes = half_axes.map(|half_axes| {
+        let hierarchy = HierarchyOptions { kind: HierarchyKind::Quadric, ..HierarchyOptions::default() };
+        let options = ShapeOptions { hierarchy, ..ShapeOptions::default() };
+        Shape::from_mesh(&ellipsoid(half_axes, 2_002).unwrap(), &options).unwrap()
+    });
+    let mut random = Random::new(23);
+    let mut tally = [0; 3];
+    for step in [1e-3, 1e-2, 0.1, 1.0] {
+        for start in [Start::Automatic, Start::Cache] {
+            for (absolute_error, relative_error, step_budget) in
+                [(0.03, 0.0, u32::MAX), (0.3, 0.0, u32::MAX), (0.0, 0.1, u32::MAX), (0.1, 0.01, 20), (0.1, 0.0, 3)]
+            {
+                let [a, b] = [0, 1].map(|_| &shapes[random.below(3)]);
+                let plain = PairConfig { absolute_error, relative_error, step_budget, start, ..PairConfig::default() };
+                let short = PairConfig { levels: Levels::All, ..plain };
+                let general = PairConfig { rotation_limit: 4.0 * f64::EPSILON, ..short };
+                let mut caches = [PairCache::default(); 2];
+                let (axis, distance) = (random.direction(), random.uniform(1.3, 3.5));
+                for k in 0..150 {
+                    let turn = step * f64::from(k);
+                    let pose1 = Pose::new(&rotation(&Vector::z(), 0.7), &Vector::new(0.2, -0.1, 0.3));
+                    let away = Vector::new(turn.cos(), turn.sin(), 0.1) * distance;
+                    let pose2 = Pose::new(&rotation(&axis, 1.1 * turn), &away);
+                    if [&pose1, &pose2].iter().any(|pose| pose.check(general.rotation_limit).is_err()) {
+                        continue;
+                    }
+                    let mut answers = [PairAnswer::default(); 2];
+                    for ((cache, answer), config) in caches.iter_mut().zip(&mut answers).zip([&short, &general]) {
+                        pair::approximate(a, &pose1, b, &pose2, cache, config, answer).unwrap();
+                    }
+                    // NaN is not equal to NaN.
+                    assert_eq!(format!("{:?}", answers[0]), format!("{:?}", answers[1]), "{short:?} {k}");
+                    assert_eq!(caches[0], caches[1], "{short:?} {k}");
+                    let [answer, _] = answers;
+                    let by_levels = answer.statistics.levels != [0, 0];
+                    tally[by_levels as usize * (1 + usize::from(answer.statistics.marching_steps > 1))] += 1;
+                }
+            }
+        }
+    }
+    println!("by the bodies, by levels in one step, in more: {tally:?}");
+    assert!(tally.iter().all(|count| *count > 300), "{tally:?}");
+}
+
 /// The automatic choice: levels for what they may answer of large bodies, none for the rest; the answers hold the exact ones.
 #[test]
 fn levels_of_large_bodies_are_used_where_they_save_time() {

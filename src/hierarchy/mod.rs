@@ -13,6 +13,7 @@ use crate::containment::contains;
 use crate::dobkin_kirkpatrick::{DobkinKirkpatrick, Removal};
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
+use crate::lookup_build::plan_for_level;
 use crate::math::Vector;
 use crate::mesh::check_vertex;
 use crate::outer_cuts::outer_cuts;
@@ -451,11 +452,14 @@ impl<'a> Builder<'a> {
         self.hierarchy.levels.push(Level { polyhedron, deviation, children, parents });
     }
 
-    /// The levels in the frame of `base`.
+    /// The levels in the frame of `base`, and which tables they get.
     fn finish(self, base: &Polyhedron) -> Hierarchy {
         let mut hierarchy = self.hierarchy;
-        if base.centre != Vector::zeros() {
-            hierarchy.levels.iter_mut().for_each(|level| level.polyhedron.move_frame(&base.centre));
+        for Level { polyhedron, .. } in &mut hierarchy.levels {
+            if base.centre != Vector::zeros() {
+                polyhedron.move_frame(&base.centre);
+            }
+            polyhedron.lookup = plan_for_level(polyhedron, base);
         }
         hierarchy
     }

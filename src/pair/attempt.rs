@@ -6,7 +6,6 @@ use super::cache::bits;
 use super::{Attempt, PairQuery, Start, Statistics};
 use crate::frame::Frame;
 use crate::marching::{self, March, Way};
-use crate::math::Vector;
 use crate::polyhedron::Polyhedron;
 use crate::simd::{Kernel, Lanes, Work};
 use crate::start::{self, Beginning, Guess};
@@ -68,7 +67,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
         let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
         let frame = self.frame;
-        if limit == TRIAL_STEPS && has_jumped(&frame, &judge.cache.marker) && config.start != Start::Cache {
+        if limit == TRIAL_STEPS && frame.has_jumped(&judge.cache.marker) && config.start != Start::Cache {
             let beginning = start::anew(polyhedra, poses, true);
             state = State::vertex_vertex(beginning.vertices);
             limit = step_limit(polyhedra);
@@ -143,37 +142,20 @@ pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
     64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
 }
 
-/// Whether the pair has moved so far that the tables know better than the last features where to start. Not for garbage.
-#[inline(always)]
-pub(super) fn has_jumped<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
-    let [first, second] = frame.polyhedra();
-    has_moved(frame, last, first.lookup.reach * second.lookup.reach)
-}
-
-/// The same of bodies that intersected, which mostly still do: their last vertex pairs are good for half as far again. (Of plates
+/// As [`Frame::has_jumped`], of bodies that intersected, which mostly still do: their last vertex pairs are good for half as far again. (Of plates
 /// that mostly intersect that saves a fifth of the time at 5°, a tenth at 10°.)
 #[inline(always)]
 pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
     let [first, second] = frame.polyhedra();
-    has_moved(frame, last, 2.5 * first.lookup.reach * second.lookup.reach)
+    frame.has_moved(last, 2.5 * first.lookup.reach * second.lookup.reach)
 }
 
 /// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
 /// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
 #[inline(always)]
 pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
-    has_moved(frame, last, 0.25)
+    frame.has_moved(last, 0.25)
 }
 
 /// The square of an angle of 72°.
 pub(super) const FAR: f64 = 1.6;
-
-/// Whether the square of the angle by which the pair has moved is more than so much.
-#[inline(always)]
-pub(super) fn has_moved<L: Lanes>(frame: &Frame<L>, last: &[u32; 3], square: f64) -> bool {
-    let (marker, lever) = frame.marker();
-    let [x, y, z] = *last;
-    let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
-    let moved = marker.sub(L::from_vector(&last));
-    moved.dot(moved) > lever * lever * square
-}

@@ -1,5 +1,6 @@
 //! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand.
 
+use super::{PairConfig, Start};
 use crate::descent::{Leveled, Place};
 use crate::exact::VertexPair;
 use crate::math::Vector;
@@ -39,13 +40,19 @@ impl PairCache {
     /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
     #[inline(always)]
     pub(super) fn recall_pairs(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        if self.kind <= PAIRS || self.kind > PAIRS + 4 {
+        if !self.holds_pairs() {
             return None;
         }
         let pairs = &self.pairs[..(self.kind - PAIRS) as usize];
         let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
         let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
         pairs.iter().all(known).then(|| Pairs::new(pairs))
+    }
+
+    /// Whether it holds vertex pairs of an intersection, be they any that the bodies have or not.
+    #[inline(always)]
+    pub(super) fn holds_pairs(&self) -> bool {
+        (PAIRS + 1..=PAIRS + 4).contains(&self.kind)
     }
 
     #[inline(always)]
@@ -76,7 +83,20 @@ impl PairCache {
         self.pairs[..pairs.len()].copy_from_slice(pairs);
     }
 
+    /// Whether the last answer came from levels of detail.
+    #[inline(always)]
+    pub(super) fn holds_levels(&self) -> bool {
+        self.kind > LEVELS
+    }
+
+    /// From where a pair may have jumped, unless it is to begin at its last features all the same.
+    #[inline(always)]
+    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<[u32; 3]> {
+        (config.start != Start::Cache).then_some(self.marker)
+    }
+
     /// A place among levels, if the bodies have it. A feature pair without levels is one, too.
+    #[inline(always)]
     pub(super) fn recall_place(&self, bodies: &Leveled) -> Option<Place> {
         let (kind, levels) = if self.kind > LEVELS { (self.kind - LEVELS, self.pairs[0]) } else { (self.kind, [0, 0]) };
         let coarsest = bodies.coarsest();
@@ -87,6 +107,7 @@ impl PairCache {
         State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| Place { levels, state })
     }
 
+    #[inline(always)]
     pub(super) fn remember_place(&mut self, place: Place) {
         self.kind = LEVELS + place.state.kind as u32;
         self.indices = place.state.indices();
@@ -95,6 +116,7 @@ impl PairCache {
     }
 
     /// Steps that queries whose budget ran out have made on the way to this place.
+    #[inline(always)]
     pub(super) fn spent_before(&self) -> u32 {
         if self.kind > LEVELS { self.pairs[1][0] } else { 0 }
     }

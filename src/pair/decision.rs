@@ -1,7 +1,7 @@
 //! What marching leaves open: proofs re-tested, the fallback, the exact tier.
 
 use super::acceptance::{Acceptance, Closely};
-use super::attempt::{FAR, General, has_jumped_far, has_moved, has_turned_away};
+use super::attempt::{FAR, General, has_jumped_far, has_turned_away};
 use super::cache::bits;
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
@@ -9,10 +9,11 @@ use crate::contact_direction::contact_direction;
 use crate::enclosure::encloses_origin;
 use crate::error::Result;
 use crate::frame::Frame;
-use crate::math::ROTATION_LIMIT;
+use crate::math::{Pose, ROTATION_LIMIT};
 use crate::overlap::{self, Decision, Pairs, Wanted};
+use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
-use crate::simd::{self, Lanes, Portable};
+use crate::simd::{self, Kernel, Lanes, Portable};
 use crate::start::{self, Guess};
 use crate::state::State;
 
@@ -103,7 +104,7 @@ impl PairQuery<'_> {
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
             && has_jumped_far(frame, &self.cache.marker)
-            && (has_moved(frame, &self.cache.marker, FAR) || !start::do_cores_overlap(polyhedra, poses))
+            && (frame.has_moved(&self.cache.marker, FAR) || !start::do_cores_overlap(polyhedra, poses))
         {
             let beginning = start::anew(polyhedra, poses, true);
             if has_turned_away(frame, &self.cache.marker) {
@@ -158,8 +159,7 @@ impl PairQuery<'_> {
     }
 
     pub(super) fn remember_marker(&mut self) {
-        let frame = Frame::<Portable>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        self.cache.marker = bits(frame.marker().0.to_vector());
+        self.cache.marker = simd::dispatch(&mut Marker { polyhedra: self.polyhedra, poses: self.poses });
     }
 
     /// Answer and cache from a decision.
@@ -201,5 +201,20 @@ impl PairQuery<'_> {
                 }
             }
         }
+    }
+}
+
+/// The [marker](Frame::marker) of a pair, as the bits of single-precision numbers.
+struct Marker<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+}
+
+impl Kernel for Marker<'_> {
+    type Output = [u32; 3];
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> [u32; 3] {
+        bits(Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT).marker().0.to_vector())
     }
 }

@@ -1,7 +1,7 @@
 //! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
 //! where that is needed, and where the next query is to start.
 
-use super::attempt::{MarchOn, TRIAL_STEPS, has_jumped, step_limit};
+use super::attempt::{MarchOn, TRIAL_STEPS, step_limit};
 use super::config::{check_accuracy, check_config};
 use super::{
     Attempt, Levels, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Query, Start, Statistics, Status,
@@ -37,7 +37,16 @@ pub(super) fn approximate(
     if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
     }
-    if are_large(shapes, MANY_VERTICES) & (config.levels == Levels::Automatic) {
+    let is_large =
+        are_large(shapes, MANY_VERTICES) && (config.levels == Levels::Automatic) & !seem_to_intersect(cache, config);
+    if is_large | (config.levels == Levels::All) {
+        let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
+        let mut pair = PairQuery { query: Query::Approximate, polyhedra, poses, cache, config, answer };
+        if pair.is_answered_by_last_levels(shapes) {
+            return Ok(());
+        }
+    }
+    if is_large {
         let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
         return of_large(Query::Approximate, shapes, poses, cache, config, answer);
     }
@@ -71,10 +80,17 @@ fn are_large(shapes: [&Shape; 2], vertex_count: usize) -> bool {
     shapes[0].polyhedron().vertices.len() + shapes[1].polyhedron().vertices.len() >= vertex_count
 }
 
+/// Whether the bodies intersected the last time: they mostly still do, which their cached vertex pairs prove, and levels cannot.
+/// (Of round bodies of 100,002 vertices that saves from four fifths at 0.1° to nineteen twentieths of the time at 1° and 10°.)
+#[inline(always)]
+fn seem_to_intersect(cache: &PairCache, config: &PairConfig) -> bool {
+    cache.holds_pairs() & config.start.asks_cache()
+}
+
 /// Whether the bodies are so large that levels save time where a verdict is asked for and not settled at a glance.
 #[inline(always)]
-pub(super) fn help_verdicts(shapes: [&Shape; 2], config: &PairConfig) -> bool {
-    are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic)
+pub(super) fn help_verdicts(shapes: [&Shape; 2], cache: &PairCache, config: &PairConfig) -> bool {
+    are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic) & !seem_to_intersect(cache, config)
 }
 
 /// A query of bodies so large that levels save time where they may answer.
@@ -94,7 +110,7 @@ pub(super) fn of_large(
     let error = match query {
         // Nothing is made for a query that is answered without; others have looked.
         Query::Approximate if pair.is_farther_than(enough(query, config)) => return Ok(()),
-        Query::Approximate => most_error(config, gap_of_spheres(polyhedra, poses)),
+        Query::Approximate => surely_most_error(config, polyhedra, poses),
         _ => f64::INFINITY,
     };
     let are_worth_it = are_worth_it(shapes, error);
@@ -111,9 +127,20 @@ pub(super) fn of_large(
 }
 
 /// The error that a query about bodies at least `gap` apart may make.
-fn most_error(config: &PairConfig, gap: f64) -> f64 {
+#[inline(always)]
+pub(super) fn most_error(config: &PairConfig, gap: f64) -> f64 {
     let relative = config.relative_error * gap;
     if relative > config.absolute_error { relative } else { config.absolute_error }
+}
+
+/// The same before anything is known but the bounding spheres.
+#[inline(always)]
+pub(super) fn surely_most_error(config: &PairConfig, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
+    if config.relative_error > 0.0 {
+        most_error(config, gap_of_spheres(polyhedra, poses))
+    } else {
+        config.absolute_error
+    }
 }
 
 /// How far the bounding spheres are apart, about; 0 where they overlap. It only says where to look.
@@ -126,10 +153,16 @@ fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
 /// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
 /// vertices stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the
 /// doubt.
-fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
+#[inline(always)]
+pub(super) fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
     let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
     let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
     !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
+}
+
+/// Whether both bodies, or levels, have look-up tables.
+fn has_tables(polyhedra: [&Polyhedron; 2]) -> bool {
+    polyhedra.iter().all(|polyhedron| polyhedron.lookup.plan != Plan::None)
 }
 
 /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
@@ -140,15 +173,17 @@ fn enough(query: Query, config: &PairConfig) -> f64 {
 }
 
 /// Whether there are levels that may answer to within an error, the finest being the tightest.
-fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
+#[inline(always)]
+pub(super) fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
     let [levels1, levels2] = shapes.map(|shape| &shape.hierarchy().levels);
     let finest = |levels: &[Level]| levels.first().map_or(0.0, |level| level.deviation);
     !(levels1.is_empty() & levels2.is_empty()) && finest(levels1) + finest(levels2) < error
 }
 
 /// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the
-/// radius up to 2 times slower at 0.1°, 1.3 times at 10° and random poses, 1.4 times faster at 1°), 60,004 (up to twice as slow at
-/// 0.1°, as fast at random poses, 1.2 to 2.6 times faster between) and 200,004 vertices (1.2 to 2.3 times faster).
+/// radius up to 2 times slower at 0.1°, 1.3 times at 10° and random poses, 1.4 times faster at 1°; before levels had tables and a
+/// short way), 60,004 (up to 1.15 times slower at 0.1°, 1.2 to 5 times faster elsewhere) and 200,004 vertices (1.1 to 1.4 times
+/// faster at 0.1°, 1.8 to 8 times elsewhere).
 const MANY_VERTICES: usize = 60_000;
 
 /// The same for intersection, which a separating axis answers well: measured at 20,004 (levels up to twice as slow) and 200,004
@@ -190,8 +225,8 @@ impl PairQuery<'_> {
                 return Ok(());
             }
         }
-        let before = cache.spent_before();
-        let bodies = Leveled { shapes, poses };
+        let (before, marker) = (cache.spent_before(), cache.last_marker(config));
+        let bodies = Leveled::new(shapes, poses);
         let beyond = config.distance_tolerance;
         let accuracy = match query {
             // A tolerance is to be on one side of the interval.
@@ -214,14 +249,14 @@ impl PairQuery<'_> {
             rotation_limit: config.rotation_limit,
             place,
             is_trial,
+            marker,
             step_limit: if query == Query::Approximate { config.step_budget } else { u32::MAX },
             steps: 0,
             found: None,
         };
         let mut descended = simd::dispatch(&mut descent);
         if descended == Descended::Lost {
-            let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
-            if config.start != Start::Cache && has_jumped(&frame, &self.cache.marker) {
+            if config.start != Start::Cache && has_tables(bodies.polyhedra(place.levels)) {
                 descent.place = self.place_anew(&bodies);
             }
             descent.is_trial = false;
@@ -264,22 +299,20 @@ impl PairQuery<'_> {
         }
     }
 
-    /// Where to start if not where the last search ended: at the levels that may be near enough above the vertices that the
-    /// tables of the bodies say, without tables at the coarsest levels.
+    /// Where to start if not where the last search ended: at the levels that may be near enough, at the vertices that their tables
+    /// say; without tables at the coarsest levels.
     fn place_anew(&self, bodies: &Leveled) -> Place {
-        let no_levels = self.config.levels != Levels::All;
-        let has_tables = self.polyhedra.iter().all(|polyhedron| polyhedron.lookup.plan != Plan::None);
-        if no_levels || (has_tables && self.config.start != Start::Cold) {
-            let place =
-                Place { levels: [0, 0], state: self.state_anew(self.polyhedra, self.config.start != Start::Cold) };
-            return if no_levels { place } else { bodies.climbed(place, f64::INFINITY, self.surely_near_enough()) };
-        }
-        let levels = bodies.coarsest();
-        Place { levels, state: self.state_anew(bodies.polyhedra(levels), false) }
-    }
-
-    fn state_anew(&self, polyhedra: [&Polyhedron; 2], ask_tables: bool) -> State {
-        State::vertex_vertex(start::anew(polyhedra, self.poses, ask_tables).vertices)
+        let asks_tables = self.config.start != Start::Cold;
+        let levels = match self.config.levels {
+            Levels::All if asks_tables && has_tables(self.polyhedra) => {
+                let finest = Place { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
+                bodies.climbed(finest, f64::INFINITY, self.surely_near_enough()).levels
+            }
+            Levels::All => bodies.coarsest(),
+            _ => [0, 0],
+        };
+        let vertices = start::anew(bodies.polyhedra(levels), self.poses, asks_tables).vertices;
+        Place { levels, state: State::vertex_vertex(vertices) }
     }
 
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
@@ -337,7 +370,8 @@ impl PairQuery<'_> {
     }
 
     /// The answer that a pair of levels gives.
-    fn fill_found(&mut self, found: &Found, status: Status, steps: u32) {
+    #[inline(always)]
+    pub(super) fn fill_found(&mut self, found: &Found, status: Status, steps: u32) {
         let answer = &mut *self.answer;
         answer.status = status;
         answer.statistics = Statistics { marching_steps: steps, levels: found.place.levels, ..Statistics::default() };

@@ -1,0 +1,74 @@
+//! The common case of approximate queries through levels of detail: near the features of the levels that the cache holds are the
+//! nearest, and they say enough. Straight through to the answer that the search among the levels comes to, to the last bit.
+
+use super::cache::bits;
+use super::levels::{are_worth_it, may_answer, most_error, surely_most_error};
+use super::{Levels, PairQuery, Status};
+use crate::descent::{self, Leveled, Place, TRIAL_STEPS};
+use crate::shape::Shape;
+use crate::simd::{self, Kernel, Lanes};
+
+impl PairQuery<'_> {
+    /// Whether it is the common case; answer and cache are then written.
+    #[inline(always)]
+    pub(super) fn is_answered_by_last_levels(&mut self, shapes: [&Shape; 2]) -> bool {
+        let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self;
+        // Bounding spheres go first where there is a tolerance, and a limit below rounding asks for a closer look at the poses.
+        let is_usual = cache.holds_levels()
+            & (cache.spent_before() == 0)
+            & (config.distance_tolerance >= f64::INFINITY)
+            & (config.step_budget >= TRIAL_STEPS)
+            & config.admits_rounding()
+            & config.start.asks_cache();
+        if !is_usual || shapes[0].lacks_levels() | shapes[1].lacks_levels() {
+            return false;
+        }
+        if config.levels == Levels::Automatic {
+            let error = surely_most_error(config, polyhedra, poses);
+            if !(are_worth_it(shapes, error) && may_answer(shapes, error)) {
+                return false;
+            }
+        }
+        simd::dispatch(&mut LastLevels { pair: self, shapes })
+    }
+}
+
+struct LastLevels<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+    shapes: [&'a Shape; 2],
+}
+
+impl Kernel for LastLevels<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let bodies = Leveled::new(self.shapes, self.pair.poses);
+        let &mut PairQuery { ref cache, config, .. } = self.pair;
+        let Some(place) = cache.recall_place(&bodies) else { return false };
+        let [level1, level2] = bodies.polyhedra(place.levels);
+        if (place.levels == [0, 0]) | !(level1.ordinary & level2.ordinary) {
+            return false;
+        }
+        let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config));
+        let Some((found, steps, marker)) = first else { return false };
+        if !config.accuracy().is_met_by(found.lower, found.upper) {
+            return false;
+        }
+        self.pair.fill_found(&found, Status::WithinTolerance, steps);
+        let most = most_error(config, found.lower);
+        let stays = bodies.stays(found.place, found.lower, most);
+        let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };
+        self.pair.cache.remember_place(next);
+        if steps > 1 {
+            self.pair.cache.marker = bits(marker.to_vector());
+        }
+        true
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn climbed(bodies: &Leveled, from: &Place, gap: f64, most: f64) -> Place {
+    bodies.climbed(*from, gap, most)
+}
