@@ -264,8 +264,8 @@ typedef struct swift_mesh_sink swift_mesh_sink;
 typedef struct swift_scene swift_scene;
 
 /**
- * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, the look-up table
- * and automatic levels, is all that is ever added.
+ * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
+ * tables of the body and of its levels and automatic levels, is all that is ever added.
  */
 typedef struct swift_shape swift_shape;
 

@@ -239,7 +239,7 @@ pub struct Descent<'a> {
 }
 
 /// Steps of a trial.
-pub const TRIAL_STEPS: u32 = 16;
+pub(crate) const TRIAL_STEPS: u32 = 16;
 
 impl Kernel for Descent<'_> {
     type Output = Descended;
