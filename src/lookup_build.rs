@@ -156,7 +156,7 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 const REACH: f64 = 5.4;
 
 /// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
-const REACH_OF_ROUND: f64 = 3.4;
+const REACH_OF_ROUND: f64 = 3.1;
 
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {

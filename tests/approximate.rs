@@ -482,7 +482,7 @@ fn queries_begin_at_the_levels_that_answered_the_last() {
         let [cold, warm, above_levels, above_objects, exact_levels, exact] = steps;
         // One step where nothing has changed.
         assert!(warm < 300 && 5 * warm < cold);
-        assert!(2 * above_objects < cold && above_levels < cold);
+        assert!(3 * above_objects < 2 * cold && above_levels < cold);
         // Through levels an exact query begins above the objects, too; without, at the objects.
         assert!(exact == 200 && exact_levels >= 2 * exact);
     }

@@ -277,7 +277,7 @@ fn steps_of_disjoint_pairs(half_axes: [f64; 3]) -> ([f64; 2], [f64; 2]) {
 
 /// The table of docs/levels.md, on fewer poses.
 #[test]
-fn tables_of_thin_bodies_save_half_of_the_steps() {
+fn tables_of_thin_bodies_save_two_fifths_of_the_steps() {
     for thickness in [1e-1, 1e-2, 1e-3, 1e-4] {
         for (name, half_axes) in [("wafer", [1.0, 1.0, thickness]), ("needle", [1.0, thickness, thickness])] {
             let ([steps, steps_afresh], [undecided, undecided_afresh]) = steps_of_disjoint_pairs(half_axes);
@@ -285,7 +285,7 @@ fn tables_of_thin_bodies_save_half_of_the_steps() {
                 "{name} 1:{:.0}: steps {steps:.1}, afresh {steps_afresh:.1}; not by marching {undecided:.3}, {undecided_afresh:.3}",
                 1.0 / thickness
             );
-            assert!(steps < 0.55 * steps_afresh, "{name} {thickness}");
+            assert!(steps < 0.6 * steps_afresh, "{name} {thickness}");
         }
     }
 }

@@ -89,8 +89,10 @@ pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let record = &far.polyhedron.edges[side as usize];
     let values = plane_values(&record.planes, point);
     let least = L::splat(-frame.tolerance);
-    (least.greater(values) != 0).then(|| {
-        let lane = J::RULE.violated(values, least);
-        State::across_edge(NEAR, corner.index, lane, record.across[lane & 3])
-    })
+    // No closure: it would be compiled without the features of the lanes.
+    if least.greater(values) == 0 {
+        return None;
+    }
+    let lane = J::RULE.violated(values, least);
+    Some(State::across_edge(NEAR, corner.index, lane, record.across[lane & 3]))
 }

@@ -98,7 +98,7 @@ impl PairQuery<'_> {
             return Ok(());
         }
         // Bodies that intersected the last time and have jumped apart are for marching. Those whose cores overlap have not, and
-        // up to a radian the last tetrahedron is the better hint (of fat bodies at 5° to 45° it saves 15 to 5 of 100
+        // up to 72° the last tetrahedron is the better hint (of fat bodies at 5° to 45° it saves 15 to 5 of 100
         // instructions).
         if let Some(frame) = &frame
             && config.start != Start::Cache
