@@ -1,8 +1,8 @@
-//! Short cuts: where the tests of a state tell more than the next feature of one body, the states between are left out. That saves a
-//! tenth of them and more where a motion passes several features.
+//! Short cuts: where the tests of a state tell more than the next feature of one body, the states between are left out. That saves
+//! a tenth of them where a motion passes several features, more on thin bodies.
 //!
-//! They only propose, as all marching does. Of states that are left out some test would have led on clearly, in exact arithmetic
-//! closer to the nearest pair; what goes round in circles all the same is met by the cycle detection.
+//! They only propose, as all marching does. A state is left out only if a test of its own, made here, leads on from it clearly;
+//! what goes round in circles all the same is met by the cycle detection.
 
 use super::ordered;
 use super::states::NEARLY_UNIT;
@@ -41,8 +41,8 @@ pub(super) fn is_passed<L: Lanes, J: Certify<L>>(polyhedron: &Polyhedron, edge: 
     }
 }
 
-/// A vertex lies beyond an end of the far body's edge: where it leaves towards that end, both features change in one step, as between
-/// two vertices (Ehmann & Lin 2000, §5.1).
+/// A vertex lies beyond an end of the far body's edge: where it leaves towards that end, both features change in one step, as
+/// between two vertices (Ehmann & Lin 2000, §5.1).
 #[inline(always)]
 pub(super) fn past_the_end<L: Lanes, J: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,

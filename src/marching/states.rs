@@ -1,5 +1,5 @@
-//! The states: tests of one pair of features, and where to go from there or what minimum it is. Where a state has a vertex, that is a
-//! vertex of the body NEAR, and the other body is "far".
+//! The states: tests of one pair of features, and where to go from there or what minimum it is. Where a state has a vertex, that is
+//! a vertex of the body NEAR, and the other body is "far".
 
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
 use super::shortcuts::{is_passed, over_another_feature, past_the_end};

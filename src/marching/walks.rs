@@ -1,5 +1,5 @@
-//! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's end,
-//! or into the face.
+//! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's
+//! end, or into the face.
 
 use super::{Step, Way, ordered};
 use crate::frame::Frame;
