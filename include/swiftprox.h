@@ -398,13 +398,16 @@ typedef struct swift_shape_info {
    * level 0. Automatic ones are made by the first query that goes through them: 0 until then.
    */
   size_t level_count;
-  /** Of bytes, what the levels take. */
+  /** Of bytes, what the levels take, with their look-up tables once queries have made these. */
   size_t level_bytes;
   /** A swift_lookup: the look-up table that the shape has, never SWIFT_LOOKUP_AUTOMATIC. */
   int32_t lookup;
   /** Its resolution, as in swift_shape_options; 0 without one. */
   uint32_t lookup_resolution;
-  /** Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. */
+  /**
+   * Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. Those of levels are
+   * the levels'.
+   */
   size_t lookup_bytes;
 } swift_shape_info;
 

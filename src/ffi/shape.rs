@@ -49,13 +49,14 @@ pub struct ShapeInfo {
     /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
     /// level 0. Automatic ones are made by the first query that goes through them: 0 until then.
     pub level_count: usize,
-    /// Of bytes, what the levels take.
+    /// Of bytes, what the levels take, with their look-up tables once queries have made these.
     pub level_bytes: usize,
     /// A swift_lookup: the look-up table that the shape has, never SWIFT_LOOKUP_AUTOMATIC.
     pub lookup: i32,
     /// Its resolution, as in swift_shape_options; 0 without one.
     pub lookup_resolution: u32,
-    /// Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it.
+    /// Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. Those of levels are
+    /// the levels'.
     pub lookup_bytes: usize,
 }
 

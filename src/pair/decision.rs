@@ -9,11 +9,10 @@ use crate::contact_direction::contact_direction;
 use crate::enclosure::encloses_origin;
 use crate::error::Result;
 use crate::frame::Frame;
-use crate::math::{Pose, ROTATION_LIMIT};
+use crate::math::ROTATION_LIMIT;
 use crate::overlap::{self, Decision, Pairs, Wanted};
-use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
-use crate::simd::{self, Kernel, Lanes, Portable};
+use crate::simd::{self, Lanes, Portable};
 use crate::start::{self, Guess};
 use crate::state::State;
 
@@ -159,7 +158,8 @@ impl PairQuery<'_> {
     }
 
     pub(super) fn remember_marker(&mut self) {
-        self.cache.marker = simd::dispatch(&mut Marker { polyhedra: self.polyhedra, poses: self.poses });
+        let frame = Frame::<Portable>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        self.cache.marker = bits(frame.marker().0.to_vector());
     }
 
     /// Answer and cache from a decision.
@@ -201,20 +201,5 @@ impl PairQuery<'_> {
                 }
             }
         }
-    }
-}
-
-/// The [marker](Frame::marker) of a pair, as the bits of single-precision numbers.
-struct Marker<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
-}
-
-impl Kernel for Marker<'_> {
-    type Output = [u32; 3];
-
-    #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> [u32; 3] {
-        bits(Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT).marker().0.to_vector())
     }
 }
