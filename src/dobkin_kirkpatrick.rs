@@ -15,8 +15,6 @@
 //! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
 //! (see `hierarchy`).
 
-use std::cmp::Ordering;
-
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::normal::{area_vector, normal_of};
@@ -166,8 +164,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         progress.report(0.3)?;
         self.left.retain(|v| self.triangle_at[*v as usize] != NONE);
         self.pack_triangles();
-        let vertices = self.left.clone();
-        let x = self.relaxed(&vertices, &self.conditions());
+        let x = self.relaxed(&self.conditions());
         progress.report(0.9)?;
 
         // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
@@ -179,9 +176,9 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         let centre = self.base.mass.centre_of_mass - self.base.centre;
         let place = |v: &u32| centre + self.rays[*v as usize] * (grown / x[*v as usize]);
-        let points = vertices.iter().map(place).collect();
+        let points = self.left.iter().map(place).collect();
         progress.report(1.0)?;
-        Ok(Some(Removal { vertices, points, filled }))
+        Ok(Some(Removal { vertices: self.left.clone(), points, filled }))
     }
 
     /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ
@@ -207,10 +204,8 @@ impl<'a> DobkinKirkpatrick<'a> {
                 importances[v as usize] = importance;
             }
         }
-        let before = |v: u32, w: u32| {
-            let order = importances[v as usize].total_cmp(&importances[w as usize]);
-            order.then(v.cmp(&w)).is_lt()
-        };
+        let by_importance =
+            |v: &u32, w: &u32| importances[*v as usize].total_cmp(&importances[*w as usize]).then(v.cmp(w));
         let mut is_decided: Vec<bool> = importances.iter().map(|importance| importance.is_infinite()).collect();
         let mut set = Vec::new();
         let mut waiting = Vec::new();
@@ -223,7 +218,7 @@ impl<'a> DobkinKirkpatrick<'a> {
                 }
                 self.star(v, &mut star);
                 let ring = || star.iter().map(|t| self.following(*t, v));
-                match ring().find(|w| !is_decided[*w as usize] && before(*w, v)) {
+                match ring().find(|w| !is_decided[*w as usize] && by_importance(w, &v).is_lt()) {
                     Some(w) => waiting.push(w),
                     None => {
                         // None of its neighbours is taken: that would have decided this vertex.
@@ -237,7 +232,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         // Each vertex takes two triangles with it.
         let most = self.triangle_count.saturating_sub(minimum) / 2;
         if set.len() > most {
-            set.sort_unstable_by(|v, w| if before(*v, *w) { Ordering::Less } else { Ordering::Greater });
+            set.sort_unstable_by(by_importance);
             set.truncate(most);
         }
         set.sort_unstable();
@@ -431,7 +426,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// sixteenth, and so on. They do so in sweeps along the curve that vertices are in order of: to let always the one slide that
     /// can slide farthest brings the level no nearer to the body, and jumps about in memory. The factor is the one about the centre
     /// of mass that makes the hull of the vertices that are left bound the body.
-    fn relaxed(&self, left: &[u32], conditions: &Conditions) -> Vec<f64> {
+    fn relaxed(&self, conditions: &Conditions) -> Vec<f64> {
         let sums = conditions.bounds.iter().map(|cone| cone.iter().sum());
         let factor = sums.fold(1.0, f64::max);
         let mut x = vec![1.0 / factor; self.rays.len()];
@@ -445,7 +440,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         let (mut round, mut dirty) = (Vec::new(), Vec::new());
         while threshold > least {
             threshold = (0.25 * threshold).max(least);
-            round.extend(left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)));
+            round.extend(self.left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)));
             while !round.is_empty() {
                 for &v in &round {
                     let (mut slide, mut limit) = slides[v as usize];
@@ -470,7 +465,7 @@ impl<'a> DobkinKirkpatrick<'a> {
                     for &t in &star {
                         let next = (place_of(&self.triangles[t as usize], v) + 1) % 3;
                         for w in [self.triangles[t as usize].corners[next], conditions.beyond[t as usize][next].0] {
-                            // One whose turn is still to come in this sweep is looked at then, and need not be in the next.
+                            // One that is to be looked at anew already has its turn later in this sweep or in the next.
                             if !slides[w as usize].0.is_nan() {
                                 slides[w as usize].0 = f64::NAN;
                                 dirty.push(w);
