@@ -72,13 +72,7 @@ pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
 /// # Errors
 /// As [`convex_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
-    if points.is_empty() {
-        return Err(Error::Argument("a convex hull needs at least one point".into()));
-    }
-    if points.len() > MOST_POINTS {
-        return Err(Error::Limit(format!("{} points; a convex hull takes at most {MOST_POINTS}", points.len())));
-    }
-    points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))?;
+    check_points(points)?;
     // Along the curve: what is near on the hull is then near in memory.
     let order = along_curve(points);
     if is_identity(&order) {
@@ -91,6 +85,20 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
     }
     hull.vertices.sort_unstable();
     Ok(hull)
+}
+
+/// Whether points are some that a hull is made of.
+///
+/// # Errors
+/// As [`convex_hull`].
+pub fn check_points(points: &[Vector]) -> Result<()> {
+    if points.is_empty() {
+        return Err(Error::Argument("a convex hull needs at least one point".into()));
+    }
+    if points.len() > MOST_POINTS {
+        return Err(Error::Limit(format!("{} points; a convex hull takes at most {MOST_POINTS}", points.len())));
+    }
+    points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))
 }
 
 /// The hull of finite points in about the order of the curve.

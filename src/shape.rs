@@ -6,7 +6,7 @@ use std::sync::OnceLock;
 use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
-use crate::hull_build::convex_hull_in_steps;
+use crate::hull_build::{check_points, convex_hull_in_steps};
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh, check_surface};
 use crate::locality::along_curve;
 pub use crate::lookup_build::{LookupKind, LookupOptions};
@@ -131,7 +131,7 @@ impl Shape {
             None => CONVEXITY_TOLERANCE,
         };
         let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
-        mesh.vertices.iter().enumerate().try_for_each(|(v, vertex)| check_vertex(v, vertex))?;
+        check_points(&mesh.vertices)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
         let check_as_given = || check_mesh(&mesh, tolerance, allow_flat);
@@ -176,7 +176,7 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let points = transformed(points, options)?;
-        points.iter().enumerate().try_for_each(|(v, point)| check_vertex(v, point))?;
+        check_points(&points)?;
         Shape::of_points(&points, options, progress)
     }
 
