@@ -76,8 +76,7 @@ fn check_indices(mesh: &PolygonMesh) -> Result<()> {
     if count == 0 || mesh.face_count() == 0 {
         return violation(format!("the mesh has no {}", if count == 0 { "vertices" } else { "faces" }));
     }
-    let whole = mesh.starts[0] == 0 && mesh.starts[mesh.starts.len() - 1] as usize == mesh.indices.len();
-    if !whole || !mesh.starts.is_sorted() {
+    if !mesh.divides_indices() {
         return violation("the faces' starts do not divide the index array".into());
     }
     for f in 0..mesh.face_count() {

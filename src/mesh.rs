@@ -91,12 +91,17 @@ impl PolygonMesh {
         self.starts.len().saturating_sub(1)
     }
 
+    /// Whether the starts divide the indices into faces: they are public.
+    pub(crate) fn divides_indices(&self) -> bool {
+        let ends = [self.starts.first(), self.starts.last()].map(|start| start.map(|start| *start as usize));
+        ends == [Some(0), Some(self.indices.len())] && self.starts.is_sorted()
+    }
+
     /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near each
     /// other. With it what the numbers were before. `None` if the faces are no faces over the vertices.
     pub(crate) fn in_order(&self, order: Vec<u32>) -> Option<(PolygonMesh, Numbers)> {
         let count = self.vertices.len();
-        let whole = self.starts.first() == Some(&0) && self.starts.last().copied() == Some(self.indices.len() as u32);
-        if !whole || !self.starts.is_sorted() || self.indices.iter().any(|v| *v as usize >= count) {
+        if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= count) {
             return None;
         }
         let places = places_of(&order);
