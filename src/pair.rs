@@ -218,7 +218,7 @@ enum Attempt {
     Done,
     /// Marching left it open at this state, or its certificate did at a minimum.
     Open { at: State, is_minimum: bool, steps: u32 },
-    /// The cache holds no features.
+    /// The cache holds no features that the bodies have.
     Cold,
     /// Poses that are not rigid or not of ordinary magnitude.
     Unusual,

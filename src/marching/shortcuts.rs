@@ -1,8 +1,9 @@
 //! Short cuts: where the tests of a state tell more than the next feature of one body, the states between are left out. That saves
-//! a tenth of them where a motion passes several features, more on thin bodies.
+//! a tenth of them and more where a motion passes several features.
 //!
-//! They only propose, as all marching does. A state is left out only if a test of its own, made here, leads on from it clearly;
-//! what goes round in circles all the same is met by the cycle detection.
+//! They only propose, as all marching does. Where a state is left out some test of it would have led on, or its features are parts of
+//! those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by the cycle
+//! detection.
 
 use super::ordered;
 use super::states::NEARLY_UNIT;
@@ -31,8 +32,8 @@ fn leaving<L: Lanes>(corner: Corner, g: L, length: f64, tolerance: f64) -> Optio
     (rises & (edge != NONE)).then_some(Leaving { edge, head, reach })
 }
 
-/// Whether the nearest point on the line of an edge, `reach` from where it begins, is beyond its other end, which then is the next
-/// feature, not the edge; or whether there is no edge, only that end.
+/// Whether the nearest point on the line of an edge, `reach` from where it begins, is beyond its other end, so that the neighbour
+/// there, mostly that end, is the next feature, not the edge; or whether there is no edge, only the neighbour.
 #[inline(always)]
 pub(super) fn is_passed<L: Lanes, J: Certify<L>>(polyhedron: &Polyhedron, edge: u32, reach: f32) -> bool {
     match polyhedron.edges.get(edge as usize) {

@@ -39,7 +39,7 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     Step::to(match side {
         Some(side) if leaving != NONE => {
             let far_edge = far.polyhedron.side(record, side);
-            State::edge_edge(if NEAR == 0 { [leaving, far_edge] } else { [far_edge, leaving] })
+            State::edge_edge(ordered::<NEAR>(leaving, far_edge))
         }
         _ => State::vertex_face(NEAR, end, face),
     })
@@ -84,7 +84,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
     Step::to(match side {
         Some(side) => {
             let side = far.polyhedron.side(face_record, side);
-            State::edge_edge(if NEAR == 0 { [edge, side] } else { [side, edge] })
+            State::edge_edge(ordered::<NEAR>(edge, side))
         }
         None => State::vertex_face(NEAR, end, face),
     })
