@@ -20,12 +20,19 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     head: u32,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too.
+    // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex only
+    // the neighbour is surely ahead.
     let end = if leaving == NONE {
         head
     } else {
         let record = &body.polyhedron.edges[leaving as usize];
-        if record.tail() == vertex { record.head() } else { record.tail() }
+        if record.tail() == vertex {
+            record.head()
+        } else if record.head() == vertex {
+            record.tail()
+        } else {
+            head
+        }
     };
     let end_position = &body.polyhedron.vertices[end as usize].position;
     let end_point = far.rotate_back(body.rotate(end_position).add(body.offset));
