@@ -1,9 +1,9 @@
 //! Short cuts: where the tests of a state tell more than the next feature of one body, the states between are left out. That saves
 //! a tenth of them and more where a motion passes several features.
 //!
-//! They only propose, as all marching does. Where a state is left out some test of it would have led on, or its features are parts of
-//! those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by the cycle
-//! detection.
+//! They only propose, as all marching does. Where a state is left out some test of it would have led on, or its features are
+//! parts of those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by
+//! the cycle detection.
 
 use super::ordered;
 use super::states::NEARLY_UNIT;

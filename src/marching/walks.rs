@@ -20,8 +20,8 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     head: u32,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex only
-    // the neighbour is surely ahead.
+    // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex
+    // only the neighbour is surely ahead.
     let end = if leaving == NONE {
         head
     } else {
