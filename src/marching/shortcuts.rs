@@ -80,12 +80,12 @@ pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
         return None;
     }
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
-    let normal = far.lift(L::from_vector(&face.normal));
     let [height, ..] = values.to_array();
-    if height > 0.0
-        && let Some(Leaving { edge, .. }) = leaving(corner, body.rotate_back(normal).negate(), NEARLY_UNIT, STRICT)
-    {
-        return Some(State::edge_edge(ordered::<NEAR>(edge, side)));
+    if height > 0.0 {
+        let towards_far = body.rotate_back(far.lift(L::from_vector(&face.normal))).negate();
+        if let Some(Leaving { edge, .. }) = leaving(corner, towards_far, NEARLY_UNIT, STRICT) {
+            return Some(State::edge_edge(ordered::<NEAR>(edge, side)));
+        }
     }
     let record = &far.polyhedron.edges[side as usize];
     let values = plane_values(&record.planes, point);
@@ -94,6 +94,6 @@ pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
     if least.greater(values) == 0 {
         return None;
     }
-    let lane = J::RULE.violated(values, least);
+    let lane = Rule::Most.violated(values, least);
     Some(State::across_edge(NEAR, corner.index, lane, record.across[lane & 3]))
 }
