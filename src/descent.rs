@@ -238,7 +238,8 @@ pub struct Descent<'a> {
     pub found: Option<Found>,
 }
 
-/// Steps of a trial.
+/// Steps of a trial. Marching from the features of an earlier query is given up for a new start after so many: the pair has jumped
+/// without being noticed.
 pub(crate) const TRIAL_STEPS: u32 = 16;
 
 impl Kernel for Descent<'_> {

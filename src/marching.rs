@@ -122,9 +122,3 @@ pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit
         state = next;
     }
 }
-
-/// The index of body NEAR's feature and that of the other body's, in the order of the bodies.
-#[inline(always)]
-fn ordered<const NEAR: usize>(near: u32, far: u32) -> [u32; 2] {
-    if NEAR == 0 { [near, far] } else { [far, near] }
-}

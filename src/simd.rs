@@ -3,8 +3,8 @@
 //! A query is written once, generic over [`Lanes`], and compiled three times: with [`Portable`] for the baseline of the target, and
 //! with `Wide` inside functions that enable the features. Everything on the query's path is `#[inline(always)]`, so that it is
 //! compiled with the features of its caller. AVX-512 means the same operations on the same four lanes, and so the same numbers; it
-//! has twice the registers and operands broadcast from memory. On AMD's Zen 5 that saved a query whose features have not changed 6 %
-//! of its time, others 1 to 2 %; on an Intel Xeon it is as fast, or 3 % slower.
+//! has twice the registers and operands broadcast from memory. On AMD's Zen 5 that saved a query whose features have not changed
+//! 6 % of its time, others 1 to 2 %; on an Intel Xeon it is as fast, or 3 % slower.
 //!
 //! The only `unsafe` outside the C interface.
 

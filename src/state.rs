@@ -178,7 +178,7 @@ impl FeatureId {
 
 /// The index of body `near`'s feature and that of the other body's, in the order of the bodies.
 #[inline(always)]
-fn ordered(near: usize, near_index: u32, far_index: u32) -> [u32; 2] {
+pub fn ordered(near: usize, near_index: u32, far_index: u32) -> [u32; 2] {
     if near == 0 { [near_index, far_index] } else { [far_index, near_index] }
 }
 

@@ -5,13 +5,12 @@
 //! parts of those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by
 //! the cycle detection.
 
-use super::ordered;
 use super::states::NEARLY_UNIT;
 use crate::certificate::Certify;
 use crate::frame::Frame;
 use crate::polyhedron::{Face, NONE, Polyhedron, clear_slope};
 use crate::simd::Lanes;
-use crate::state::State;
+use crate::state::{State, ordered};
 use crate::voronoi::{Corner, Rule, STRICT, plane_values, steepest};
 
 /// An edge along which to leave a vertex.
@@ -60,7 +59,7 @@ pub(super) fn past_the_end<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let towards_far = body.rotate_back(direction).negate();
     let Leaving { edge, head, reach } = leaving(corner, towards_far, direction.norm1(), frame.tolerance)?;
     Some(if is_passed::<L, J>(body.polyhedron, edge, reach) {
-        State::vertex_vertex(ordered::<NEAR>(head, end))
+        State::vertex_vertex(ordered(NEAR, head, end))
     } else {
         State::vertex_edge(1 - NEAR, end, edge)
     })
@@ -84,7 +83,7 @@ pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
     if height > 0.0 {
         let towards_far = body.rotate_back(far.lift(L::from_vector(&face.normal))).negate();
         if let Some(Leaving { edge, .. }) = leaving(corner, towards_far, NEARLY_UNIT, STRICT) {
-            return Some(State::edge_edge(ordered::<NEAR>(edge, side)));
+            return Some(State::edge_edge(ordered(NEAR, edge, side)));
         }
     }
     let record = &far.polyhedron.edges[side as usize];

@@ -1,10 +1,10 @@
 //! The states: tests of one pair of features, and where to go from there or what minimum it is. Where a state has a vertex, that is
 //! a vertex of the body NEAR, and the other body is "far".
 
+use super::Step;
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
 use super::shortcuts::{is_passed, over_another_feature, past_the_end};
 use super::walks::{behind, walk_along_edge, walk_over_face};
-use super::{Step, ordered};
 use crate::certificate::{
     Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_in_cone, of_facing_face,
     reciprocal_length,
@@ -12,7 +12,7 @@ use crate::certificate::{
 use crate::frame::Frame;
 use crate::math::{UNIT_ROUNDOFF, clamp};
 use crate::simd::Lanes;
-use crate::state::State;
+use crate::state::{State, ordered};
 use crate::voronoi::{
     Corner, STRICT, VertexTest, edge_direction, end_of, plane_slopes, plane_values, test_vertex, violated_side,
 };
@@ -146,7 +146,7 @@ pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
         return Step::to(if is_passed::<L, J>(body.polyhedron, leaving, reach) {
             State::vertex_edge(NEAR, head, edge)
         } else {
-            State::edge_edge(ordered::<NEAR>(leaving, edge))
+            State::edge_edge(ordered(NEAR, leaving, edge))
         });
     }
     let distance = distance_squared.sqrt();

@@ -1,12 +1,12 @@
 //! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's
 //! end, or into the face.
 
-use super::{Step, Way, ordered};
+use super::{Step, Way};
 use crate::frame::Frame;
 use crate::math::Vector;
 use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
 use crate::simd::Lanes;
-use crate::state::State;
+use crate::state::{State, ordered};
 use crate::voronoi::{edge_direction, exit_of_prism, plane_slopes, plane_values};
 
 /// A vertex over a face descends along an edge towards it: to the edge's end, or to the side of the prism where it leaves.
@@ -46,7 +46,7 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     Step::to(match side {
         Some(side) if leaving != NONE => {
             let far_edge = far.polyhedron.side(record, side);
-            State::edge_edge(ordered::<NEAR>(leaving, far_edge))
+            State::edge_edge(ordered(NEAR, leaving, far_edge))
         }
         _ => State::vertex_face(NEAR, end, face),
     })
@@ -91,7 +91,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
     Step::to(match side {
         Some(side) => {
             let side = far.polyhedron.side(face_record, side);
-            State::edge_edge(ordered::<NEAR>(edge, side))
+            State::edge_edge(ordered(NEAR, edge, side))
         }
         None => State::vertex_face(NEAR, end, face),
     })
@@ -101,7 +101,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
 #[inline(always)]
 pub(super) fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &Vector) -> Step {
     let support = support_towards(far, point, face);
-    Step { way: Way::Behind, at: State::vertex_vertex(ordered::<NEAR>(vertex, support)) }
+    Step { way: Way::Behind, at: State::vertex_vertex(ordered(NEAR, vertex, support)) }
 }
 
 /// Out of line, with a number for an answer: a step would be handed back in memory, where then all steps would be made.

@@ -4,6 +4,7 @@
 use super::acceptance::{Acceptance, AtFirst};
 use super::cache::bits;
 use super::{Attempt, PairQuery, Start, Statistics};
+use crate::descent::TRIAL_STEPS;
 use crate::frame::Frame;
 use crate::marching::{self, March, Way};
 use crate::polyhedron::Polyhedron;
@@ -43,9 +44,6 @@ impl Kernel for Coherent<'_, '_> {
         MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS }.run()
     }
 }
-
-/// Marching from the cache is given up for a new start after this many steps: the pair has jumped without being noticed.
-pub(super) const TRIAL_STEPS: u32 = 16;
 
 /// Marching from a state to the end.
 pub(super) struct MarchOn<'a, 'b, L> {

@@ -1,7 +1,7 @@
 //! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
 //! where that is needed, and where the next query is to start.
 
-use super::attempt::{MarchOn, TRIAL_STEPS, step_limit};
+use super::attempt::{MarchOn, step_limit};
 use super::config::{check_accuracy, check_config};
 use super::{
     Attempt, Levels, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Query, Start, Statistics, Status,
@@ -9,7 +9,7 @@ use super::{
 };
 use crate::certificate::Interval;
 use crate::contact;
-use crate::descent::{Accuracy, Descended, Descent, Found, Leveled, Place};
+use crate::descent::{Accuracy, Descended, Descent, Found, Leveled, Place, TRIAL_STEPS};
 use crate::enclosure::encloses_origin;
 use crate::error::Result;
 use crate::frame::Frame;
