@@ -10,7 +10,8 @@ use crate::simd::Lanes;
 pub enum Rule {
     /// The most violated one (Ehmann & Lin 2000, §5.1).
     Most,
-    /// The first that is found violated, as in V-Clip (Mirtich 1998): what the other rule is measured against (`benches/compare`).
+    /// The first that is found violated, as in V-Clip (Mirtich 1998), and no short cuts: what the other rule is measured against
+    /// (`benches/compare`).
     First,
 }
 
