@@ -23,9 +23,13 @@ struct Leaving {
 }
 
 /// The edge along which a vertex rises most steeply in direction g, whose length is at most `length`, if it clearly rises, and by
-/// more than a tolerance.
+/// more than a tolerance. A vertex with many neighbours is not asked: to look at all of them in every state that a march over the
+/// other body visits takes longer than the states that it saves.
 #[inline(always)]
 fn leaving<L: Lanes>(corner: Corner, g: L, length: f64, tolerance: f64) -> Option<Leaving> {
+    if corner.record.more > 1 {
+        return None;
+    }
     let (reach, edge, head) = steepest(corner, g);
     let rises = (reach > clear_slope(length)) & (f64::from(reach) > tolerance);
     (rises & (edge != NONE)).then_some(Leaving { edge, head, reach })
