@@ -151,8 +151,8 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 }
 
 /// Over √n, how far (as an angle) a pair may have turned or moved before a query begins from the tables and no longer from the last
-/// features: 1.4 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. From about there on the
-/// tables were quicker on poses new to the branch predictor, from twice as far on on all.
+/// features: 1.4 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. Among 1.1, 1.3, 1.4 and
+/// 1.6 times it left the fewest cells in which a fixed choice is a tenth quicker (docs/figures.md, the automatic choice).
 const REACH: f64 = 5.4;
 
 /// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
