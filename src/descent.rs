@@ -7,7 +7,7 @@
 //! start.
 
 use crate::certificate::{Certify, CloserLook, Minimum};
-use crate::frame::Frame;
+use crate::frame::{Frame, Marker};
 use crate::hierarchy::Level;
 use crate::marching::{self, March, Step, Way};
 use crate::math::{Pose, UNIT_ROUNDOFF as U, Vector};
@@ -229,7 +229,7 @@ pub struct Descent<'a> {
     /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
     pub is_trial: bool,
     /// Where a trial is given up at once if the pair has [jumped](Frame::has_jumped) since it had this marker.
-    pub marker: Option<[u32; 3]>,
+    pub marker: Option<Marker>,
     /// Steps of marching that it may make, at least 1.
     pub step_limit: u32,
     /// Steps made.
@@ -292,7 +292,7 @@ impl Kernel for Descent<'_> {
 /// of at least [`RIGID_TOGETHER`](crate::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the marker of
 /// the pair. It is what the search would find.
 #[inline(always)]
-pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<[u32; 3]>) -> Option<(Found, u32, L)> {
+pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<Marker>) -> Option<(Found, u32, Marker)> {
     let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
     if !frame.usual || has_jumped(&frame, bodies, marker) {
         return None;
@@ -309,19 +309,15 @@ pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<[u32; 
     }
     // Of a minimum alone it has kept something.
     let found = keep.found(&frame, bodies, Place { state, ..place })?;
-    Some((found, steps, with_size_of(&frame, bodies).marker().0))
+    Some((found, steps, frame.marker()))
 }
 
 /// Whether the pair has jumped since it had a marker.
 #[inline(always)]
-fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<[u32; 3]>) -> bool {
-    marker.is_some_and(|marker| with_size_of(frame, bodies).has_jumped(&marker))
-}
-
-/// A frame of levels whose markers are those of the bodies.
-#[inline(always)]
-fn with_size_of<'a, L: Lanes>(frame: &Frame<'a, L>, bodies: &Leveled) -> Frame<'a, L> {
-    Frame { size: bodies.size(), ..*frame }
+fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<Marker>) -> bool {
+    // The levels' lever is that of the bodies.
+    let frame = Frame { size: bodies.size(), ..*frame };
+    marker.is_some_and(|marker| frame.has_jumped(&marker))
 }
 
 /// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.

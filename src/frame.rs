@@ -17,6 +17,12 @@ const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
 /// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at: then |RᵀR − I| ≤ √6·10u < 3·8u + u.
 pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
 
+/// Where the first body of a pair saw the second ([`Frame::marker`]), as the bits of single-precision numbers; of each four the
+/// last says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(transparent)]
+pub struct Marker([[u32; 4]; 2]);
+
 /// One placed body.
 #[derive(Clone, Copy)]
 pub struct Body<'a, L> {
@@ -161,30 +167,38 @@ impl<'a, L: Lanes> Frame<'a, L> {
         [self.bodies[0].polyhedron, self.bodies[1].polyhedron]
     }
 
-    /// Where body 1 sees a point that moves with body 2, in its own axes, and the length by which to measure how far that point
-    /// moved as an angle: of body 2 around body 1, or of either on the spot (unless that turns about the point).
+    /// Where body 1 sees the centred origin and the first axis of body 2, in its own axes.
     #[inline(always)]
-    pub fn marker(&self) -> (L, f64) {
+    fn view(&self) -> [L; 2] {
         let [body1, body2] = &self.bodies;
         let [column, ..] = body2.columns;
-        let lever = if self.separation > self.size { self.separation } else { self.size };
-        (body1.rotate_back(column.mul_add(L::splat(lever), body2.offset)), lever)
+        [body1.rotate_back(body2.offset), body1.rotate_back(column)]
     }
 
-    /// Whether the square of the angle by which the pair has moved since it had a marker, given as the bits of single-precision
-    /// numbers, is more than so much.
+    /// Where the pair is, to tell later how far it has moved.
     #[inline(always)]
-    pub fn has_moved(&self, last: &[u32; 3], square: f64) -> bool {
-        let (marker, lever) = self.marker();
-        let [x, y, z] = *last;
-        let last = Vector::new(f32::from_bits(x).into(), f32::from_bits(y).into(), f32::from_bits(z).into());
-        let moved = marker.sub(L::from_vector(&last));
-        moved.dot(moved) > lever * lever * square
+    pub fn marker(&self) -> Marker {
+        let mut marker = Marker::default();
+        for (seen, to) in self.view().into_iter().zip(&mut marker.0) {
+            seen.store_single(to);
+        }
+        marker
+    }
+
+    /// Whether the square of the angle by which the pair has moved since it had a marker is more than so much: the angle by which
+    /// body 2 moved around body 1 and that by which either turned on the spot (as the axis shows it), taken together. One point of
+    /// body 2 instead would show their sum, which may be twice as much, or nothing.
+    #[inline(always)]
+    pub fn has_moved(&self, last: &Marker, square: f64) -> bool {
+        let [moved, turned] = self.view();
+        let (moved, turned) = (moved.sub(L::load_single(&last.0[0])), turned.sub(L::load_single(&last.0[1])));
+        let lever = if self.separation > self.size { self.separation } else { self.size };
+        moved.dot(moved) > lever * lever * (square - turned.dot(turned))
     }
 
     /// Whether it has moved so far that the tables know better than the last features where to start. Not for garbage.
     #[inline(always)]
-    pub fn has_jumped(&self, last: &[u32; 3]) -> bool {
+    pub fn has_jumped(&self, last: &Marker) -> bool {
         let [first, second] = self.polyhedra();
         self.has_moved(last, first.lookup.reach * second.lookup.reach)
     }

@@ -97,8 +97,12 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     if plan == Plan::None || !has_use {
         return Ok(Lookup::none());
     }
-    let is_once = matches!(plan, Plan::Shells { .. }) && Thickness::of(polyhedron).is_round();
-    let reach = if is_once { REACH_OF_ROUND } else { REACH };
+    let rounds = match plan {
+        Plan::Shells { .. } => rounds(&Thickness::of(polyhedron), vertex_count),
+        // One, that leads as far from the nearest features.
+        _ => 3,
+    };
+    let reach = REACH_OF_MARCHING + REACH_OF_ROUND * f64::from(rounds);
     Ok(Lookup { plan, reach: reach / (vertex_count as f64).sqrt(), made: OnceLock::new() })
 }
 
@@ -150,13 +154,14 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
     }
 }
 
-/// Over √n, how far (as an angle) a pair may have turned or moved before a query begins from the tables and no longer from the last
-/// features: 1.4 times the angle between neighbours among n vertices spread over a sphere, which is 3.8/√n. Among 1.1, 1.3, 1.4 and
-/// 1.6 times it left the fewest cells in which a fixed choice is a tenth quicker (docs/figures.md, the automatic choice).
-const REACH: f64 = 5.4;
+/// Over √n, how far (as an angle) a pair may have moved and turned before a query begins from the tables and no longer from the
+/// last features: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. This much for what marching from
+/// the tables takes …
+const REACH_OF_MARCHING: f64 = 1.8;
 
-/// The same of [round](Thickness::is_round) bodies with shells, which are looked up once and not three to five times.
-const REACH_OF_ROUND: f64 = 3.1;
+/// … and this for each [round](Shells::rounds) of look-ups before it. Chosen by time: among 0.8 to 1.7 times as much the best was
+/// found for 1, 3, 4 and 5 rounds (round bodies, long ones, plates, and both of 10,002 vertices) near 3.1, 5.9, 7.0 and 8.4.
+const REACH_OF_ROUND: f64 = 1.3;
 
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {
@@ -259,10 +264,6 @@ impl Thickness {
     /// In how many directions the body is thinner than round: in one like a plate, in two like a needle.
     fn thin_directions(&self) -> usize {
         self.spreads.iter().filter(|spread| **spread < ROUND).count()
-    }
-
-    fn is_round(&self) -> bool {
-        self.thin_directions() == 0
     }
 
     /// The inverse root of the covariance, which turns a vertex half-way from the direction away from the centre of mass to the

@@ -22,6 +22,10 @@ pub trait Lanes: Copy {
     fn to_array(self) -> [f64; 4];
     /// Lanes 0 to 2 to memory.
     fn store_vector(self, to: &mut [f64; 3]);
+    /// From the bits of single-precision numbers in memory.
+    fn load_single(x: &[u32; 4]) -> Self;
+    /// To memory, as the bits of single-precision numbers.
+    fn store_single(self, to: &mut [u32; 4]);
     /// A vector.
     fn from_vector(v: &Vector) -> Self;
     /// Lanes 0 to 2.
@@ -108,6 +112,14 @@ impl Lanes for Portable {
     fn store_vector(self, to: &mut [f64; 3]) {
         let [x, y, z, _] = self.0;
         *to = [x, y, z];
+    }
+    #[inline(always)]
+    fn load_single(x: &[u32; 4]) -> Self {
+        Portable(x.map(|bits| f32::from_bits(bits).into()))
+    }
+    #[inline(always)]
+    fn store_single(self, to: &mut [u32; 4]) {
+        *to = self.0.map(|x| (x as f32).to_bits());
     }
     #[inline(always)]
     fn from_vector(v: &Vector) -> Self {
@@ -413,6 +425,16 @@ mod wide {
                 _mm_storeu_pd(to.as_mut_ptr(), _mm256_castpd256_pd128(self.0));
                 _mm_store_sd(to.as_mut_ptr().add(2), _mm256_extractf128_pd::<1>(self.0));
             }
+        }
+        #[inline(always)]
+        fn load_single(x: &[u32; 4]) -> Self {
+            // SAFETY: see above; the pointer is to four readable words.
+            Wide(unsafe { _mm256_cvtps_pd(_mm_loadu_ps(x.as_ptr().cast())) })
+        }
+        #[inline(always)]
+        fn store_single(self, to: &mut [u32; 4]) {
+            // SAFETY: see above; the pointer is to four writable words.
+            unsafe { _mm_storeu_ps(to.as_mut_ptr().cast(), _mm256_cvtpd_ps(self.0)) };
         }
         #[inline(always)]
         fn from_vector(v: &Vector) -> Self {

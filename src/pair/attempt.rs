@@ -2,10 +2,9 @@
 //! as it is found.
 
 use super::acceptance::{Acceptance, AtFirst};
-use super::cache::bits;
 use super::{Attempt, PairQuery, Start, Statistics};
 use crate::descent::TRIAL_STEPS;
-use crate::frame::Frame;
+use crate::frame::{Frame, Marker};
 use crate::marching::{self, March, Way};
 use crate::polyhedron::Polyhedron;
 use crate::simd::{Kernel, Lanes, Work};
@@ -90,7 +89,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         }
         judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
-        judge.cache.marker = bits(frame.marker().0.to_vector());
+        judge.cache.marker = frame.marker();
         Attempt::Done
     }
 }
@@ -143,7 +142,7 @@ pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
 /// As [`Frame::has_jumped`], of bodies that intersected, which mostly still do: their last vertex pairs are good for half as far
 /// again. (Of plates that mostly intersect that saves a fifth of the time at 5°, a tenth at 10°.)
 #[inline(always)]
-pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
     let [first, second] = frame.polyhedra();
     frame.has_moved(last, 2.5 * first.lookup.reach * second.lookup.reach)
 }
@@ -151,7 +150,7 @@ pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> boo
 /// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
 /// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
 #[inline(always)]
-pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &[u32; 3]) -> bool {
+pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
     frame.has_moved(last, 0.25)
 }
 

@@ -3,6 +3,7 @@
 use super::{PairConfig, Start};
 use crate::descent::{Leveled, Place};
 use crate::exact::VertexPair;
+use crate::frame::Marker;
 use crate::math::Vector;
 use crate::overlap::Pairs;
 use crate::polyhedron::Polyhedron;
@@ -22,9 +23,8 @@ pub struct PairCache {
     /// Vertex pairs. With a feature pair, after a query for the verdict alone: the vertices of a separating axis, its direction
     /// as the bits of single-precision numbers, and [`AXIS`].
     pub(super) pairs: [VertexPair; 4],
-    /// With a feature pair: where body 1 saw a point of body 2 ([`crate::frame::Frame::marker`]) when it was found, as the bits of
-    /// single-precision numbers. With vertex pairs: when they last proved an intersection.
-    pub(super) marker: [u32; 3],
+    /// With a feature pair: where body 1 saw body 2 when it was found. With vertex pairs: when they last proved an intersection.
+    pub(super) marker: Marker,
 }
 
 /// `PairCache::kind` of no vertex pairs.
@@ -91,7 +91,7 @@ impl PairCache {
 
     /// From where a pair may have jumped, unless it is to begin at its last features all the same.
     #[inline(always)]
-    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<[u32; 3]> {
+    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<Marker> {
         (config.start != Start::Cache).then_some(self.marker)
     }
 
@@ -124,6 +124,6 @@ impl PairCache {
 
 /// The single-precision bits of a vector.
 #[inline(always)]
-pub(super) fn bits(v: Vector) -> [u32; 3] {
+fn bits(v: Vector) -> [u32; 3] {
     [(v.x as f32).to_bits(), (v.y as f32).to_bits(), (v.z as f32).to_bits()]
 }

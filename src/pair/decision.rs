@@ -2,7 +2,6 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::attempt::{FAR, General, has_jumped_far, has_turned_away};
-use super::cache::bits;
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
 use crate::contact_direction::contact_direction;
@@ -12,7 +11,7 @@ use crate::frame::Frame;
 use crate::math::ROTATION_LIMIT;
 use crate::overlap::{self, Decision, Pairs, Wanted};
 use crate::shape::Shape;
-use crate::simd::{self, Lanes, Portable};
+use crate::simd::{self, Portable};
 use crate::start::{self, Guess};
 use crate::state::State;
 
@@ -93,7 +92,7 @@ impl PairQuery<'_> {
             self.answer.statistics = statistics;
             self.answer.status = Status::Coherent;
             self.fill(&decision);
-            self.cache.marker = bits(frame.marker().0.to_vector());
+            self.cache.marker = frame.marker();
             return Ok(());
         }
         // Bodies that intersected the last time and have jumped apart are for marching. Those whose cores overlap have not, and
@@ -131,7 +130,7 @@ impl PairQuery<'_> {
         self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
         self.fill(&decision);
         if let Some(frame) = &frame {
-            self.cache.marker = bits(frame.marker().0.to_vector());
+            self.cache.marker = frame.marker();
         }
         Ok(())
     }
@@ -159,7 +158,7 @@ impl PairQuery<'_> {
 
     pub(super) fn remember_marker(&mut self) {
         let frame = Frame::<Portable>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        self.cache.marker = bits(frame.marker().0.to_vector());
+        self.cache.marker = frame.marker();
     }
 
     /// Answer and cache from a decision.

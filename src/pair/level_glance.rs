@@ -1,7 +1,6 @@
 //! The common case of approximate queries through levels of detail: near the features of the levels that the cache holds are the
 //! nearest, and they say enough. Straight through to the answer that the search among the levels comes to, to the last bit.
 
-use super::cache::bits;
 use super::levels::{are_worth_it, may_answer, most_error, surely_most_error};
 use super::{Levels, PairQuery, Status};
 use crate::descent::{self, Leveled, Place, TRIAL_STEPS};
@@ -61,7 +60,7 @@ impl Kernel for LastLevels<'_, '_> {
         let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };
         self.pair.cache.remember_place(next);
         if steps > 1 {
-            self.pair.cache.marker = bits(marker.to_vector());
+            self.pair.cache.marker = marker;
         }
         true
     }
