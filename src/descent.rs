@@ -309,7 +309,9 @@ pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<Marker
     }
     // Of a minimum alone it has kept something.
     let found = keep.found(&frame, bodies, Place { state, ..place })?;
-    Some((found, steps, frame.marker()))
+    let mut marker = Marker::default();
+    frame.mark(&mut marker);
+    Some((found, steps, marker))
 }
 
 /// Whether the pair has jumped since it had a marker.

@@ -17,7 +17,7 @@ const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
 /// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at: then |RᵀR − I| ≤ √6·10u < 3·8u + u.
 pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
 
-/// Where the first body of a pair saw the second ([`Frame::marker`]), as the bits of single-precision numbers; of each four the
+/// Where the first body of a pair saw the second ([`Frame::mark`]), as the bits of single-precision numbers; of each four the
 /// last says nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(transparent)]
@@ -175,14 +175,13 @@ impl<'a, L: Lanes> Frame<'a, L> {
         [body1.rotate_back(body2.offset), body1.rotate_back(column)]
     }
 
-    /// Where the pair is, to tell later how far it has moved.
+    /// Writes down where the pair is, to tell later how far it has moved. In place: put together elsewhere and copied as a whole it
+    /// would be read before it is written, which stalls (8 % of a query from the tables).
     #[inline(always)]
-    pub fn marker(&self) -> Marker {
-        let mut marker = Marker::default();
+    pub fn mark(&self, marker: &mut Marker) {
         for (seen, to) in self.view().into_iter().zip(&mut marker.0) {
             seen.store_single(to);
         }
-        marker
     }
 
     /// Whether the square of the angle by which the pair has moved since it had a marker is more than so much: the angle by which

@@ -89,7 +89,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         }
         judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
-        judge.cache.marker = frame.marker();
+        frame.mark(&mut judge.cache.marker);
         Attempt::Done
     }
 }

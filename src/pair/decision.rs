@@ -92,7 +92,7 @@ impl PairQuery<'_> {
             self.answer.statistics = statistics;
             self.answer.status = Status::Coherent;
             self.fill(&decision);
-            self.cache.marker = frame.marker();
+            frame.mark(&mut self.cache.marker);
             return Ok(());
         }
         // Bodies that intersected the last time and have jumped apart are for marching. Those whose cores overlap have not, and
@@ -130,7 +130,7 @@ impl PairQuery<'_> {
         self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
         self.fill(&decision);
         if let Some(frame) = &frame {
-            self.cache.marker = frame.marker();
+            frame.mark(&mut self.cache.marker);
         }
         Ok(())
     }
@@ -158,7 +158,7 @@ impl PairQuery<'_> {
 
     pub(super) fn remember_marker(&mut self) {
         let frame = Frame::<Portable>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        self.cache.marker = frame.marker();
+        frame.mark(&mut self.cache.marker);
     }
 
     /// Answer and cache from a decision.
