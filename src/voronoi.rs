@@ -241,14 +241,18 @@ pub fn exit_of_prism<L: Lanes>(
     if face.side_count >= MANY_SIDES {
         return side_search::exit_of_prism(polyhedron, face, [&from.to_vector(), &to.to_vector()], skip);
     }
-    let skipped = |side: u32| polyhedron.side(face, side) == skip;
     // Lane 0 is not a side.
     let never = L::splat(f64::INFINITY);
     let mut fractions = exit_fractions(from_first, to_first).with_first(never);
-    if skipped(0) | skipped(1) | skipped(2) {
+    if skip != NONE {
         let [_, a, b, c] = fractions.to_array();
-        let unless = |side, fraction| if skipped(side) { f64::INFINITY } else { fraction };
-        fractions = L::load(&[f64::INFINITY, unless(0, a), unless(1, b), unless(2, c)]);
+        let [side1, side2, side3] = face.first_sides;
+        fractions = L::load(&[
+            f64::INFINITY,
+            if side1 == skip { f64::INFINITY } else { a },
+            if side2 == skip { f64::INFINITY } else { b },
+            if side3 == skip { f64::INFINITY } else { c },
+        ]);
     }
     let (mut exit, lane) = fractions.least();
     let mut side = (lane as u32).saturating_sub(1);
@@ -257,7 +261,7 @@ pub fn exit_of_prism<L: Lanes>(
         for (lane, fraction) in fractions.into_iter().enumerate() {
             let further = (3 + 4 * index + lane) as u32;
             // Unused lanes are left never, at +∞.
-            if fraction < exit && !skipped(further) {
+            if fraction < exit && polyhedron.side(face, further) != skip {
                 (exit, side) = (fraction, further);
             }
         }
