@@ -364,9 +364,12 @@ impl Polyhedron {
     }
 
     /// The plane blocks of a face's sides beyond the third.
-    #[inline]
+    #[inline(always)]
     pub fn further_sides(&self, face: &Face) -> &[PlaneBlock] {
-        let count = (face.side_count as usize).saturating_sub(3).div_ceil(4);
+        if face.side_count <= 3 {
+            return &[];
+        }
+        let count = (face.side_count as usize - 3).div_ceil(4);
         &self.more_sides[face.first_more as usize..face.first_more as usize + count]
     }
 
