@@ -39,6 +39,10 @@ pub fn between_spheres<L: Lanes>(frame: &Frame<L>) -> Interval {
 /// Directions tried beyond the first; marching is better at what they leave open.
 const MOST_DIRECTIONS: u32 = 3;
 
+/// Of the distance of the bodies' origins. (Of plates and long bodies that intersect now and then it saves a tenth to a quarter of a
+/// verdict's time at 20° and beyond; −1/20 to −1/6 do as well.)
+const MUCH: f64 = -0.125;
+
 /// Vertices looked at before a climb is given up: from the last query's, and from those of the tables.
 const LONGEST_CLIMBS: [u32; 2] = [4, 16];
 
@@ -79,6 +83,13 @@ impl<L: Lanes> Trial<L> {
     #[inline(always)]
     pub fn separates(&self) -> bool {
         self.is_clear & (self.interval.lower > 0.0)
+    }
+
+    /// Whether the bodies overlap so much along the axis that they mostly intersect, which no axis shows.
+    #[inline(always)]
+    fn overlaps_much(&self, frame: &Frame<L>) -> bool {
+        let gap = self.direction.dot(self.difference) * self.inverse;
+        self.is_clear & (gap < MUCH * frame.separation)
     }
 
     #[inline(always)]
@@ -132,7 +143,7 @@ impl<L: Lanes> Work for Search<'_, L> {
         let vertices = farthest(frame, direction).unwrap_or(self.trial.vertices);
         self.trial = Trial::new(frame, direction, vertices, self.trial.steps, LONGEST_CLIMBS[1]);
         for _ in 1..MOST_DIRECTIONS {
-            if self.trial.separates() {
+            if self.trial.separates() | self.trial.overlaps_much(frame) {
                 return;
             }
             self.trial = self.trial.next(frame);
