@@ -139,14 +139,6 @@ pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
     64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
 }
 
-/// As [`Frame::has_jumped`], of bodies that intersected, which mostly still do: their last vertex pairs are good for half as far
-/// again. (Of plates that mostly intersect that saves a fifth of the time at 5°, a tenth at 10°.)
-#[inline(always)]
-pub(super) fn has_jumped_far<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
-    let [first, second] = frame.polyhedra();
-    frame.has_moved(last, 2.5 * first.lookup.reach * second.lookup.reach)
-}
-
 /// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
 /// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
 #[inline(always)]

@@ -1,7 +1,7 @@
 //! What marching leaves open: proofs re-tested, the fallback, the exact tier.
 
 use super::acceptance::{Acceptance, Closely};
-use super::attempt::{FAR, General, has_jumped_far, has_turned_away};
+use super::attempt::{FAR, General, has_turned_away};
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
 use crate::contact_direction::contact_direction;
@@ -101,7 +101,7 @@ impl PairQuery<'_> {
         if let Some(frame) = &frame
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
-            && has_jumped_far(frame, &self.cache.marker)
+            && frame.has_jumped(&self.cache.marker)
             && (frame.has_moved(&self.cache.marker, FAR) || !start::do_cores_overlap(polyhedra, poses))
         {
             let beginning = start::anew(polyhedra, poses, true);
