@@ -9,17 +9,19 @@ use std::{ptr, thread};
 
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::orbits::{ORBITS, Step, poses};
-use common::random::Random;
+use common::random::{Random, rotation};
 use swiftprox::error::Error;
+use swiftprox::frame::{Frame, Marker};
 use swiftprox::lookup::{Cells, Plan, Shells, Spherical, Table};
 use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
-use swiftprox::math::{Pose, Vector};
+use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
 use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::simd::Portable;
 use swiftprox::verify::verify;
 
 fn options(kind: LookupKind, resolution: u32) -> ShapeOptions {
@@ -482,4 +484,45 @@ fn steps_from_a_table_hardly_grow_with_the_number_of_vertices() {
         println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
         assert!(automatic < 5.5 && table < 5.5 && cache > 15.0);
     }
+}
+
+/// Body 2 goes around body 1 by one angle and turns by another, about an axis that shows it, both bodies anywhere.
+#[test]
+fn how_far_a_pair_has_moved_is_told() {
+    let body = shape(&ellipsoid([1.0; 3], 300).unwrap(), LookupKind::Automatic, 0);
+    let polyhedra = [body.polyhedron(); 2];
+    let mut random = Random::new(3);
+    for separation in [1.0, 3.0, 30.0] {
+        for (around, turned) in [(0.0, 0.0), (0.1, 0.0), (0.0, 0.1), (0.1, 0.1), (0.1, -0.1), (0.02, 0.3)] {
+            let (world, origin) = (random.rotation(), random.direction() * 5.0);
+            let placed = |around: f64, turned: f64| {
+                let there = rotation(&Vector::z(), around) * Vector::x() * separation;
+                let pose = Pose::new(&(world * rotation(&Vector::z(), turned)), &(origin + world * there));
+                [Pose::new(&world, &origin), pose]
+            };
+            let [before, after] = [placed(0.0, 0.0), placed(around, turned)];
+            let frame = |[pose1, pose2]: &[Pose; 2]| Frame::<Portable>::new(polyhedra, [pose1, pose2], ROTATION_LIMIT);
+            let mut marker = Marker::default();
+            frame(&before).mark(&mut marker);
+            // Going around is measured by the size of both bodies at least.
+            let around = around * f64::min(1.0, separation / (2.0 * body.polyhedron().radius));
+            let angle = f64::hypot(around, turned);
+            let moved = |square| frame(&after).has_moved(&marker, square);
+            assert!(moved(0.98 * angle * angle - 1e-9), "{separation} {around} {turned}");
+            assert!(!moved(angle * angle + 1e-9), "{separation} {around} {turned}");
+            // A cold cache knows of no place.
+            assert!(frame(&after).has_moved(&Marker::default(), 0.25));
+        }
+    }
+}
+
+#[test]
+fn bodies_that_are_looked_up_more_often_are_looked_up_later() {
+    let all = [([1.0; 3], 1_002), ([1.0, 0.1, 0.1], 1_002), ([1.0, 1.0, 0.1], 1_002), ([1.0, 1.0, 0.1], 4_002)];
+    let all = all.map(|(half_axes, n)| {
+        let shape = shape(&ellipsoid(half_axes, n).unwrap(), LookupKind::Automatic, 0);
+        (shells(shape.polyhedron()).rounds, shape.polyhedron().lookup.reach * (n as f64).sqrt())
+    });
+    assert_eq!(all.map(|(rounds, _)| rounds), [1, 3, 4, 5]);
+    assert!(all.is_sorted_by(|(_, reach), (_, next)| reach < next), "{all:?}");
 }
