@@ -252,7 +252,7 @@ impl Kernel for Descent<'_> {
             let polyhedra = self.bodies.polyhedra(levels);
             let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
             if frame.usual {
-                if self.is_trial && has_jumped(&frame, &self.bodies, self.marker) {
+                if self.is_trial && has_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
                 }
                 let all = 64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32;
@@ -289,10 +289,14 @@ impl Kernel for Descent<'_> {
 }
 
 /// The beginning of a search alone, the trial at its first levels, for [ordinary](Polyhedron::ordinary) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the marker of
-/// the pair. It is what the search would find.
+/// of at least [`RIGID_TOGETHER`](crate::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the pair's
+/// frame. It is what the search would find.
 #[inline(always)]
-pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<Marker>) -> Option<(Found, u32, Marker)> {
+pub fn try_first<'a, L: Lanes>(
+    bodies: &Leveled<'a>,
+    place: Place,
+    marker: Option<&Marker>,
+) -> Option<(Found, u32, Frame<'a, L>)> {
     let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
     if !frame.usual || has_jumped(&frame, bodies, marker) {
         return None;
@@ -309,17 +313,15 @@ pub fn try_first<L: Lanes>(bodies: &Leveled, place: Place, marker: Option<Marker
     }
     // Of a minimum alone it has kept something.
     let found = keep.found(&frame, bodies, Place { state, ..place })?;
-    let mut marker = Marker::default();
-    frame.mark(&mut marker);
-    Some((found, steps, marker))
+    Some((found, steps, frame))
 }
 
 /// Whether the pair has jumped since it had a marker.
 #[inline(always)]
-fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<Marker>) -> bool {
+fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
     // The levels' lever is that of the bodies.
     let frame = Frame { size: bodies.size(), ..*frame };
-    marker.is_some_and(|marker| frame.has_jumped(&marker))
+    marker.is_some_and(|marker| frame.has_jumped(marker))
 }
 
 /// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.

@@ -39,9 +39,10 @@ pub fn between_spheres<L: Lanes>(frame: &Frame<L>) -> Interval {
 /// Directions tried beyond the first; marching is better at what they leave open.
 const MOST_DIRECTIONS: u32 = 3;
 
-/// Of the distance of the bodies' origins. (Of plates and long bodies that intersect now and then it saves a tenth to a quarter of a
-/// verdict's time at 20° and beyond; −1/20 to −1/6 do as well.)
-const MUCH: f64 = -0.125;
+/// The gap along an axis below which the search is given up, as a multiple of the distance of the bodies' origins. (Of plates and
+/// long bodies that intersect now and then that saves a tenth to a quarter of a verdict's time at 20° and beyond; −1/20 to −1/6 do
+/// as well.)
+const MUCH_OVERLAP: f64 = -0.125;
 
 /// Vertices looked at before a climb is given up: from the last query's, and from those of the tables.
 const LONGEST_CLIMBS: [u32; 2] = [4, 16];
@@ -64,6 +65,8 @@ pub struct Trial<L> {
     difference: L,
     /// Its length.
     pub distance: f64,
+    /// Its part along the direction.
+    gap: f64,
     /// Whether both climbs came to a vertex all of whose neighbours lie clearly behind.
     is_clear: bool,
     /// How many vertices have been looked at.
@@ -88,8 +91,7 @@ impl<L: Lanes> Trial<L> {
     /// Whether the bodies overlap so much along the axis that they mostly intersect, which no axis shows.
     #[inline(always)]
     fn overlaps_much(&self, frame: &Frame<L>) -> bool {
-        let gap = self.direction.dot(self.difference) * self.inverse;
-        self.is_clear & (gap < MUCH * frame.separation)
+        self.is_clear & (self.gap < MUCH_OVERLAP * frame.separation)
     }
 
     #[inline(always)]
@@ -106,9 +108,9 @@ impl<L: Lanes> Trial<L> {
         let position2 = &body2.polyhedron.vertices[vertices[1] as usize].position;
         let difference = frame.difference(position1, position2);
         let distance = difference.dot(difference).sqrt();
-        let reach = direction.dot(difference) * inverse;
-        let interval = interval(distance, reach, frame.difference_error(distance), 0.0, 0.0);
-        Trial { direction, inverse, vertices, interval, difference, distance, is_clear, steps }
+        let gap = direction.dot(difference) * inverse;
+        let interval = interval(distance, gap, frame.difference_error(distance), 0.0, 0.0);
+        Trial { direction, inverse, vertices, interval, difference, distance, gap, is_clear, steps }
     }
 
     /// The next axis to try.
@@ -116,8 +118,7 @@ impl<L: Lanes> Trial<L> {
     fn next(&self, frame: &Frame<L>) -> Trial<L> {
         let unit = self.direction.mul(L::splat(self.inverse));
         let direction = if self.is_clear {
-            let reach = unit.dot(self.difference);
-            self.difference.negated_mul_add(L::splat(2.0 * reach / (self.distance * self.distance)), unit)
+            self.difference.negated_mul_add(L::splat(2.0 * self.gap / (self.distance * self.distance)), unit)
         } else {
             self.difference.mul_add(L::splat(NUDGE / self.distance), unit)
         };

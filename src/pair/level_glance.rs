@@ -49,8 +49,8 @@ impl Kernel for LastLevels<'_, '_> {
         if (place.levels == [0, 0]) | !(level1.ordinary & level2.ordinary) {
             return false;
         }
-        let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config));
-        let Some((found, steps, marker)) = first else { return false };
+        let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config).as_ref());
+        let Some((found, steps, frame)) = first else { return false };
         if !config.accuracy().is_met_by(found.lower, found.upper) {
             return false;
         }
@@ -60,7 +60,7 @@ impl Kernel for LastLevels<'_, '_> {
         let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };
         self.pair.cache.remember_place(next);
         if steps > 1 {
-            self.pair.cache.marker = marker;
+            frame.mark(&mut self.pair.cache.marker);
         }
         true
     }
