@@ -185,8 +185,9 @@ impl<'a, L: Lanes> Frame<'a, L> {
     }
 
     /// Whether the square of the angle by which the pair has moved since it had a marker is more than so much: the angle by which
-    /// body 2 moved around body 1 and that by which either turned on the spot (as the axis shows it), taken together. One point of
-    /// body 2 instead would show their sum, which may be twice as much, or nothing.
+    /// body 2 has moved around body 1 and that by which it has turned, both as body 1 sees it, taken together. So a turn of body 1
+    /// counts as both, and one of body 2 about its own first axis is not seen. One point of body 2 instead would show their sum,
+    /// which may be nothing.
     #[inline(always)]
     pub fn has_moved(&self, last: &Marker, square: f64) -> bool {
         let [moved, turned] = self.view();
@@ -195,7 +196,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
         moved.dot(moved) > lever * lever * (square - turned.dot(turned))
     }
 
-    /// Whether it has moved so far that the tables know better than the last features where to start. Not for garbage.
+    /// Whether it has moved so far that the tables know better than the last features where to start. A NaN has not.
     #[inline(always)]
     pub fn has_jumped(&self, last: &Marker) -> bool {
         let [first, second] = self.polyhedra();

@@ -99,7 +99,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     }
     let rounds = match plan {
         Plan::Shells { .. } => rounds(&Thickness::of(polyhedron), vertex_count),
-        // One, that leads as far from the nearest features.
+        // Looked up once, to a start as far from the nearest features as this many would cost.
         _ => 3,
     };
     let reach = REACH_OF_MARCHING + REACH_OF_ROUND * f64::from(rounds);
@@ -159,8 +159,9 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
 /// the tables takes …
 const REACH_OF_MARCHING: f64 = 1.8;
 
-/// … and this for each [round](Shells::rounds) of look-ups before it. Chosen by time: among 0.8 to 1.7 times as much the best was
-/// found for 1, 3, 4 and 5 rounds (round bodies, long ones, plates, and both of 10,002 vertices) near 3.1, 5.9, 7.0 and 8.4.
+/// … and this for each [round](Shells::rounds) of look-ups before it. Chosen by time, of pairs of like bodies: among 0.8 to 1.7
+/// times as much the best was found for 1, 3, 4 and 5 rounds (round bodies, long ones, plates, and both of 10,002 vertices) near
+/// 3.1, 5.9, 7.0 and 8.4.
 const REACH_OF_ROUND: f64 = 1.3;
 
 /// Cells along a side such that a shell has a few for every vertex.

@@ -92,7 +92,7 @@ pub fn decide(
     let mut work = Work::default();
     let mut start = Pairs::new(hint);
     if usual {
-        let (proposal, iterations) = simd::dispatch(&mut Propose { polyhedra, poses, hint, wanted });
+        let (proposal, iterations) = simd::dispatch_to_avx2(&mut Propose { polyhedra, poses, hint, wanted });
         work.fallback_iterations = iterations;
         match proposal {
             Proposal::Separated(nearest) => {

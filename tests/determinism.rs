@@ -254,7 +254,6 @@ fn a_flight_is_the_same_each_time() {
         });
         assert_eq!(flight.verdicts, Hash(VERDICTS), "verdicts {:#018x}", flight.verdicts.0);
     };
-    simd::choose(Features::Avx2);
     let flight = fly(&shapes());
     check(flight);
     let [separated, beyond, intersecting, undecided] = flight.outcomes;
@@ -262,10 +261,10 @@ fn a_flight_is_the_same_each_time() {
     assert_eq!(Outcome::Undecided as usize, flight.outcomes.len());
 
     // AVX-512 brings registers, no other numbers.
-    simd::choose(Features::Avx512);
+    simd::narrow_to(Features::Avx2);
     assert_eq!(fly(&shapes()), flight);
 
-    simd::choose(Features::Baseline);
+    simd::narrow_to(Features::Baseline);
     let narrow = fly(&shapes());
     check(narrow);
     if cfg!(target_arch = "x86_64") {

@@ -140,11 +140,11 @@ pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
 }
 
 /// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
-/// by half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
+/// by about half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
 #[inline(always)]
 pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
     frame.has_moved(last, 0.25)
 }
 
-/// The square of an angle of 72°.
+/// The square of an angle of about 72°.
 pub(super) const FAR: f64 = 1.6;
