@@ -276,8 +276,8 @@ fn around(x: f64, y: f64) -> f64 {
 pub struct Lookup {
     /// Which table.
     pub plan: Plan,
-    /// How far, in radians, a pair of bodies like this one may move (as [`crate::frame::Frame::has_moved`] tells it) before the
-    /// table leads to the nearest features sooner than the last features do; +∞ without a table.
+    /// How far, in radians, a pair of bodies like this one may have moved and turned before the table leads to the nearest features
+    /// sooner than the last features do; +∞ without a table.
     pub reach: f64,
     /// The table, once made.
     pub made: OnceLock<Table>,
