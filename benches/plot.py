@@ -18,6 +18,7 @@ STYLES = {  # method: colour, dash pattern, label
     "swiftprox-verdict": ("#41a1e0", "5 3", "swiftprox, verdict bounds"),
     "parry-hc": ("#d1495b", "", "parry3d-f64, hill climbing"),
     "parry-hc-matrix": ("#e8919c", "5 3", "the same, with matrices"),
+    "parry-hc-steepest": ("#e8919c", "2 3", "the same, climbing to the steepest"),
     "fcl-1e-6": ("#6b8f3a", "", "FCL (libccd), 1e-6"),
     "fcl-1e-10": ("#a9c47f", "5 3", "FCL (libccd), 1e-10"),
 }

@@ -12,7 +12,7 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::read_mesh;
 
 use crate::method::Method;
-use crate::parry::{Parry, Rings, Turning, pose_pair};
+use crate::parry::{Climbing, Parry, Rings, pose_pair};
 use crate::scenes::PosePair;
 use crate::scenes::files::read_poses;
 
@@ -75,7 +75,7 @@ fn stock(bodies: [ConvexPolyhedron; 2], maker: &str, poses: &[PosePair]) {
 /// The benchmark's method, its memory kept from pose to pose.
 fn hill_climbing(meshes: &[PolygonMesh; 2], poses: &[PosePair]) {
     let rings = meshes.each_ref().map(|mesh| Rc::new(Rings::new(mesh)));
-    let mut parry = Parry::new(rings, Turning::Quaternion);
+    let mut parry = Parry::new(rings, Climbing::First);
     parry.load(poses);
     say(&format!("ready parry3d-f64 {PARRY}, GJK with a support map that climbs, last direction handed back in"));
     for i in 0..poses.len() {

@@ -8,7 +8,7 @@ use swiftprox::shape::{Shape, ShapeOptions};
 
 use crate::method::{Method, Reply, replies};
 use crate::options::Options;
-use crate::parry::{Parry, Rings, Turning};
+use crate::parry::{Climbing, Parry, Rings};
 use crate::report::{self, Row};
 use crate::setting::{Query, setting};
 use crate::timing::{median, time_methods};
@@ -77,12 +77,12 @@ fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
     let rings = Rc::new(Rings::new(mesh));
     let rounds = [
-        ("swiftprox", Bounds::Tight, Turning::Quaternion, 1e-6),
-        ("swiftprox-verdict", Bounds::Verdict, Turning::Matrix, 1e-10),
+        ("swiftprox", Bounds::Tight, Climbing::First, 1e-6),
+        ("swiftprox-verdict", Bounds::Verdict, Climbing::FirstWithMatrix, 1e-10),
     ];
-    for (name, bounds, turning, tolerance) in rounds {
+    for (name, bounds, climbing, tolerance) in rounds {
         all.push(setting(name, Query::Distance, &shape, PairConfig { bounds, ..PairConfig::default() }));
-        all.push(Box::new(Parry::new([rings.clone(), rings.clone()], turning)));
+        all.push(Box::new(Parry::new([rings.clone(), rings.clone()], climbing)));
         #[cfg(fcl)]
         match crate::fcl::Fcl::new(mesh, tolerance) {
             Some(fcl) => all.push(Box::new(fcl)),
@@ -91,6 +91,7 @@ fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
         #[cfg(not(fcl))]
         let _ = tolerance;
     }
+    all.push(Box::new(Parry::new([rings.clone(), rings], Climbing::Steepest)));
     Ok(all)
 }
 

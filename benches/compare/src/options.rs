@@ -15,8 +15,8 @@ usage: compare [options]
   --orbits LIST     of small, large, deep (all)
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
   --query QUERY     distance, or intersection, the verdict alone (distance)
-  --methods LIST    of swiftprox, parry-hc, fcl-1e-6, swiftprox-verdict, parry-hc-matrix, fcl-1e-10 (all); of intersection,
-                    of swiftprox, libccd-mpr; answers are compared with those of the first of them
+  --methods LIST    of swiftprox, parry-hc, fcl-1e-6, swiftprox-verdict, parry-hc-matrix, fcl-1e-10, parry-hc-steepest (all);
+                    of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator

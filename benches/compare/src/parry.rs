@@ -56,13 +56,13 @@ impl Rings {
     }
 }
 
-/// One body's view of the rings: where its last climb ended.
-struct Climber<'a> {
+/// One body's view of the rings: where its last climb ended. It goes on to the steepest of a ring, or to the first that rises.
+struct Climber<'a, const STEEPEST: bool> {
     rings: &'a Rings,
     last: &'a Cell<u32>,
 }
 
-impl SupportMap for Climber<'_> {
+impl<const STEEPEST: bool> SupportMap for Climber<'_, STEEPEST> {
     #[inline]
     fn local_support_point(&self, direction: Vector) -> Vector {
         let rings = self.rings;
@@ -75,9 +75,10 @@ impl SupportMap for Climber<'_> {
             for &(neighbour, index) in &rings.ring[range] {
                 let other = neighbour.dot(direction);
                 if other > height {
-                    // Going on at once beats looking for the best of the ring by a fifth.
                     (at, point, height) = (index, neighbour, other);
-                    break;
+                    if !STEEPEST {
+                        break;
+                    }
                 }
             }
             if at == from {
@@ -91,7 +92,7 @@ impl SupportMap for Climber<'_> {
 /// A climber on body 2 that turns directions by a matrix, formed once a query, where parry's provided `support_point`
 /// turns them by the quaternion each time.
 struct TurnedClimber<'a> {
-    climber: Climber<'a>,
+    climber: Climber<'a, false>,
     rotation: Matrix3,
 }
 
@@ -109,17 +110,23 @@ impl SupportMap for TurnedClimber<'_> {
     }
 }
 
-/// How the support map of body 2 turns directions.
+fn climbers<'a, const STEEPEST: bool>(rings: [&'a Rings; 2], last: [&'a Cell<u32>; 2]) -> [Climber<'a, STEEPEST>; 2] {
+    [0, 1].map(|k| Climber { rings: rings[k], last: last[k] })
+}
+
+/// How the support maps are written.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Turning {
-    /// As parry's trait provides it.
-    Quaternion,
-    /// By a matrix: a sixth faster when coherent.
-    Matrix,
+pub enum Climbing {
+    /// To the first neighbour that rises: of 1,002 vertices a tenth faster than to the steepest.
+    First,
+    /// To the steepest neighbour, as hill climbing is mostly written: of 10,002 vertices a tenth faster at random poses.
+    Steepest,
+    /// To the first, and body 2 turns directions by a matrix, not as parry's trait provides it: a sixth faster when coherent.
+    FirstWithMatrix,
 }
 
 pub struct Parry {
-    turning: Turning,
+    climbing: Climbing,
     rings: [Rc<Rings>; 2],
     poses: Vec<(Pose, Pose)>,
     last: [Cell<u32>; 2],
@@ -129,9 +136,9 @@ pub struct Parry {
 }
 
 impl Parry {
-    pub fn new(rings: [Rc<Rings>; 2], turning: Turning) -> Parry {
+    pub fn new(rings: [Rc<Rings>; 2], climbing: Climbing) -> Parry {
         Parry {
-            turning,
+            climbing,
             rings,
             poses: Vec::new(),
             last: [Cell::new(0), Cell::new(0)],
@@ -144,9 +151,10 @@ impl Parry {
 
 impl Method for Parry {
     fn name(&self) -> &str {
-        match self.turning {
-            Turning::Quaternion => "parry-hc",
-            Turning::Matrix => "parry-hc-matrix",
+        match self.climbing {
+            Climbing::First => "parry-hc",
+            Climbing::Steepest => "parry-hc-steepest",
+            Climbing::FirstWithMatrix => "parry-hc-matrix",
         }
     }
 
@@ -163,14 +171,22 @@ impl Method for Parry {
     fn ask(&mut self, i: usize) {
         let (pose1, pose2) = &self.poses[i];
         let pose12 = pose1.inv_mul(pose2);
-        let [climber1, climber2] = [0, 1].map(|k| Climber { rings: &self.rings[k], last: &self.last[k] });
         let (simplex, direction) = (&mut self.simplex, self.direction);
-        self.answer = match self.turning {
-            Turning::Quaternion => distance(&pose12, &climber1, &climber2, f64::MAX, simplex, direction),
-            Turning::Matrix => {
+        let [rings1, rings2] = &self.rings;
+        let [last1, last2] = &self.last;
+        self.answer = match self.climbing {
+            Climbing::First => {
+                let climbers = climbers::<false>([rings1, rings2], [last1, last2]);
+                distance(&pose12, &climbers[0], &climbers[1], f64::MAX, simplex, direction)
+            }
+            Climbing::Steepest => {
+                let climbers = climbers::<true>([rings1, rings2], [last1, last2]);
+                distance(&pose12, &climbers[0], &climbers[1], f64::MAX, simplex, direction)
+            }
+            Climbing::FirstWithMatrix => {
+                let [climber1, climber] = climbers::<false>([rings1, rings2], [last1, last2]);
                 let rotation = Matrix3::from_quat(pose12.rotation);
-                let climber2 = TurnedClimber { climber: climber2, rotation };
-                distance(&pose12, &climber1, &climber2, f64::MAX, simplex, direction)
+                distance(&pose12, &climber1, &TurnedClimber { climber, rotation }, f64::MAX, simplex, direction)
             }
         };
         if let GJKResult::ClosestPoints(_, _, direction) = self.answer {
