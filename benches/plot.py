@@ -165,7 +165,8 @@ def step_positions(steps):
 
 def title(head, text, width):
     return [text_element(16, 22, text, weight="bold"),
-            text_element(width - 16, 22, head, "end")]
+            # Without the compiler's flags, which stand in the CSV file.
+            text_element(width - 16, 22, head.split(", -")[0], "end")]
 
 
 def draw_speed(path, head, n, rows):
