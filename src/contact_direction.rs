@@ -9,7 +9,7 @@
 use crate::exact::VertexPair;
 use crate::math::{Pose, Vector};
 use crate::normal_cone::separating_direction;
-use crate::polyhedron::{NONE, Polyhedron};
+use crate::polyhedron::Polyhedron;
 
 /// Pairs of vertices whose candidates are looked at: at a touching point one is enough.
 const ROUND_LIMIT: u32 = 8;
@@ -121,7 +121,8 @@ impl Search<'_> {
         for (i, end) in ends.iter_mut().enumerate() {
             let polyhedron = self.polyhedra[i];
             // A climb that starts at a flat vertex does not leave it along the normal of its face, either way.
-            let start = if is_flat(polyhedron, *end) { polyhedron.edges[0].tail() } else { *end };
+            let is_flat = polyhedron.faces_at_flat_vertex(*end).next().is_some();
+            let start = if is_flat { polyhedron.edges[0].tail() } else { *end };
             (*end, _) = polyhedron.support(&towards[i], start);
         }
         let positions = positions(self.polyhedra, ends);
@@ -160,12 +161,8 @@ impl Search<'_> {
                 }
             }
         }
-        if is_flat(polyhedron, vertex) {
-            for (triangle, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
-                if triangle.contains(&vertex) {
-                    self.consider_normal(i, &polyhedron.faces[face as usize].normal);
-                }
-            }
+        for face in polyhedron.faces_at_flat_vertex(vertex) {
+            self.consider_normal(i, &polyhedron.faces[face as usize].normal);
         }
     }
 
@@ -302,10 +299,4 @@ impl Neighbours {
 /// Whether a vertex has more than `MOST_NEIGHBOURS` neighbours.
 fn has_many_neighbours(polyhedron: &Polyhedron, vertex: u32) -> bool {
     polyhedron.neighbour_capacity(vertex) > MOST_NEIGHBOURS
-}
-
-/// Whether a vertex only lies inside a merged face or edge.
-fn is_flat(polyhedron: &Polyhedron, vertex: u32) -> bool {
-    !polyhedron.edges.is_empty()
-        && polyhedron.neighbour_blocks(vertex).all(|block| block.edge.iter().all(|&edge| edge == NONE))
 }

@@ -65,6 +65,7 @@ mod side_search;
 #[doc(hidden)]
 pub mod voronoi;
 #[doc(hidden)]
+pub mod nearest_vertex;
 pub mod start;
 #[doc(hidden)]
 pub mod frame;

@@ -277,7 +277,7 @@ pub struct Lookup {
     /// Which table.
     pub plan: Plan,
     /// How far, in radians, a pair of bodies like this one may have moved and turned before the table leads to the nearest features
-    /// sooner than the last features do; +∞ without a table.
+    /// sooner than the last features do; +∞ without a plan.
     pub reach: f64,
     /// The table, once made.
     pub made: OnceLock<Table>,
@@ -286,8 +286,13 @@ pub struct Lookup {
 /// Which table a body has.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Plan {
-    /// None: the body is small, or none was asked for.
+    /// None.
     None,
+    /// None, as the body has so few vertices that all are looked at.
+    AllVertices {
+        /// How often, see [`Shells::rounds`].
+        rounds: u32,
+    },
     /// Vertices near points on several spheres.
     Shells {
         /// [`Shells::resolution`].
@@ -312,8 +317,13 @@ impl PartialEq for Lookup {
 impl Lookup {
     /// No table.
     pub fn none() -> Lookup {
+        Lookup::without_table(Plan::None, f64::INFINITY)
+    }
+
+    /// A plan that needs no table.
+    pub fn without_table(plan: Plan, reach: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan: Plan::None, reach: f64::INFINITY, made: OnceLock::from(Table::None) }
+        Lookup { plan, reach, made: OnceLock::from(Table::None) }
     }
 
     /// Memory that it holds beyond its own size: none until the table is made.
@@ -334,7 +344,7 @@ impl Lookup {
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "one for a body, and a look-up should not begin with a further pointer")]
 pub enum Table {
-    /// [`Plan::None`].
+    /// [`Plan::None`] and [`Plan::AllVertices`].
     None,
     /// [`Plan::Shells`].
     Shells(Shells),

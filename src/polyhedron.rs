@@ -177,34 +177,43 @@ pub struct MassProperties {
 }
 
 /// A convex polyhedron, immutable once built but for its look-up table.
+///
+/// What every query reads comes first, together.
 #[derive(Debug, Clone, PartialEq)]
+#[repr(C, align(64))]
 pub struct Polyhedron {
-    /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).
-    pub dimension: u8,
-    /// What was subtracted from the stored vertices, exactly.
-    pub centre: Vector,
-    /// ρ: an upper bound of |position| over all vertices.
-    pub radius: f64,
-    /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
-    pub ordinary: bool,
     /// Hull vertices. Those that only lie inside a merged face or edge (flat vertices) are kept for the support climb.
     pub vertices: Vec<Vertex>,
+    /// Edges between merged faces.
+    pub edges: Vec<Edge>,
+    /// ρ: an upper bound of |position| over all vertices.
+    pub radius: f64,
+    /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).
+    pub dimension: u8,
+    /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
+    pub ordinary: bool,
+    /// Merged faces.
+    pub faces: Vec<Face>,
+    /// What was subtracted from the stored vertices, exactly.
+    pub centre: Vector,
+    /// Volume, centre of mass, radius, box.
+    pub mass: MassProperties,
+    /// Where marching starts from when the last query tells nothing.
+    pub lookup: Lookup,
     /// Blocks of vertices with more than eight neighbours.
     pub more_neighbours: Vec<NeighbourBlock>,
     /// The exact hull, triangulated, over `vertices`; counter-clockwise from outside.
     pub triangles: Vec<[u32; 3]>,
     /// The merged face of each triangle.
     pub face_of_triangle: Vec<u32>,
-    /// Edges between merged faces.
-    pub edges: Vec<Edge>,
-    /// Merged faces.
-    pub faces: Vec<Face>,
     /// Edge ids of the faces' sides, counter-clockwise.
     pub sides: Vec<u32>,
     /// Plane blocks of faces with more than three sides.
     pub more_sides: Vec<PlaneBlock>,
     /// Planes that halve sharp edges.
     pub bevels: Vec<Bevel>,
+    /// The vertices inside merged faces, ascending, each with its face; those of a flat body with both.
+    pub flat_vertices: Vec<[u32; 2]>,
     /// The caller's index of each vertex: the first one of exactly equal coordinates.
     pub vertex_labels: Vec<u32>,
     /// The caller's polygons merged into each face: face f owns `face_labels[face_label_starts[f]..face_label_starts[f+1]]`,
@@ -217,10 +226,6 @@ pub struct Polyhedron {
     pub polygon_corners: Vec<Vector>,
     /// See `polygon_corners`; one more entry than `face_labels`, or empty without a mesh.
     pub polygon_starts: Vec<u32>,
-    /// Volume, centre of mass, radius, box.
-    pub mass: MassProperties,
-    /// Where marching starts from when the last query tells nothing.
-    pub lookup: Lookup,
 }
 
 impl Polyhedron {
@@ -275,6 +280,27 @@ impl Polyhedron {
             }
         }
         best.1
+    }
+
+    /// How many of the vertices are corners of merged faces, by Euler's formula; all without faces.
+    pub fn corner_count(&self) -> usize {
+        if self.faces.is_empty() { self.vertices.len() } else { 2 + self.edges.len() - self.faces.len() }
+    }
+
+    /// The edge that a flat vertex lies in, or a side of the face that it lies in. Of a corner none.
+    #[cold]
+    pub fn edge_by_flat_vertex(&self, vertex: u32) -> Option<u32> {
+        let [first, ..] = self.vertices[vertex as usize].neighbours.edge;
+        match self.edges.get(first as usize) {
+            Some(edge) => (edge.tail() != vertex && edge.head() != vertex).then_some(first),
+            None => self.faces_at_flat_vertex(vertex).next().map(|face| self.faces[face as usize].first_sides[0]),
+        }
+    }
+
+    /// The face that a vertex is inside of, of a flat body both; none of other vertices.
+    pub fn faces_at_flat_vertex(&self, vertex: u32) -> impl Iterator<Item = u32> {
+        let first = self.flat_vertices.partition_point(|[v, _]| *v < vertex);
+        self.flat_vertices[first..].iter().take_while(move |[v, _]| *v == vertex).map(|[_, face]| *face)
     }
 
     /// The neighbour blocks of a vertex: the first, then those with neighbours beyond eight.
@@ -388,6 +414,7 @@ impl Polyhedron {
             sides,
             more_sides,
             bevels,
+            flat_vertices,
             face_of_triangle,
             vertex_labels,
             face_labels,
@@ -405,6 +432,7 @@ impl Polyhedron {
             + size_of_val(&sides[..])
             + size_of_val(&more_sides[..])
             + size_of_val(&bevels[..])
+            + size_of_val(&flat_vertices[..])
             + size_of_val(&face_of_triangle[..])
             + size_of_val(&vertex_labels[..])
             + size_of_val(&face_labels[..])

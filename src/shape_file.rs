@@ -67,6 +67,7 @@ pub fn to_bytes(shape: &Shape) -> Vec<u8> {
     writer.polyhedron(polyhedron);
     let (kind, resolution, factor) = match polyhedron.lookup.plan {
         Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
+        Plan::AllVertices { .. } => (LookupKind::Automatic, 0, LookupOptions::DEFAULT.radius_factor),
         Plan::Shells { resolution } => (LookupKind::Shells, resolution, LookupOptions::DEFAULT.radius_factor),
         Plan::Spherical { resolution, radius_factor } => (LookupKind::Spherical, resolution, radius_factor),
     };
@@ -121,7 +122,7 @@ pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shap
     reader.rest = content.get(12..).unwrap_or_default();
     let mut polyhedron = reader.polyhedron(None, &mut bodies)?;
     let kind = reader.number()?;
-    let Some(kind) = read_kind(kind).filter(|kind| *kind != LookupKind::Automatic) else {
+    let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of look-up table");
     };
     let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };

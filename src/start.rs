@@ -1,27 +1,45 @@
 //! Where marching starts: from the look-up tables when the last query tells little or nothing.
 
-use crate::lookup::{Shells, Table};
-use crate::lookup_build::tables;
+use crate::lookup::{Plan, Table};
+use crate::lookup_build::{table, tables};
 use crate::math::{Pose, Vector};
+use crate::nearest_vertex::{AllVertices, NearestVertex};
 use crate::polyhedron::Polyhedron;
 use crate::simd::{self, Kernel, Lanes};
 use crate::voronoi::climb;
 
 /// Where to start.
-// Small enough to come back in registers: through memory it would be written in parts and read as one, which stalls.
+// Handed back in memory, written number by number: two of them side by side would be read as one, which stalls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
 pub struct Beginning {
-    /// A vertex of each body.
-    pub vertices: [u32; 2],
+    /// A vertex of body 1.
+    pub first: u32,
     /// Whether the bodies seem to intersect.
     pub guess: Guess,
+    /// A vertex of body 2.
+    pub second: u32,
+}
+
+impl Beginning {
+    #[inline(always)]
+    fn new([first, second]: [u32; 2], guess: Guess) -> Beginning {
+        Beginning { first, guess, second }
+    }
+
+    /// A vertex of each body.
+    #[inline(always)]
+    pub fn vertices(&self) -> [u32; 2] {
+        [self.first, self.second]
+    }
 }
 
 /// What a look into the tables makes one expect.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u32)]
 pub enum Guess {
-    /// Each of the two vertices is on the side of its body that faces the other vertex: most such pairs are disjoint.
+    /// Each of the two vertices is on the side of its body that faces the other vertex, or they are farthest along a line along
+    /// which the bodies are apart: most such pairs are disjoint.
     Apart,
     /// Only one is, or nobody looked.
     Unclear,
@@ -29,12 +47,49 @@ pub enum Guess {
     Overlapping,
 }
 
-/// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and there are
-/// any, or else at those farthest along the line of the bodies' origins.
+/// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and both bodies have
+/// one, or one of them has and the other needs none; or else at those farthest along the line of the bodies' origins.
 #[inline(never)]
 pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) -> Beginning {
-    let found = if ask_tables { from_tables(polyhedra, poses) } else { None };
-    found.unwrap_or_else(|| Beginning { vertices: farthest(polyhedra, poses), guess: Guess::Unclear })
+    if ask_tables {
+        // Returned from where it is found: put together elsewhere it would be copied, which stalls.
+        match tables(polyhedra) {
+            Some([Table::Shells(first), Table::Shells(second)]) => {
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+            }
+            Some([Table::Spherical(first), Table::Spherical(second)]) => {
+                let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
+                let vertices =
+                    [first.towards(&poses[0].rotate_back(&between)), second.towards(&poses[1].rotate_back(&-between))];
+                return Beginning::new(vertices, Guess::Unclear);
+            }
+            _ => return beside_few_vertices(polyhedra, poses),
+        }
+    }
+    farthest(polyhedra, poses)
+}
+
+/// Where only one body has a table, and the other few vertices, as from two tables; else as without tables. (Of two bodies of few
+/// vertices those farthest along a line are found sooner.)
+#[inline(never)]
+fn beside_few_vertices([body1, body2]: [&Polyhedron; 2], poses: [&Pose; 2]) -> Beginning {
+    let polyhedra = [body1, body2];
+    match [body1.lookup.plan, body2.lookup.plan] {
+        [Plan::AllVertices { rounds }, Plan::Shells { .. }] => {
+            if let Table::Shells(second) = table(body2) {
+                let first = &AllVertices { polyhedron: body1, rounds };
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+            }
+        }
+        [Plan::Shells { .. }, Plan::AllVertices { rounds }] => {
+            if let Table::Shells(first) = table(body1) {
+                let second = &AllVertices { polyhedron: body2, rounds };
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+            }
+        }
+        _ => {}
+    }
+    farthest(polyhedra, poses)
 }
 
 /// Whether spheres inside two bodies overlap, as far as their tables know any.
@@ -45,12 +100,16 @@ pub fn do_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool 
     between.norm_squared() < reach * reach
 }
 
-/// The support vertices along the line of the bodies' origins.
-fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> [u32; 2] {
+/// The support vertices along the line of the bodies' origins, and whether the bodies are apart along it.
+#[inline(never)]
+fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Beginning {
     let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
     let between = origin(1) - origin(0);
     let towards = [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)];
-    [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] }))
+    let vertices = [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] }));
+    let reach = |i: usize| polyhedra[i].vertices[vertices[i] as usize].position.dot(&towards[i]);
+    let are_apart = reach(0) + reach(1) < between.norm_squared();
+    Beginning::new(vertices, if are_apart { Guess::Apart } else { Guess::Unclear })
 }
 
 /// A hill climb for a support vertex.
@@ -68,23 +127,6 @@ impl Kernel for Climb<'_> {
     }
 }
 
-/// The vertices that the tables of both bodies give, if both have one.
-#[inline(always)]
-fn from_tables(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<Beginning> {
-    match tables(polyhedra)? {
-        [Table::Shells(first), Table::Shells(second)] => {
-            Some(simd::dispatch(&mut Alternate { tables: [first, second], polyhedra, poses }))
-        }
-        [Table::Spherical(first), Table::Spherical(second)] => {
-            let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
-            let vertices =
-                [first.towards(&poses[0].rotate_back(&between)), second.towards(&poses[1].rotate_back(&-between))];
-            Some(Beginning { vertices, guess: Guess::Unclear })
-        }
-        _ => None,
-    }
-}
-
 /// In the world, in plain rounding.
 #[inline(always)]
 fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
@@ -93,24 +135,26 @@ fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
 
 /// Projects on both bodies the other's centre of mass, then the vertices that were found there, and so on, by the tables. Both at
 /// once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four look-ups.
-struct Alternate<'a> {
-    tables: [&'a Shells; 2],
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+struct Alternate<'a, F, S> {
+    first: &'a F,
+    second: &'a S,
+    // Lent, not copied: pairs of pointers just written one by one would be read as one, which stalls.
+    polyhedra: &'a [&'a Polyhedron; 2],
+    poses: &'a [&'a Pose; 2],
 }
 
-impl Kernel for Alternate<'_> {
+impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
     type Output = Beginning;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Beginning {
-        let [table1, table2] = self.tables;
+        let &mut Alternate { first, second, .. } = self;
         let [there, back] = self.maps::<L>();
-        let mut vertices = [table1.nearest(back.offset), table2.nearest(there.offset)];
+        let mut vertices = [first.nearest(back.offset), second.nearest(there.offset)];
         self.prefetch::<L>(vertices);
-        for _ in 1..table1.rounds.max(table2.rounds) {
-            let [point1, point2] = [table1.position(vertices[0]), table2.position(vertices[1])];
-            vertices = [table1.nearest(back.apply(point2)), table2.nearest(there.apply(point1))];
+        for _ in 1..first.rounds().max(second.rounds()) {
+            let [point1, point2] = [first.position(vertices[0]), second.position(vertices[1])];
+            vertices = [first.nearest(back.apply(point2)), second.nearest(there.apply(point1))];
             // The last ones are where marching begins; those before are often the same, or neighbours.
             self.prefetch::<L>(vertices);
         }
@@ -118,18 +162,18 @@ impl Kernel for Alternate<'_> {
         if guess == Guess::Overlapping {
             // Each was looked up for the vertex before the other, so thin bodies that are apart often look as if they overlapped. A
             // pair of which one was looked up for the other does so less often.
-            vertices[0] = table1.nearest(back.apply(table2.position(vertices[1])));
-            vertices[1] = table2.nearest(there.apply(table1.position(vertices[0])));
+            vertices[0] = first.nearest(back.apply(second.position(vertices[1])));
+            vertices[1] = second.nearest(there.apply(first.position(vertices[0])));
             guess = self.guess([&there, &back], vertices);
         }
-        Beginning { vertices, guess }
+        Beginning::new(vertices, guess)
     }
 }
 
-impl Alternate<'_> {
+impl<F: NearestVertex, S: NearestVertex> Alternate<'_, F, S> {
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, vertices: [u32; 2]) {
-        for (polyhedron, vertex) in self.polyhedra.into_iter().zip(vertices) {
+        for (polyhedron, vertex) in self.polyhedra.iter().zip(vertices) {
             L::prefetch(&polyhedron.vertices, vertex);
         }
     }
@@ -148,15 +192,31 @@ impl Alternate<'_> {
 
     #[inline(always)]
     fn guess(&self, [there, back]: [&Map; 2], vertices: [u32; 2]) -> Guess {
-        let [table1, table2] = self.tables;
-        let [point1, point2] = [table1.position(vertices[0]), table2.position(vertices[1])];
-        let faces1 = is_facing(&table1.outward, point1, back.apply(point2));
-        let faces2 = is_facing(&table2.outward, point2, there.apply(point1));
+        let &Alternate { first, second, .. } = self;
+        let (Some(outward1), Some(outward2)) = (first.outward(), second.outward()) else {
+            return self.guess_along_centres(there, back);
+        };
+        let [point1, point2] = [first.position(vertices[0]), second.position(vertices[1])];
+        let faces1 = is_facing(outward1, point1, back.apply(point2));
+        let faces2 = is_facing(outward2, point2, there.apply(point1));
         match (faces1, faces2) {
             (true, true) => Guess::Apart,
             (false, false) => Guess::Overlapping,
             _ => Guess::Unclear,
         }
+    }
+
+    /// Whether the bodies are apart along the line of their centres of mass.
+    #[inline(always)]
+    fn guess_along_centres(&self, there: &Map, back: &Map) -> Guess {
+        // How far the body reaches towards the other's centre of mass, which is at this point, as a fraction of the way.
+        let part = |point: [f32; 3], [x, y, z, _]: [f32; 4]| {
+            let [a, b, c] = point;
+            (a * x + b * y + c * z) / (a * a + b * b + c * c)
+        };
+        let part1 = part(back.offset, self.first.position(self.first.farthest(back.offset)));
+        let part2 = part(there.offset, self.second.position(self.second.farthest(there.offset)));
+        if part1 + part2 < 1.0 { Guess::Apart } else { Guess::Unclear }
     }
 }
 

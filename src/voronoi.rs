@@ -35,7 +35,7 @@ pub enum VertexTest {
     Tied,
     /// One is ahead: the edge to it, or NONE where there is no edge between merged faces, and the neighbour.
     Leaves {
-        /// The edge, or NONE.
+        /// The edge, or NONE; of a [flat vertex](Polyhedron::edge_by_flat_vertex) it may lead elsewhere.
         edge: u32,
         /// The neighbour.
         head: u32,
@@ -152,11 +152,13 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
 }
 
 /// Where the steepest neighbour is across a merged face, or the steepest is not asked for: leave by the steepest real edge that
-/// clearly rises or the first, or where none does to the neighbour.
+/// clearly rises or the first. Where none does a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour inside
+/// a face, past where it is nearest, it would go round in circles. A corner leaves to the neighbour.
 #[cold]
 fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
     let rough = g.map(|d| d as f32).into();
-    let mut best = (clear_slope(length), VertexTest::Leaves { edge: NONE, head, reach: 0.0 });
+    let edge = polyhedron.edge_by_flat_vertex(vertex).unwrap_or(NONE);
+    let mut best = (clear_slope(length), VertexTest::Leaves { edge, head, reach: 0.0 });
     for block in polyhedron.neighbour_blocks(vertex) {
         for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
             if slope > best.0 && block.edge[lane] != NONE {

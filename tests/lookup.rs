@@ -7,7 +7,7 @@ use std::f64::consts::PI;
 use std::time::Instant;
 use std::{ptr, thread};
 
-use common::models::{cuboid, ellipsoid, prism, random_hull};
+use common::models::{cuboid, ellipsoid, grid_on_cube, prism, random_hull};
 use common::orbits::{ORBITS, Step, poses};
 use common::random::{Random, rotation};
 use swiftprox::error::Error;
@@ -16,6 +16,7 @@ use swiftprox::lookup::{Cells, Plan, Shells, Spherical, Table};
 use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::nearest_vertex::{AllVertices, NearestVertex};
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
 use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
@@ -311,6 +312,9 @@ fn tables_are_made_where_they_are_asked_for() {
     assert_eq!(made(&small, LookupKind::Automatic), Table::None);
     assert!(matches!(made(&large, LookupKind::Automatic), Table::Shells(_)));
     assert_eq!(made(&large, LookupKind::None), Table::None);
+    // Squares on a cube make no large body of it.
+    assert!(turned_grid(5, LookupKind::Automatic).polyhedron().vertices.len() > LEAST_VERTICES);
+    assert_eq!(*table(turned_grid(5, LookupKind::Automatic).polyhedron()), Table::None);
     assert!(matches!(made(&small, LookupKind::Shells), Table::Shells(_)));
     assert!(matches!(made(&small, LookupKind::Spherical), Table::Spherical(t) if t.resolution == 32));
     // Equal input, equal tables.
@@ -525,4 +529,120 @@ fn bodies_that_are_looked_up_more_often_are_looked_up_later() {
     });
     assert_eq!(all.map(|(rounds, _)| rounds), [1, 3, 4, 5]);
     assert!(all.is_sorted_by(|(_, reach), (_, next)| reach < next), "{all:?}");
+}
+
+/// A turned cube with a grid of points on each face: by rounding many of them are vertices, but no corners.
+fn turned_grid(n: usize, kind: LookupKind) -> Shape {
+    let turn = Random::new(9).rotation();
+    let points: Vec<Vector> = grid_on_cube(n).iter().map(|p| turn * p).collect();
+    Shape::from_points(&points, &options(kind, 0)).unwrap()
+}
+
+/// Of two like bodies at random poses, begun with an empty cache each or going on from pose to pose: how many are disjoint, how many
+/// of these marching did not decide, and on how many of those it had set out.
+fn undecided_at_random(shape: &Shape, start: Start, goes_on: bool) -> [usize; 3] {
+    let mut random = Random::new(7);
+    let config = PairConfig { start, ..PairConfig::default() };
+    let (mut cache, mut answer, mut counts) = (PairCache::default(), PairAnswer::default(), [0; 3]);
+    for _ in 0..2_000 {
+        let [pose1, pose2] = [0, 1].map(|_| Pose::new(&random.rotation(), &(random.vector() * 3.0)));
+        if !goes_on {
+            cache = PairCache::default();
+        }
+        pair::distance(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
+        verify(shape, &pose1, shape, &pose2, &answer).unwrap();
+        if answer.outcome == Outcome::Separated {
+            counts[0] += 1;
+            let is_undecided = answer.status != Status::Marched;
+            counts[1] += usize::from(is_undecided);
+            counts[2] += usize::from(is_undecided && answer.statistics.marching_steps > 0);
+        }
+    }
+    counts
+}
+
+/// Marching from a vertex inside a face, past which its neighbours are, went round in circles: one pair in seven.
+#[test]
+fn marching_leaves_flat_vertices() {
+    let shape = turned_grid(20, LookupKind::Shells);
+    let polyhedron = shape.polyhedron();
+    let table = shells(polyhedron);
+    let is_flat = |v: u32| polyhedron.faces_at_flat_vertex(v).next().is_some();
+    assert!((0..table.cells.len()).filter(|cell| is_flat(table.cells.get(*cell))).count() > table.cells.len() / 4);
+    let [disjoint, undecided, marched] = undecided_at_random(&shape, Start::Table, false);
+    // The others look as if they overlapped.
+    assert!(disjoint > 1_000 && 100 * undecided < disjoint && marched == 0, "{undecided}, {marched} of {disjoint}");
+}
+
+/// Boxes that intersected and have jumped apart: one in four was left to the fallback, as they have no tables to begin from.
+#[test]
+fn boxes_that_jump_apart_march() {
+    let shape = shape(&cuboid([1.0; 3]).unwrap(), LookupKind::Automatic, 0);
+    let [disjoint, undecided, _] = undecided_at_random(&shape, Start::Automatic, true);
+    assert!(disjoint > 1_000 && 15 * undecided < disjoint, "{undecided} of {disjoint}");
+}
+
+#[test]
+fn of_few_vertices_all_are_looked_at() {
+    let mut mesh = random_hull(25, 3).unwrap();
+    for v in &mut mesh.vertices {
+        *v = *v * 3.0 + Vector::new(7.0, -3.0, 0.5);
+    }
+    let shape = shape(&mesh, LookupKind::Automatic, 0);
+    let polyhedron = shape.polyhedron();
+    assert!(matches!(polyhedron.lookup.plan, Plan::AllVertices { rounds: 1 }));
+    let all = AllVertices { polyhedron, rounds: 1 };
+    let mut random = Random::new(4);
+    for _ in 0..1_000 {
+        let direction = random.direction();
+        let factor = random.uniform(0.1, 5.0) as f32;
+        let towards = [direction.x as f32, direction.y as f32, direction.z as f32];
+        let direction = Vector::from(towards.map(f64::from));
+        let point = sample(polyhedron, 1.0, &(direction * f64::from(factor)));
+        let nearest = distance_of(polyhedron, all.nearest(towards.map(|x| x * factor)), &point);
+        assert!(nearest <= least_distance(polyhedron, &point) + 1e-5);
+        let height = |v: u32| polyhedron.vertices[v as usize].position.dot(&direction);
+        let highest = (0..polyhedron.vertices.len() as u32).map(height).fold(f64::NEG_INFINITY, f64::max);
+        assert_eq!(height(all.farthest(towards)), highest);
+    }
+    for v in 0..polyhedron.vertices.len() as u32 {
+        let [x, y, z, _] = all.position(v).map(f64::from);
+        assert!(
+            (sample(polyhedron, 1.0, &Vector::new(x, y, z)) - polyhedron.vertices[v as usize].position).norm() < 1e-5
+        );
+        assert!(
+            distance_of(
+                polyhedron,
+                all.nearest([x as f32, y as f32, z as f32]),
+                &polyhedron.vertices[v as usize].position
+            ) == 0.0
+        );
+    }
+}
+
+/// A box has no table, but what stands beside it may have one.
+#[test]
+fn a_box_beside_a_large_body_is_found_from_its_table() {
+    let small = shape(&cuboid([0.577; 3]).unwrap(), LookupKind::Automatic, 0);
+    for half_axes in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]] {
+        let large = shape(&ellipsoid(half_axes, 1_000).unwrap(), LookupKind::Automatic, 0);
+        for shapes in [[&small, &large], [&large, &small]] {
+            let mean_steps = |start| {
+                let (mut cache, mut answer, mut steps) = (PairCache::default(), PairAnswer::default(), 0);
+                let config = PairConfig { start, ..PairConfig::default() };
+                let poses = poses(ORBITS[0], Step::Random, 500);
+                for numbers in &poses {
+                    let pose = |k: usize| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap());
+                    pair::distance(shapes[0], &pose(0), shapes[1], &pose(1), &mut cache, &config, &mut answer).unwrap();
+                    verify(shapes[0], &pose(0), shapes[1], &pose(1), &answer).unwrap();
+                    steps += answer.statistics.marching_steps;
+                }
+                f64::from(steps) / poses.len() as f64
+            };
+            let [automatic, table, cache] = [Start::Automatic, Start::Table, Start::Cache].map(mean_steps);
+            println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
+            assert!(automatic < 6.5 && table < 5.5 && cache > 15.0);
+        }
+    }
+    assert_eq!(small.polyhedron().lookup.heap_bytes(), 0);
 }

@@ -44,6 +44,24 @@ pub fn cuboid(half_extents: [f64; 3]) -> Result<PolygonMesh> {
     PolygonMesh::new((0..8).map(corner).collect(), faces.to_vec(), Some(&[4; 6]))
 }
 
+/// A grid of (n + 1)² points on each side of a cube, shared points repeated.
+pub fn grid_on_cube(n: usize) -> Vec<Vector> {
+    let at = |i: usize| 2.0 * i as f64 / n as f64 - 1.0;
+    let mut points = Vec::new();
+    for axis in 0..3 {
+        for i in 0..=n {
+            for j in 0..=n {
+                for level in [-1.0, 1.0] {
+                    let mut p = Vector::zeros();
+                    (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (level, at(i), at(j));
+                    points.push(p);
+                }
+            }
+        }
+    }
+    points
+}
+
 /// A right prism around the z axis over a regular polygon of `sides` corners on the unit circle.
 pub fn prism(sides: u32, half_height: f64) -> Result<PolygonMesh> {
     let corner = |i: u32| on_circle(i, sides, if i < sides { -half_height } else { half_height });

@@ -249,7 +249,7 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
         let shape = unsafe { input(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
         let (kind, resolution) = match polyhedron.lookup.plan {
-            Plan::None => (LookupKind::None, 0),
+            Plan::None | Plan::AllVertices { .. } => (LookupKind::None, 0),
             Plan::Shells { resolution } => (LookupKind::Shells, resolution),
             Plan::Spherical { resolution, .. } => (LookupKind::Spherical, resolution),
         };

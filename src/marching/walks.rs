@@ -21,18 +21,12 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex
-    // only the neighbour is surely ahead.
-    let end = if leaving == NONE {
-        head
-    } else {
-        let record = &body.polyhedron.edges[leaving as usize];
-        if record.tail() == vertex {
-            record.head()
-        } else if record.head() == vertex {
-            record.tail()
-        } else {
-            head
-        }
+    // only the neighbour is surely ahead, and from one inside a face no edge leads there.
+    let (end, leaving) = match body.polyhedron.edges.get(leaving as usize) {
+        Some(record) if record.tail() == vertex => (record.head(), leaving),
+        Some(record) if record.head() == vertex => (record.tail(), leaving),
+        Some(_) if body.polyhedron.vertices[vertex as usize].neighbours.edge[0] != NONE => (head, leaving),
+        _ => (head, NONE),
     };
     let end_position = &body.polyhedron.vertices[end as usize].position;
     let end_point = far.rotate_back(body.rotate(end_position).add(body.offset));

@@ -66,7 +66,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         let frame = self.frame;
         if limit == TRIAL_STEPS && frame.has_jumped(&judge.cache.marker) && config.start != Start::Cache {
             let beginning = start::anew(polyhedra, poses, true);
-            state = State::vertex_vertex(beginning.vertices);
+            state = State::vertex_vertex(beginning.vertices());
             limit = step_limit(polyhedra);
             if beginning.guess == Guess::Overlapping {
                 return Attempt::Open { at: state, is_minimum: false, steps };
@@ -80,7 +80,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
                 March::Open(at) => break (at, false),
                 March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
                 March::Limit(at) if config.start == Start::Cache => at,
-                March::Limit(_) => State::vertex_vertex(start::anew(polyhedra, poses, true).vertices),
+                March::Limit(_) => State::vertex_vertex(start::anew(polyhedra, poses, true).vertices()),
             };
             limit = step_limit(polyhedra);
         };
@@ -118,7 +118,7 @@ impl Kernel for General<'_, '_> {
                     Some(beginning) => beginning,
                     None => start::anew(polyhedra, poses, config.start != Start::Cold),
                 };
-                let state = State::vertex_vertex(beginning.vertices);
+                let state = State::vertex_vertex(beginning.vertices());
                 if beginning.guess == Guess::Overlapping {
                     return Attempt::Open { at: state, is_minimum: false, steps: 0 };
                 }

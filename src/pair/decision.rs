@@ -101,12 +101,12 @@ impl PairQuery<'_> {
         if let Some(frame) = &frame
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
-            && frame.has_jumped(&self.cache.marker)
-            && (frame.has_moved(&self.cache.marker, FAR) || !start::do_cores_overlap(polyhedra, poses))
+            && (frame.has_moved(&self.cache.marker, FAR)
+                || (frame.has_jumped(&self.cache.marker) && !start::do_cores_overlap(polyhedra, poses)))
         {
             let beginning = start::anew(polyhedra, poses, true);
             if has_turned_away(frame, &self.cache.marker) {
-                hint = Pairs::new(&[beginning.vertices]);
+                hint = Pairs::new(&[beginning.vertices()]);
             }
             if beginning.guess == Guess::Apart {
                 let attempt = simd::dispatch(&mut General { pair: self, beginning: Some(beginning) });

@@ -311,7 +311,7 @@ impl PairQuery<'_> {
             Levels::All => bodies.coarsest(),
             _ => [0, 0],
         };
-        let vertices = start::anew(bodies.polyhedra(levels), self.poses, asks_tables).vertices;
+        let vertices = start::anew(bodies.polyhedra(levels), self.poses, asks_tables).vertices();
         Place { levels, state: State::vertex_vertex(vertices) }
     }
 

@@ -225,6 +225,17 @@ impl Polyhedron {
         Ok(())
     }
 
+    /// Finds the vertices inside merged faces: no edge leads to a neighbour of theirs.
+    pub(super) fn find_flat_vertices(&mut self) {
+        let is_flat = |v: &&u32| self.vertices[**v as usize].neighbours.edge[0] == NONE;
+        for (triangle, &face) in self.triangles.iter().zip(&self.face_of_triangle) {
+            self.flat_vertices.extend(triangle.iter().filter(is_flat).map(|v| [*v, face]));
+        }
+        self.flat_vertices.sort_unstable();
+        self.flat_vertices.dedup();
+        self.flat_vertices.shrink_to_fit();
+    }
+
     /// Adds one of the sides beyond the third of the last face; lane 0 begins a block.
     fn add_further_side(&mut self, lane: usize, side: &Vector, offset: f64) {
         if lane == 0 {

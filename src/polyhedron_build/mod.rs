@@ -223,6 +223,7 @@ impl HullSurface {
             sides: Vec::new(),
             more_sides: Vec::new(),
             bevels: Vec::new(),
+            flat_vertices: Vec::new(),
             vertex_labels: self.labels,
             face_labels: Vec::new(),
             face_label_starts: Vec::new(),
@@ -257,6 +258,7 @@ impl HullSurface {
         }
         polyhedron.triangles = surface.triangles;
         polyhedron.face_of_triangle = merged.face_of;
+        polyhedron.find_flat_vertices();
         Ok(polyhedron)
     }
 }

@@ -49,7 +49,7 @@ fn rotated_boxes_have_six_faces() {
 #[test]
 fn subdivided_cubes_have_six_faces() {
     let mut random = Random::new(2);
-    let grid = solids::grid_on_cube(7);
+    let grid = models::grid_on_cube(7);
     let p = hull(&grid);
     assert_eq!((p.edges.len(), p.faces.len()), (12, 6));
     let mut whole = 0;

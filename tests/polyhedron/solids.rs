@@ -7,24 +7,6 @@ pub fn cuboid(size: [f64; 3]) -> Vec<Vector> {
     (0..8).map(|i| Vector::from_fn(|k, _| if i >> k & 1 == 1 { 0.5 * size[k] } else { -0.5 * size[k] })).collect()
 }
 
-/// A grid of (n + 1)² points on each side of a cube, shared points repeated.
-pub fn grid_on_cube(n: usize) -> Vec<Vector> {
-    let at = |i: usize| 2.0 * i as f64 / n as f64 - 1.0;
-    let mut points = Vec::new();
-    for axis in 0..3 {
-        for i in 0..=n {
-            for j in 0..=n {
-                for level in [-1.0, 1.0] {
-                    let mut p = Vector::zeros();
-                    (p[axis], p[(axis + 1) % 3], p[(axis + 2) % 3]) = (level, at(i), at(j));
-                    points.push(p);
-                }
-            }
-        }
-    }
-    points
-}
-
 /// A prism over a regular n-gon: first the bottom, then the top.
 pub fn prism(n: usize, height: f64) -> Vec<Vector> {
     let ring = |z: f64| {

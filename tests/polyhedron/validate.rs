@@ -113,12 +113,45 @@ fn neighbours(p: &Polyhedron) {
         found.sort_unstable();
         assert_eq!(&found, list);
     }
+    if p.dimension >= 2 {
+        flat_vertices(p);
+    }
     // Each edge is found from both its ends.
     for (e, edge) in p.edges.iter().enumerate() {
         for end in [edge.tail(), edge.head()] {
             assert!(p.neighbour_blocks(end).any(|b| b.edge.contains(&(e as u32))));
         }
     }
+}
+
+/// A vertex is a corner, or within an edge, or inside a face and knows which.
+fn flat_vertices(p: &Polyhedron) {
+    let mut corners = 0;
+    for v in 0..p.vertices.len() as u32 {
+        let is_corner = p.edges.iter().any(|edge| edge.tail() == v || edge.head() == v);
+        let knows_edges = p.neighbour_blocks(v).any(|block| block.edge.iter().any(|edge| *edge != NONE));
+        let faces: Vec<u32> = p.faces_at_flat_vertex(v).collect();
+        corners += usize::from(is_corner);
+        assert_eq!(faces.is_empty(), knows_edges);
+        assert!(faces.len() <= if p.dimension == 3 { 1 } else { 2 });
+        match p.edge_by_flat_vertex(v) {
+            None => assert!(is_corner),
+            Some(edge) if knows_edges => {
+                assert!(
+                    !is_corner && distance_to_edge(p, &p.edges[edge as usize], v) <= 17.0 * UNIT_ROUNDOFF * p.radius
+                );
+            }
+            Some(edge) => {
+                let edge = &p.edges[edge as usize];
+                assert!([edge.left(), edge.right()].contains(&faces[0]));
+            }
+        }
+        for face in faces {
+            let is_in = |t: usize| p.triangles[t].contains(&v);
+            assert!((0..p.triangles.len()).filter(|t| is_in(*t)).any(|t| p.face_of_triangle[t] == face));
+        }
+    }
+    assert_eq!(p.corner_count(), corners);
 }
 
 fn distance_to_edge(p: &Polyhedron, edge: &Edge, v: u32) -> f64 {

@@ -51,7 +51,7 @@ impl<const FIRST: bool> Method for Marching<FIRST> {
         let [pose1, pose2] = &self.poses[i];
         let poses = [pose1, pose2];
         let start =
-            self.state.unwrap_or_else(|| State::vertex_vertex(start::anew([polyhedron; 2], poses, false).vertices));
+            self.state.unwrap_or_else(|| State::vertex_vertex(start::anew([polyhedron; 2], poses, false).vertices()));
         let mut run = Run::<FIRST> { shape: &self.shape, poses, state: start, steps: 0, keep: Keep { gap: None } };
         simd::dispatch(&mut run);
         self.state = Some(run.state);
