@@ -66,6 +66,7 @@ mod side_search;
 pub mod voronoi;
 #[doc(hidden)]
 pub mod nearest_vertex;
+#[doc(hidden)]
 pub mod start;
 #[doc(hidden)]
 pub mod frame;

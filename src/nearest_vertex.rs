@@ -64,32 +64,33 @@ impl AllVertices<'_> {
     fn centre_of_mass(&self) -> Vector {
         self.polyhedron.mass.centre_of_mass - self.polyhedron.centre
     }
-
-    /// The vertex for which a cost is least, the first of equals.
-    #[inline(always)]
-    fn least(&self, cost: impl Fn(&Vector) -> f64) -> u32 {
-        let mut best = (f64::INFINITY, 0);
-        for (v, vertex) in self.polyhedron.vertices.iter().enumerate() {
-            let cost = cost(&vertex.position);
-            if cost < best.0 {
-                best = (cost, v as u32);
-            }
-        }
-        best.1
-    }
 }
 
 impl NearestVertex for AllVertices<'_> {
     #[inline(always)]
     fn nearest(&self, point: [f32; 3]) -> u32 {
         let point = Vector::from(point.map(f64::from)) * self.polyhedron.mass.radius + self.centre_of_mass();
-        self.least(|position| (position - point).norm_squared())
+        let mut best = (f64::INFINITY, 0);
+        for (v, vertex) in self.polyhedron.vertices.iter().enumerate() {
+            let square = (vertex.position - point).norm_squared();
+            if square < best.0 {
+                best = (square, v as u32);
+            }
+        }
+        best.1
     }
 
     #[inline(always)]
     fn farthest(&self, direction: [f32; 3]) -> u32 {
-        let backwards = -Vector::from(direction.map(f64::from));
-        self.least(|position| backwards.dot(position))
+        let direction = Vector::from(direction.map(f64::from));
+        let mut best = (f64::NEG_INFINITY, 0);
+        for (v, vertex) in self.polyhedron.vertices.iter().enumerate() {
+            let height = vertex.position.dot(&direction);
+            if height > best.0 {
+                best = (height, v as u32);
+            }
+        }
+        best.1
     }
 
     #[inline(always)]

@@ -15,7 +15,8 @@ usage: compare [options]
   --orbits LIST     of small, large, deep (all)
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
   --query QUERY     distance, or intersection, the verdict alone (distance)
-  --methods LIST    of swiftprox, parry-hc, fcl-1e-6, swiftprox-verdict, parry-hc-matrix, fcl-1e-10, parry-hc-steepest (all);
+  --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
+  --methods LIST    of swiftprox, parry-hc, swiftprox-verdict, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
                     of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
@@ -37,6 +38,7 @@ pub struct Options {
     pub orbits: Vec<String>,
     pub steps: Vec<Step>,
     pub query: Query,
+    pub beside_box: bool,
     /// Empty: all.
     pub methods: Vec<String>,
     pub count: usize,
@@ -59,6 +61,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         orbits: ORBITS.iter().map(|orbit| orbit.name.to_string()).collect(),
         steps: STEPS.to_vec(),
         query: Query::Distance,
+        beside_box: false,
         methods: Vec::new(),
         count: 3600,
         passes: 9,
@@ -85,6 +88,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
                     other => return Err(format!("--query: {other} is neither distance nor intersection")),
                 }
             }
+            "--beside-box" => options.beside_box = true,
             "--methods" => options.methods = list(&value()?).map(str::to_string).collect(),
             "--count" => options.count = number(&value()?)?.max(1),
             "--passes" => options.passes = number(&value()?)?.max(1),

@@ -31,14 +31,24 @@ impl Query {
     }
 }
 
-/// The query under a setting, as a method to be timed.
+/// The query of two like bodies under a setting, as a method to be timed.
 pub fn setting(name: impl Into<String>, query: Query, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
-    let (name, shape) = (name.into(), shape.clone());
+    setting_of_pair(name, query, [shape, shape], config)
+}
+
+/// The query of two bodies under a setting, as a method to be timed.
+pub fn setting_of_pair(
+    name: impl Into<String>,
+    query: Query,
+    shapes: [&Rc<Shape>; 2],
+    config: PairConfig,
+) -> Box<dyn Method> {
+    let (name, shapes) = (name.into(), shapes.map(Rc::clone));
     match query {
-        Query::Intersection => Box::new(Setting::new(name, pair::intersection, shape, config)),
-        Query::Approximate => Box::new(Setting::new(name, pair::approximate, shape, config)),
-        Query::Distance => Box::new(Setting::new(name, pair::distance, shape, config)),
-        Query::Contact => Box::new(Setting::new(name, pair::contact, shape, config)),
+        Query::Intersection => Box::new(Setting::new(name, pair::intersection, shapes, config)),
+        Query::Approximate => Box::new(Setting::new(name, pair::approximate, shapes, config)),
+        Query::Distance => Box::new(Setting::new(name, pair::distance, shapes, config)),
+        Query::Contact => Box::new(Setting::new(name, pair::contact, shapes, config)),
     }
 }
 
@@ -46,7 +56,7 @@ pub fn setting(name: impl Into<String>, query: Query, shape: &Rc<Shape>, config:
 struct Setting<Ask> {
     name: String,
     ask: Ask,
-    shape: Rc<Shape>,
+    shapes: [Rc<Shape>; 2],
     config: PairConfig,
     poses: Vec<[Pose; 2]>,
     cache: PairCache,
@@ -55,9 +65,9 @@ struct Setting<Ask> {
 }
 
 impl<Ask> Setting<Ask> {
-    fn new(name: String, ask: Ask, shape: Rc<Shape>, config: PairConfig) -> Setting<Ask> {
+    fn new(name: String, ask: Ask, shapes: [Rc<Shape>; 2], config: PairConfig) -> Setting<Ask> {
         let (cache, answer) = (PairCache::default(), PairAnswer::default());
-        Setting { name, ask, shape, config, poses: Vec::new(), cache, answer, failed: false }
+        Setting { name, ask, shapes, config, poses: Vec::new(), cache, answer, failed: false }
     }
 }
 
@@ -80,8 +90,8 @@ where
     #[inline]
     fn ask(&mut self, i: usize) {
         let [pose1, pose2] = &self.poses[i];
-        let (shape, cache, config, answer) = (&*self.shape, &mut self.cache, &self.config, &mut self.answer);
-        self.failed = (self.ask)(shape, pose1, shape, pose2, cache, config, answer).is_err();
+        let ([shape1, shape2], cache, config, answer) = (&self.shapes, &mut self.cache, &self.config, &mut self.answer);
+        self.failed = (self.ask)(shape1, pose1, shape2, pose2, cache, config, answer).is_err();
     }
 
     fn reply(&self) -> Reply {
