@@ -200,7 +200,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
     #[inline(always)]
     pub fn has_jumped(&self, last: &Marker) -> bool {
         let [first, second] = self.polyhedra();
-        self.has_moved(last, first.lookup.reach * second.lookup.reach)
+        self.has_moved(last, first.lookup.square_reach(&second.lookup))
     }
 
     /// The computed x − y for x = point `p` of body 1 and y = point `q` of body 2, both in centred local coordinates.

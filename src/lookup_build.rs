@@ -96,13 +96,14 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     if plan == Plan::None || !(SMALLEST..=LARGEST).contains(&polyhedron.radius) {
         return Ok(Lookup::none());
     }
+    // Neighbours are that far apart, but for a factor.
+    let spacing = 1.0 / (vertex_count as f64).sqrt();
     if kind == LookupKind::Automatic && vertex_count < LEAST_VERTICES {
         if polyhedron.vertices.len() >= 2 * LEAST_VERTICES || polyhedron.faces.is_empty() {
             return Ok(Lookup::none());
         }
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
-        let reach = REACH_WITHOUT_TABLE / (vertex_count as f64).sqrt();
-        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, reach));
+        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, REACH_WITHOUT_TABLE * spacing));
     }
     let rounds = match plan {
         Plan::Shells { .. } => rounds(&Thickness::of(polyhedron), vertex_count),
@@ -110,7 +111,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
         _ => 3,
     };
     let reach = REACH_OF_MARCHING + REACH_OF_ROUND * f64::from(rounds);
-    Ok(Lookup { plan, reach: reach / (vertex_count as f64).sqrt(), made: OnceLock::new() })
+    Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnceLock::new() })
 }
 
 /// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
@@ -171,9 +172,11 @@ const REACH_OF_MARCHING: f64 = 1.8;
 /// 3.1, 5.9, 7.0 and 8.4.
 const REACH_OF_ROUND: f64 = 1.3;
 
-/// The same for bodies of few vertices. Chosen by time: two bodies of 31 vertices are better begun anew from somewhere between 45°
-/// and 90° on, two boxes never; a box and a body of 1,002 vertices from between 10° (round) and 45° (thin) on, of 10,002 from
-/// between 10° and 20° on.
+/// The same for a pair of which one body has few vertices, of the other's number: only that one's features change fast. Chosen by
+/// time, of a box beside round, flat and long bodies: best were 14, 20 and 20 of 1,002 vertices, 25, 19 and 15 of 10,002.
+const REACH_BESIDE_FEW: f64 = 18.0;
+
+/// The same for two bodies of few vertices: those of 31 are better begun anew from somewhere between 45° and 90° on, boxes never.
 const REACH_WITHOUT_TABLE: f64 = 8.0;
 
 /// Cells along a side such that a shell has a few for every vertex.

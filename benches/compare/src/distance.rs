@@ -26,6 +26,7 @@ pub fn run(options: &Options) -> Result<(), String> {
         for name in &options.models {
             let mesh = model(options, name, n)?;
             let mut methods = methods(&mesh, options)?;
+            let pair = if options.beside_box { format!("{name}+box") } else { name.clone() };
             for orbit in &options.orbits {
                 for &step in &options.steps {
                     let poses = motion(options, orbit, step)?;
@@ -36,7 +37,7 @@ pub fn run(options: &Options) -> Result<(), String> {
                         methods.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
                     let times = times(&mut methods, poses.len(), options.passes);
                     for (m, method) in methods.iter().enumerate() {
-                        let scene = (name.as_str(), mesh.vertices.len(), orbit.as_str(), step);
+                        let scene = (pair.as_str(), mesh.vertices.len(), orbit.as_str(), step);
                         let accuracy = Accuracy::of(options.query, &replies[m], &replies[0]);
                         rows.push(Row::new(scene, method.name(), &replies[m], times[m], accuracy));
                     }
