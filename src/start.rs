@@ -47,8 +47,8 @@ pub enum Guess {
     Overlapping,
 }
 
-/// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and both bodies have
-/// one, or one of them has and the other needs none; or else at those farthest along the line of the bodies' origins.
+/// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and both bodies
+/// have one, or one of them has and the other needs none; or else at those farthest along the line of the bodies' origins.
 #[inline(never)]
 pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) -> Beginning {
     if ask_tables {

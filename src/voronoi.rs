@@ -152,8 +152,8 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
 }
 
 /// Where the steepest neighbour is across a merged face, or the steepest is not asked for: leave by the steepest real edge that
-/// clearly rises or the first. Where none does a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour inside
-/// a face, past where it is nearest, it would go round in circles. A corner leaves to the neighbour.
+/// clearly rises or the first. Where none does a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour
+/// inside a face, past where it is nearest, it would go round in circles. A corner leaves to the neighbour.
 #[cold]
 fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
     let rough = g.map(|d| d as f32).into();

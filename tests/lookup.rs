@@ -538,8 +538,8 @@ fn turned_grid(n: usize, kind: LookupKind) -> Shape {
     Shape::from_points(&points, &options(kind, 0)).unwrap()
 }
 
-/// Of two like bodies at random poses, begun with an empty cache each or going on from pose to pose: how many are disjoint, how many
-/// of these marching did not decide, and on how many of those it had set out.
+/// Of two like bodies at random poses, begun with an empty cache each or going on from pose to pose: how many are disjoint, how
+/// many of these marching did not decide, and on how many of those it had set out.
 fn undecided_at_random(shape: &Shape, start: Start, goes_on: bool) -> [usize; 3] {
     let mut random = Random::new(7);
     let config = PairConfig { start, ..PairConfig::default() };
