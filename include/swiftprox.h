@@ -113,7 +113,10 @@ enum {
   SWIFT_START_AUTOMATIC = 0,
   /** At the features of the last query whenever there are any. */
   SWIFT_START_CACHE = 1,
-  /** Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind. */
+  /**
+   * Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind, or one
+   * has shells and the other so few vertices that it needs none.
+   */
   SWIFT_START_TABLE = 2,
   /** Afresh: at the vertices farthest along the line between the bodies. */
   SWIFT_START_COLD = 3
@@ -206,7 +209,7 @@ typedef int32_t swift_feature_kind;
 
 /** Which look-up table a body has. */
 enum {
-  /** Shells if the body has enough vertices for them to pay, else none. */
+  /** Shells if the body has enough vertices for them to pay, else none: beside a body with shells all its vertices are looked at. */
   SWIFT_LOOKUP_AUTOMATIC = 0,
   /** None. */
   SWIFT_LOOKUP_NONE = 1,

@@ -121,8 +121,7 @@ impl Search<'_> {
         for (i, end) in ends.iter_mut().enumerate() {
             let polyhedron = self.polyhedra[i];
             // A climb that starts at a flat vertex does not leave it along the normal of its face, either way.
-            let is_flat = polyhedron.faces_at_flat_vertex(*end).next().is_some();
-            let start = if is_flat { polyhedron.edges[0].tail() } else { *end };
+            let start = if polyhedron.face_around(*end).is_some() { polyhedron.edges[0].tail() } else { *end };
             (*end, _) = polyhedron.support(&towards[i], start);
         }
         let positions = positions(self.polyhedra, ends);
@@ -161,7 +160,7 @@ impl Search<'_> {
                 }
             }
         }
-        for face in polyhedron.faces_at_flat_vertex(vertex) {
+        if let Some(face) = polyhedron.face_around(vertex) {
             self.consider_normal(i, &polyhedron.faces[face as usize].normal);
         }
     }

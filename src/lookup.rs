@@ -276,8 +276,8 @@ fn around(x: f64, y: f64) -> f64 {
 pub struct Lookup {
     /// Which table.
     pub plan: Plan,
-    /// How far, in radians, a pair of bodies like this one may have moved and turned before the table leads to the nearest features
-    /// sooner than the last features do; +∞ without a plan.
+    /// How far, in radians, a pair of bodies like this one may have moved and turned before a start from the tables, or without any
+    /// one afresh, leads to the nearest features sooner than the last features do; +∞ without a plan.
     pub reach: f64,
     /// The same beside a body of so few vertices that it needs no table.
     pub reach_beside_few: f64,
@@ -326,6 +326,18 @@ impl Lookup {
     pub fn without_table(plan: Plan, reach: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
         Lookup { plan, reach, reach_beside_few: f64::INFINITY, made: OnceLock::from(Table::None) }
+    }
+
+    /// Whether marching may start where tables say: those of both, or of one if the other needs none.
+    #[inline(always)]
+    pub fn serves_with(&self, other: &Lookup) -> bool {
+        use Plan::{AllVertices, Shells, Spherical};
+        matches!(
+            (self.plan, other.plan),
+            (Shells { .. }, Shells { .. } | AllVertices { .. })
+                | (AllVertices { .. }, Shells { .. })
+                | (Spherical { .. }, Spherical { .. })
+        )
     }
 
     /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::reach`].

@@ -15,7 +15,7 @@ use crate::surface_walk::{Surface, nearest_of};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum LookupKind {
-    /// Shells if the body has enough vertices for them to pay, else none.
+    /// Shells if the body has enough vertices for them to pay, else none: beside a body with shells all its vertices are looked at.
     #[default]
     Automatic = 0,
     /// None.
@@ -52,7 +52,8 @@ impl Default for LookupOptions {
     }
 }
 
-/// Fewest vertices of a body that is given a table on its own account.
+/// Fewest corners of a body that is given a table on its own account; with twice as many vertices it is given one, too, as it would
+/// take long to look at all of them.
 pub const LEAST_VERTICES: usize = 32;
 
 /// The radii of the shells as multiples of the body's. Points of another body come nearer to the centre of mass than the
@@ -68,7 +69,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     if !(radius_factor >= 1.0 && radius_factor.is_finite()) {
         return Err(Error::Argument(format!("the look-up table's radius factor {radius_factor:e} is not at least 1")));
     }
-    // Those inside merged faces or edges are no features: a box that is given as a grid of squares stays a box.
+    // Vertices inside merged faces or edges are no features.
     let vertex_count = polyhedron.corner_count();
     let resolution = resolution as usize;
     let plan = match kind {
@@ -98,8 +99,9 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     }
     // Neighbours are that far apart, but for a factor.
     let spacing = 1.0 / (vertex_count as f64).sqrt();
-    if kind == LookupKind::Automatic && vertex_count < LEAST_VERTICES {
-        if polyhedron.vertices.len() >= 2 * LEAST_VERTICES || polyhedron.faces.is_empty() {
+    if kind == LookupKind::Automatic && vertex_count < LEAST_VERTICES && polyhedron.vertices.len() < 2 * LEAST_VERTICES
+    {
+        if polyhedron.faces.is_empty() {
             return Ok(Lookup::none());
         }
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
@@ -176,7 +178,8 @@ const REACH_OF_ROUND: f64 = 1.3;
 /// time, of a box beside round, flat and long bodies: best were 14, 20 and 20 of 1,002 vertices, 25, 19 and 15 of 10,002.
 const REACH_BESIDE_FEW: f64 = 18.0;
 
-/// The same for two bodies of few vertices: those of 31 are better begun anew from somewhere between 45° and 90° on, boxes never.
+/// The same for two bodies of few vertices: those of 31 are better begun anew from somewhere between 45° and 90° on, boxes
+/// not on any orbit of the benchmark.
 const REACH_WITHOUT_TABLE: f64 = 8.0;
 
 /// Cells along a side such that a shell has a few for every vertex.

@@ -212,7 +212,7 @@ pub struct Polyhedron {
     pub more_sides: Vec<PlaneBlock>,
     /// Planes that halve sharp edges.
     pub bevels: Vec<Bevel>,
-    /// The vertices inside merged faces, ascending, each with its face; those of a flat body with both.
+    /// The vertices inside merged faces, ascending, each with its face. A flat body has none.
     pub flat_vertices: Vec<[u32; 2]>,
     /// The caller's index of each vertex: the first one of exactly equal coordinates.
     pub vertex_labels: Vec<u32>,
@@ -293,14 +293,14 @@ impl Polyhedron {
         let [first, ..] = self.vertices[vertex as usize].neighbours.edge;
         match self.edges.get(first as usize) {
             Some(edge) => (edge.tail() != vertex && edge.head() != vertex).then_some(first),
-            None => self.faces_at_flat_vertex(vertex).next().map(|face| self.faces[face as usize].first_sides[0]),
+            None => self.face_around(vertex).map(|face| self.faces[face as usize].first_sides[0]),
         }
     }
 
-    /// The face that a vertex is inside of, of a flat body both; none of other vertices.
-    pub fn faces_at_flat_vertex(&self, vertex: u32) -> impl Iterator<Item = u32> {
-        let first = self.flat_vertices.partition_point(|[v, _]| *v < vertex);
-        self.flat_vertices[first..].iter().take_while(move |[v, _]| *v == vertex).map(|[_, face]| *face)
+    /// The face that a vertex is inside of, if it is.
+    pub fn face_around(&self, vertex: u32) -> Option<u32> {
+        let found = self.flat_vertices.binary_search_by_key(&vertex, |[v, _]| *v).ok()?;
+        Some(self.flat_vertices[found][1])
     }
 
     /// The neighbour blocks of a vertex: the first, then those with neighbours beyond eight.

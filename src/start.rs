@@ -41,7 +41,7 @@ pub enum Guess {
     /// Each of the two vertices is on the side of its body that faces the other vertex, or they are farthest along a line along
     /// which the bodies are apart: most such pairs are disjoint.
     Apart,
-    /// Only one is, or nobody looked.
+    /// Only one is, they are not apart along that line, or nobody looked.
     Unclear,
     /// Neither is: most such pairs intersect.
     Overlapping,
@@ -92,9 +92,11 @@ fn beside_few_vertices([body1, body2]: [&Polyhedron; 2], poses: [&Pose; 2]) -> B
     farthest(polyhedra, poses)
 }
 
-/// Whether spheres inside two bodies overlap, as far as their tables know any.
-pub fn do_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
-    let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else { return false };
+/// Whether spheres inside two bodies overlap, as far as their tables know any; beside a body that needs no table they may.
+pub fn may_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else {
+        return polyhedra.iter().any(|polyhedron| matches!(polyhedron.lookup.plan, Plan::AllVertices { .. }));
+    };
     let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
     let reach = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
     between.norm_squared() < reach * reach

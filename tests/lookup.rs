@@ -567,7 +567,7 @@ fn marching_leaves_flat_vertices() {
     let shape = turned_grid(20, LookupKind::Shells);
     let polyhedron = shape.polyhedron();
     let table = shells(polyhedron);
-    let is_flat = |v: u32| polyhedron.faces_at_flat_vertex(v).next().is_some();
+    let is_flat = |v: u32| polyhedron.face_around(v).is_some();
     assert!((0..table.cells.len()).filter(|cell| is_flat(table.cells.get(*cell))).count() > table.cells.len() / 4);
     let [disjoint, undecided, marched] = undecided_at_random(&shape, Start::Table, false);
     // The others look as if they overlapped.
@@ -624,9 +624,11 @@ fn of_few_vertices_all_are_looked_at() {
 #[test]
 fn a_box_beside_a_large_body_is_found_from_its_table() {
     let small = shape(&cuboid([0.577; 3]).unwrap(), LookupKind::Automatic, 0);
+    // With so many flat vertices that it has a table.
+    let grid = turned_grid(20, LookupKind::Automatic);
     for half_axes in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]] {
         let large = shape(&ellipsoid(half_axes, 1_000).unwrap(), LookupKind::Automatic, 0);
-        for shapes in [[&small, &large], [&large, &small]] {
+        for shapes in [[&small, &large], [&large, &small], [&grid, &large]] {
             let mean_steps = |start| {
                 let (mut cache, mut answer, mut steps) = (PairCache::default(), PairAnswer::default(), 0);
                 let config = PairConfig { start, ..PairConfig::default() };
@@ -641,7 +643,7 @@ fn a_box_beside_a_large_body_is_found_from_its_table() {
             };
             let [automatic, table, cache] = [Start::Automatic, Start::Table, Start::Cache].map(mean_steps);
             println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
-            assert!(automatic < 6.5 && table < 5.5 && cache > 15.0);
+            assert!(automatic < 6.5 && table < 5.5 && cache > 1.5 * automatic);
         }
     }
     assert_eq!(small.polyhedron().lookup.heap_bytes(), 0);

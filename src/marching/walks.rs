@@ -21,11 +21,15 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex
-    // only the neighbour is surely ahead, and from one inside a face no edge leads there.
+    // only the neighbour is surely ahead, and from a flat vertex the edge may not lead there.
+    let edge_at = |v: u32| body.polyhedron.vertices[v as usize].neighbours.edge[0];
     let (end, leaving) = match body.polyhedron.edges.get(leaving as usize) {
         Some(record) if record.tail() == vertex => (record.head(), leaving),
         Some(record) if record.head() == vertex => (record.tail(), leaving),
-        Some(_) if body.polyhedron.vertices[vertex as usize].neighbours.edge[0] != NONE => (head, leaving),
+        Some(record) if edge_at(vertex) == leaving => {
+            let is_along = record.tail() == head || record.head() == head || edge_at(head) == leaving;
+            (head, if is_along { leaving } else { NONE })
+        }
         _ => (head, NONE),
     };
     let end_position = &body.polyhedron.vertices[end as usize].position;

@@ -25,7 +25,8 @@ pub enum Start {
     Automatic = 0,
     /// At the features of the last query whenever there are any.
     Cache = 1,
-    /// Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind.
+    /// Where the look-up tables say (Ehmann & Lin 2000, section 4.6); afresh unless both shapes have tables of one kind, or one
+    /// has shells and the other so few vertices that it needs none.
     Table = 2,
     /// Afresh: at the vertices farthest along the line between the bodies.
     Cold = 3,

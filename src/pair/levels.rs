@@ -15,7 +15,6 @@ use crate::error::Result;
 use crate::frame::Frame;
 use crate::gjk::{self, Nearest, Simplex};
 use crate::hierarchy::{HierarchyKind, Level};
-use crate::lookup::Plan;
 use crate::math::{Pose, ROTATION_LIMIT};
 use crate::overlap::Decision;
 use crate::polyhedron::Polyhedron;
@@ -160,9 +159,9 @@ pub(super) fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
     !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
 }
 
-/// Whether both bodies, or levels, have look-up tables.
-fn has_tables(polyhedra: [&Polyhedron; 2]) -> bool {
-    polyhedra.iter().all(|polyhedron| polyhedron.lookup.plan != Plan::None)
+/// Whether two bodies, or levels, have look-up tables to start from.
+fn has_tables([first, second]: [&Polyhedron; 2]) -> bool {
+    first.lookup.serves_with(&second.lookup)
 }
 
 /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.

@@ -35,7 +35,7 @@ pub fn run(options: &Options) -> Result<(), String> {
                     }
                     let replies: Vec<_> =
                         methods.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
-                    let times = times(&mut methods, poses.len(), options.passes);
+                    let times = times(&mut methods, options, poses.len());
                     for (m, method) in methods.iter().enumerate() {
                         let scene = (pair.as_str(), mesh.vertices.len(), orbit.as_str(), step);
                         let accuracy = Accuracy::of(options.query, &replies[m], &replies[0]);
@@ -78,19 +78,21 @@ fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let shape = shape(mesh)?;
     let rings = Rc::new(Rings::new(mesh));
     let parry = |climbing| Box::new(Parry::new([rings.clone(), rings.clone()], climbing));
-    let verdict = PairConfig { bounds: Bounds::Verdict, ..PairConfig::default() };
     let mut all: Vec<Box<dyn Method>> = vec![
         setting("swiftprox", Query::Distance, &shape, PairConfig::default()),
         parry(Climbing::First),
-        setting("swiftprox-verdict", Query::Distance, &shape, verdict),
-        parry(Climbing::FirstWithMatrix),
+        setting("swiftprox-verdict", Query::Distance, &shape, verdict()),
         parry(Climbing::Steepest),
     ];
-    #[cfg(fcl)]
+    debug_assert_eq!(all.len(), FIRST_TURNS);
     for tolerance in [1e-6, 1e-10] {
+        #[cfg(fcl)]
         match crate::fcl::Fcl::new(mesh, tolerance) {
             Some(fcl) => all.push(Box::new(fcl)),
             None => eprintln!("FCL refuses this model: compared without it"),
+        }
+        if tolerance == 1e-6 {
+            all.push(parry(Climbing::FirstWithMatrix));
         }
     }
     Ok(all)
@@ -104,6 +106,7 @@ fn beside_box(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     Ok(vec![
         setting_of_pair("swiftprox", Query::Distance, shapes, PairConfig::default()),
         Box::new(Parry::new(rings.clone(), Climbing::First)),
+        setting_of_pair("swiftprox-verdict", Query::Distance, shapes, verdict()),
         Box::new(Parry::new(rings, Climbing::Steepest)),
     ])
 }
@@ -112,12 +115,18 @@ fn shape(mesh: &PolygonMesh) -> Result<Rc<Shape>, String> {
     Ok(Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?))
 }
 
-/// FCL takes its turns when all others have taken theirs: it takes thirty times as long, and what it leaves in the caches and the
+fn verdict() -> PairConfig {
+    PairConfig { bounds: Bounds::Verdict, ..PairConfig::default() }
+}
+
+/// FCL takes its turns when these methods have taken theirs: it takes thirty times as long, and what it leaves in the caches and the
 /// branch predictors costs those after it up to a tenth, the fastest the most.
-fn times(methods: &mut [Box<dyn Method>], count: usize, passes: usize) -> Vec<Time> {
-    let others = methods.iter().position(|method| method.name().starts_with("fcl")).unwrap_or(methods.len());
-    let (others, fcl) = methods.split_at_mut(others);
-    [time_methods(others, count, passes), time_methods(fcl, count, passes)].concat()
+const FIRST_TURNS: usize = 4;
+
+fn times(methods: &mut [Box<dyn Method>], options: &Options, count: usize) -> Vec<Time> {
+    let is_split = options.query == Query::Distance && options.methods.is_empty();
+    let (first, second) = methods.split_at_mut(if is_split { FIRST_TURNS } else { methods.len() });
+    [time_methods(first, count, options.passes), time_methods(second, count, options.passes)].concat()
 }
 
 /// How a method's answers differ from the reference's.

@@ -103,6 +103,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             _ => return Err(format!("{name}: no such option (see --help)")),
         }
     }
+    if options.beside_box && options.query != Query::Distance {
+        return Err("--beside-box: only for distance".into());
+    }
     Ok(options)
 }
 
