@@ -209,7 +209,7 @@ typedef int32_t swift_feature_kind;
 
 /** Which look-up table a body has. */
 enum {
-  /** Shells if the body has enough vertices for them to pay, else none: beside a body with shells all its vertices are looked at. */
+  /** Shells if the body has enough vertices for them to pay, else none: beside a body with shells all vertices are looked at. */
   SWIFT_LOOKUP_AUTOMATIC = 0,
   /** None. */
   SWIFT_LOOKUP_NONE = 1,

@@ -15,7 +15,7 @@ use crate::surface_walk::{Surface, nearest_of};
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum LookupKind {
-    /// Shells if the body has enough vertices for them to pay, else none: beside a body with shells all its vertices are looked at.
+    /// Shells if the body has enough vertices for them to pay, else none: beside a body with shells all vertices are looked at.
     #[default]
     Automatic = 0,
     /// None.

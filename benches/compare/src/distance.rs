@@ -119,8 +119,8 @@ fn verdict() -> PairConfig {
     PairConfig { bounds: Bounds::Verdict, ..PairConfig::default() }
 }
 
-/// FCL takes its turns when these methods have taken theirs: it takes thirty times as long, and what it leaves in the caches and the
-/// branch predictors costs those after it up to a tenth, the fastest the most.
+/// FCL takes its turns when these methods have taken theirs: it takes thirty times as long, and what it leaves in the caches and
+/// the branch predictors costs those after it up to a tenth, the fastest the most.
 const FIRST_TURNS: usize = 4;
 
 fn times(methods: &mut [Box<dyn Method>], options: &Options, count: usize) -> Vec<Time> {

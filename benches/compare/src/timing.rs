@@ -1,11 +1,11 @@
 //! Times on a machine that others use, too.
 //!
-//! The clock is the thread's CPU time, so that being preempted does not count. The methods handed in take turns pass by pass, so that a slow
-//! spell of the machine hits all of them. Each turn begins untimed with the same poses backwards: the method then finds its
-//! data in the machine's caches as it leaves them itself, not as the others do, but has not taught the branch predictors what
-//! comes; nor may the method before it, so no two that run the same code are to follow each other. A pass is cut into chunks,
-//! and each chunk's best over the passes is summed: what a whole undisturbed pass would take. Coherence flows through a pass
-//! and is dropped between passes.
+//! The clock is the thread's CPU time, so that being preempted does not count. The methods that are handed in take turns pass by
+//! pass, so that a slow spell of the machine hits all of them. Each turn begins untimed with the same poses backwards: the method
+//! then finds its data in the machine's caches as it leaves them itself, not as the others do, but has not taught the branch
+//! predictors what comes; nor may the method before it, so no two that run the same code are to follow each other. A pass is cut
+//! into chunks, and each chunk's best over the passes is summed: what a whole undisturbed pass would take. Coherence flows
+//! through a pass and is dropped between passes.
 
 use std::ops::Range;
 
