@@ -107,12 +107,11 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
         return Ok(Lookup::without_table(Plan::AllVertices { rounds }, REACH_WITHOUT_TABLE * spacing));
     }
-    let rounds = match plan {
-        Plan::Shells { .. } => rounds(&Thickness::of(polyhedron), vertex_count),
-        // Looked up once, to a start as far from the nearest features as this many would cost.
-        _ => 3,
+    let reach = match plan {
+        Plan::Shells { .. } if rounds(&Thickness::of(polyhedron), vertex_count) == 1 => REACH_OF_ROUND,
+        Plan::Shells { .. } => REACH_OF_THIN,
+        _ => REACH_OF_SPHERICAL,
     };
-    let reach = REACH_OF_MARCHING + REACH_OF_ROUND * f64::from(rounds);
     Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnceLock::new() })
 }
 
@@ -164,15 +163,16 @@ pub fn build_table(polyhedron: &Polyhedron) -> Table {
     }
 }
 
-/// Over √n, how far (as an angle) a pair may have moved and turned before a query begins from the tables and no longer from the
-/// last features: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. This much for what marching from
-/// the tables takes …
-const REACH_OF_MARCHING: f64 = 1.8;
+/// Over √n, how far (as an angle) a pair of round bodies may have moved and turned before a query begins from the tables and no
+/// longer from the last features: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. Chosen by time, of
+/// pairs of like bodies of 1,002 and 10,002 vertices.
+const REACH_OF_ROUND: f64 = 3.1;
 
-/// … and this for each [round](Shells::rounds) of look-ups before it. Chosen by time, of pairs of like bodies: among 0.8 to 1.7
-/// times as much the best was found for 1, 3, 4 and 5 rounds (round bodies, long ones, plates, and both of 10,002 vertices) near
-/// 3.1, 5.9, 7.0 and 8.4.
-const REACH_OF_ROUND: f64 = 1.3;
+/// The same for thin bodies: on the smallest of three orbits 3.1 would be better for long ones, on the largest 5 and more for both.
+const REACH_OF_THIN: f64 = 4.0;
+
+/// The same for the table of Ehmann & Lin (2000), looked up once, to a start that may be far from the nearest features.
+const REACH_OF_SPHERICAL: f64 = 5.7;
 
 /// The same for a pair of which one body has few vertices, of the other's number: only that one's features change fast. Chosen by
 /// time, of a box beside round, flat and long bodies: best were 14, 20 and 20 of 1,002 vertices, 25, 19 and 15 of 10,002.

@@ -49,13 +49,30 @@ pub enum Guess {
 
 /// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and both bodies
 /// have one, or one of them has and the other needs none; or else at those farthest along the line of the bodies' origins.
-#[inline(never)]
+#[inline(always)]
 pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) -> Beginning {
+    anew_after(polyhedra, poses, ask_tables, [0; 2], FROM_CENTRES)
+}
+
+/// No number of rounds from the last vertices replaces those from the centres of mass.
+pub const FROM_CENTRES: u32 = u32::MAX;
+
+/// The same when the last query ended at or beside these vertices. That many rounds of look-ups from them take the place of those from
+/// the bodies' centres of mass where these would be more.
+#[inline(never)]
+pub fn anew_after(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    ask_tables: bool,
+    last: [u32; 2],
+    rounds_from_last: u32,
+) -> Beginning {
     if ask_tables {
         // Returned from where it is found: put together elsewhere it would be copied, which stalls.
         match tables(polyhedra) {
             Some([Table::Shells(first), Table::Shells(second)]) => {
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+                let alternate = Alternate::new(first, second, &polyhedra, &poses);
+                return simd::dispatch(&mut Alternate { last, rounds_from_last, ..alternate });
             }
             Some([Table::Spherical(first), Table::Spherical(second)]) => {
                 let between = centre_of_mass(polyhedra[1], poses[1]) - centre_of_mass(polyhedra[0], poses[0]);
@@ -78,13 +95,13 @@ fn beside_few_vertices([body1, body2]: [&Polyhedron; 2], poses: [&Pose; 2]) -> B
         [Plan::AllVertices { rounds }, Plan::Shells { .. }] => {
             if let Table::Shells(second) = table(body2) {
                 let first = &AllVertices { polyhedron: body1, rounds };
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+                return simd::dispatch(&mut Alternate::new(first, second, &polyhedra, &poses));
             }
         }
         [Plan::Shells { .. }, Plan::AllVertices { rounds }] => {
             if let Table::Shells(first) = table(body1) {
                 let second = &AllVertices { polyhedron: body2, rounds };
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses });
+                return simd::dispatch(&mut Alternate::new(first, second, &polyhedra, &poses));
             }
         }
         _ => {}
@@ -135,14 +152,17 @@ fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
     pose.transform(&polyhedron.mass.centre_of_mass)
 }
 
-/// Projects on both bodies the other's centre of mass, then the vertices that were found there, and so on, by the tables. Both at
-/// once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four look-ups.
+/// Projects on both bodies the other's centre of mass or last vertex, then the vertices that were found there, and so on, by the
+/// tables. Both at once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four
+/// look-ups.
 struct Alternate<'a, F, S> {
     first: &'a F,
     second: &'a S,
     // Lent, not copied: pairs of pointers just written one by one would be read as one, which stalls.
     polyhedra: &'a [&'a Polyhedron; 2],
     poses: &'a [&'a Pose; 2],
+    last: [u32; 2],
+    rounds_from_last: u32,
 }
 
 impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
@@ -152,9 +172,16 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
     fn run<L: Lanes>(&mut self) -> Beginning {
         let &mut Alternate { first, second, .. } = self;
         let [there, back] = self.maps::<L>();
-        let mut vertices = [first.nearest(back.offset), second.nearest(there.offset)];
+        let mut rounds = first.rounds().max(second.rounds());
+        let (mut seen1, mut seen2) = (back.offset, there.offset);
+        if self.rounds_from_last < rounds {
+            rounds = self.rounds_from_last;
+            seen1 = back.apply(second.position(self.last[1]));
+            seen2 = there.apply(first.position(self.last[0]));
+        }
+        let mut vertices = [first.nearest(seen1), second.nearest(seen2)];
         self.prefetch::<L>(vertices);
-        for _ in 1..first.rounds().max(second.rounds()) {
+        for _ in 1..rounds {
             let [point1, point2] = [first.position(vertices[0]), second.position(vertices[1])];
             vertices = [first.nearest(back.apply(point2)), second.nearest(there.apply(point1))];
             // The last ones are where marching begins; those before are often the same, or neighbours.
@@ -172,7 +199,13 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
     }
 }
 
-impl<F: NearestVertex, S: NearestVertex> Alternate<'_, F, S> {
+impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
+    /// From the centres of mass.
+    #[inline(always)]
+    fn new(first: &'a F, second: &'a S, polyhedra: &'a [&'a Polyhedron; 2], poses: &'a [&'a Pose; 2]) -> Self {
+        Alternate { first, second, polyhedra, poses, last: [0; 2], rounds_from_last: FROM_CENTRES }
+    }
+
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, vertices: [u32; 2]) {
         for (polyhedron, vertex) in self.polyhedra.iter().zip(vertices) {

@@ -23,6 +23,7 @@ use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::simd::Portable;
+use swiftprox::start::{self, Guess};
 use swiftprox::verify::verify;
 
 fn options(kind: LookupKind, resolution: u32) -> ShapeOptions {
@@ -468,11 +469,11 @@ fn answers_do_not_depend_on_tables_or_starts() {
     assert!(intersecting > 1_000, "{intersecting}");
 }
 
-/// The mean number of steps of marching at random poses of the small orbit, from pose to pose; every answer is checked.
-fn mean_steps([shape1, shape2]: [&Shape; 2], start: Start) -> f64 {
+/// The mean number of steps of marching on the small orbit, from pose to pose; every answer is checked.
+fn mean_steps([shape1, shape2]: [&Shape; 2], start: Start, step: Step) -> f64 {
     let (mut cache, mut answer, mut steps) = (PairCache::default(), PairAnswer::default(), 0);
     let config = PairConfig { start, ..PairConfig::default() };
-    let poses = poses(ORBITS[0], Step::Random, 500);
+    let poses = poses(ORBITS[0], step, 500);
     for numbers in &poses {
         let [pose1, pose2] = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
         pair::distance(shape1, &pose1, shape2, &pose2, &mut cache, &config, &mut answer).unwrap();
@@ -487,8 +488,8 @@ fn mean_steps([shape1, shape2]: [&Shape; 2], start: Start) -> f64 {
 fn steps_from_a_table_hardly_grow_with_the_number_of_vertices() {
     for half_axes in [[1.0, 1.0, 1.0], [1.0, 1.0, 0.1], [1.0, 0.1, 0.1]] {
         let shape = Shape::from_mesh(&ellipsoid(half_axes, 1_000).unwrap(), &ShapeOptions::default()).unwrap();
-        let [automatic, table, cache] =
-            [Start::Automatic, Start::Table, Start::Cache].map(|start| mean_steps([&shape, &shape], start));
+        let [automatic, table, cache] = [Start::Automatic, Start::Table, Start::Cache]
+            .map(|start| mean_steps([&shape, &shape], start, Step::Random));
         println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
         assert!(automatic < 5.5 && table < 5.5 && cache > 15.0);
     }
@@ -525,14 +526,59 @@ fn how_far_a_pair_has_moved_is_told() {
 }
 
 #[test]
-fn bodies_that_are_looked_up_more_often_are_looked_up_later() {
+fn thin_bodies_are_looked_up_more_often_and_later() {
     let all = [([1.0; 3], 1_002), ([1.0, 0.1, 0.1], 1_002), ([1.0, 1.0, 0.1], 1_002), ([1.0, 1.0, 0.1], 4_002)];
     let all = all.map(|(half_axes, n)| {
         let shape = shape(&ellipsoid(half_axes, n).unwrap(), LookupKind::Automatic, 0);
         (shells(shape.polyhedron()).rounds, shape.polyhedron().lookup.reach * (n as f64).sqrt())
     });
     assert_eq!(all.map(|(rounds, _)| rounds), [1, 3, 4, 5]);
-    assert!(all.is_sorted_by(|(_, reach), (_, next)| reach < next), "{all:?}");
+    assert!(all[1..].iter().all(|(_, reach)| *reach > all[0].1), "{all:?}");
+}
+
+/// One round from the last vertices is one look-up of each in the other's table; round bodies are not asked for it.
+#[test]
+fn after_a_short_jump_look_ups_begin_at_the_last_vertices() {
+    let poses = poses(ORBITS[0], Step::Random, 300);
+    for (half_axes, is_thin) in [([1.0, 0.1, 0.1], true), ([1.0, 1.0, 0.1], true), ([1.0; 3], false)] {
+        let shape = shape(&ellipsoid(half_axes, 1_002).unwrap(), LookupKind::Automatic, 0);
+        let (polyhedron, mut random) = (shape.polyhedron(), Random::new(6));
+        let (table, centre, radius) = (shells(polyhedron), polyhedron.mass.centre_of_mass, polyhedron.mass.radius);
+        let (mut alike, mut moved) = (0, 0);
+        for numbers in &poses {
+            let placed = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
+            let last = [0, 1].map(|_| random.below(1_002) as u32);
+            let after = |rounds| start::anew_after([polyhedron; 2], [&placed[0], &placed[1]], true, last, rounds);
+            let anew = start::anew([polyhedron; 2], [&placed[0], &placed[1]], true);
+            assert_eq!(after(start::FROM_CENTRES), anew);
+            assert_eq!(after(table.rounds), anew);
+            let after = after(1);
+            assert!(is_thin || after == anew);
+            moved += usize::from(after.vertices() != anew.vertices());
+            // Where the bodies seem to overlap it looks once more.
+            let seen = |from: usize| {
+                let world = placed[from].transform(&polyhedron.local_position(last[from]));
+                let to = &placed[1 - from];
+                let point = (to.rotate_back(&(world - to.transform(&centre)))) / radius;
+                table.nearest([point.x as f32, point.y as f32, point.z as f32])
+            };
+            alike += usize::from(after.guess == Guess::Overlapping || after.vertices() == [seen(1), seen(0)]);
+        }
+        // Rounding may lead to the next cell.
+        assert!(!is_thin || (alike > 290 && moved > 200), "{half_axes:?}: {alike} {moved}");
+    }
+}
+
+/// In steps of 10° thin bodies need far fewer steps of marching than from the last features; needles once needed as many.
+#[test]
+fn thin_bodies_that_jump_begin_near_their_nearest_features() {
+    for (half_axes, most) in [([1.0, 1.0, 0.1], 0.85), ([1.0, 0.1, 0.1], 0.65), ([1.0, 0.01, 0.01], 0.65)] {
+        let shape = Shape::from_mesh(&ellipsoid(half_axes, 1_002).unwrap(), &ShapeOptions::default()).unwrap();
+        let [automatic, cache] =
+            [Start::Automatic, Start::Cache].map(|start| mean_steps([&shape, &shape], start, Step::Degrees(10.0)));
+        println!("{half_axes:?}: {automatic} steps, {cache} from the cache");
+        assert!(automatic < most * cache);
+    }
 }
 
 /// A turned cube with a grid of points on each face: by rounding many of them are vertices, but no corners.
@@ -634,11 +680,12 @@ fn a_box_beside_a_large_body_is_found_from_its_table() {
         let large = shape(&ellipsoid(half_axes, 1_000).unwrap(), LookupKind::Automatic, 0);
         for shapes in [[&small, &large], [&large, &small]] {
             let [automatic, table, cache] =
-                [Start::Automatic, Start::Table, Start::Cache].map(|start| mean_steps(shapes, start));
+                [Start::Automatic, Start::Table, Start::Cache].map(|start| mean_steps(shapes, start, Step::Random));
             println!("{half_axes:?}: {automatic} steps, {table} from the table, {cache} from the cache");
             assert!(automatic < 6.5 && table < 5.5 && cache > 15.0);
         }
-        let [automatic, cache] = [Start::Automatic, Start::Cache].map(|start| mean_steps([&grid, &large], start));
+        let [automatic, cache] =
+            [Start::Automatic, Start::Cache].map(|start| mean_steps([&grid, &large], start, Step::Random));
         println!("{half_axes:?}: beside squares on a cube {automatic} steps, {cache} from the cache");
         assert!(automatic < 7.5 && cache > 1.5 * automatic);
     }
