@@ -1,10 +1,10 @@
 //! Look-up tables of vertices: which vertex is nearest to a point around the body. They say where marching starts when the last
-//! query tells nothing; no answer depends on them.
+//! query tells little or nothing; no answer depends on them.
 //!
 //! *Shells*: for every direction (the cells of a square grid, folded into an octahedron) and every one of a few distances from
 //! the centre of mass the vertex nearest to the point there (of needles one of the nearest feature's). Looked up on both bodies
-//! for what was found on the other they project points alternately on the two, which is near the nearest vertices after three
-//! to five rounds whatever the shapes.
+//! for what was found on the other they project points alternately on the two, which from the centres of mass is near the nearest
+//! vertices after one round of round bodies, after three to five of others.
 //!
 //! *Spherical*: the table of Ehmann & Lin (2000), §4.6: one vertex for every increment of altitude and azimuth and two for the
 //! poles, nearest to the points of one sphere; looked up once, in the direction of the other body's centre of mass.
@@ -78,7 +78,8 @@ pub struct Shells {
     pub core: f64,
     /// Turns a vertex, seen from the centre of mass, outwards where the body is thin.
     pub outward: [[f32; 3]; 3],
-    /// How often to look up before marching: where the other body's centre of mass is, then where the vertex found on it is.
+    /// How often to look up before marching when it begins where the other body's centre of mass is; then where the vertex found on
+    /// it is.
     pub rounds: u32,
     grid: Grid,
     /// Where the cells begin that serve points of a squared distance whose exponent and leading bits are the index.

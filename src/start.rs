@@ -47,6 +47,9 @@ pub enum Guess {
     Overlapping,
 }
 
+/// So many rounds of look-ups from the last vertices that those from the centres of mass are never more.
+pub const FROM_CENTRES: u32 = u32::MAX;
+
 /// Where to start if not where the last query ended: at the vertices that the tables say, if they are to be asked and both bodies
 /// have one, or one of them has and the other needs none; or else at those farthest along the line of the bodies' origins.
 #[inline(always)]
@@ -54,11 +57,8 @@ pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) ->
     anew_after(polyhedra, poses, ask_tables, [0; 2], FROM_CENTRES)
 }
 
-/// No number of rounds from the last vertices replaces those from the centres of mass.
-pub const FROM_CENTRES: u32 = u32::MAX;
-
-/// The same when the last query ended at or beside these vertices. That many rounds of look-ups from them take the place of those from
-/// the bodies' centres of mass where these would be more.
+/// As [`anew`] when the last query ended at or beside these vertices: that many rounds of look-ups from them take the place of those
+/// from the bodies' centres of mass where these would be more.
 #[inline(never)]
 pub fn anew_after(
     polyhedra: [&Polyhedron; 2],

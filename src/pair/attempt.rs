@@ -8,7 +8,7 @@ use crate::frame::{Frame, Marker};
 use crate::marching::{self, March, Way};
 use crate::polyhedron::Polyhedron;
 use crate::simd::{Kernel, Lanes, Work};
-use crate::start::{self, Beginning, Guess};
+use crate::start::{self, Beginning, FROM_CENTRES, Guess};
 use crate::state::State;
 
 /// The common case, for [ordinary](Polyhedron::ordinary) bodies: the cached features still are the nearest. One state, straight
@@ -65,8 +65,8 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
         let frame = self.frame;
         if limit == TRIAL_STEPS && frame.has_jumped(&judge.cache.marker) && config.start != Start::Cache {
-            let rounds = rounds_from_last(&frame, &judge.cache.marker);
-            let last = if rounds == start::FROM_CENTRES { [0; 2] } else { state.vertices(polyhedra) };
+            let rounds = frame.rounds_from_last(&judge.cache.marker);
+            let last = if rounds == FROM_CENTRES { [0; 2] } else { state.vertices(polyhedra) };
             let beginning = start::anew_after(polyhedra, poses, true, last, rounds);
             state = State::vertex_vertex(beginning.vertices());
             limit = step_limit(polyhedra);
@@ -148,30 +148,11 @@ pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool
     frame.has_moved(last, 0.25)
 }
 
-/// How many rounds of look-ups from the vertices of the last features lead to about the nearest ones: the fewer the less the pair
-/// has moved. (Of long bodies and plates that saves up to a quarter of a query's time after steps of 7° to 15°. Round ones need but
-/// one round from the centres of mass, and for all these are the better beginning after longer motions.) Chosen by time, of long
-/// bodies and plates of 1,002 and 10,002 vertices, whose reach is 4/√n, on three orbits: one round is best up to about 9/√n, two up
-/// to 16/√n to 20/√n.
-#[inline(always)]
-fn rounds_from_last<L: Lanes>(frame: &Frame<L>, last: &Marker) -> u32 {
-    let [first, second] = frame.polyhedra();
-    let reach = first.lookup.square_reach(&second.lookup);
-    if frame.has_moved(last, 16.0 * reach) {
-        start::FROM_CENTRES
-    } else if frame.has_moved(last, 5.0 * reach) {
-        2
-    } else {
-        1
-    }
-}
-
 /// Whether a pair that intersected has moved so far that it may be apart, and nearest where the tables say: farther than one that
-/// was apart has to (of plates at 5° to 10° on the deep orbit that saves 2 to 9 % of the time).
+/// was apart has to (on the deep orbit that takes plates 2 to 9 % less time at 5° to 10°, and round bodies no more anywhere).
 #[inline(always)]
-pub(super) fn has_jumped_apart<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
-    let [first, second] = frame.polyhedra();
-    frame.has_moved(last, 3.0 * first.lookup.square_reach(&second.lookup))
+pub(super) fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
+    frame.has_moved_reaches(last, 3.0)
 }
 
 /// The square of an angle of about 72°.

@@ -1,7 +1,7 @@
 //! What marching leaves open: proofs re-tested, the fallback, the exact tier.
 
 use super::acceptance::{Acceptance, Closely};
-use super::attempt::{FAR, General, has_jumped_apart, has_turned_away};
+use super::attempt::{FAR, General, has_turned_away, may_have_come_apart};
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
 use crate::contact;
 use crate::contact_direction::contact_direction;
@@ -102,7 +102,7 @@ impl PairQuery<'_> {
             && config.start != Start::Cache
             && self.cache.recall_pairs(polyhedra).is_some()
             && (frame.has_moved(&self.cache.marker, FAR)
-                || (has_jumped_apart(frame, &self.cache.marker) && !start::may_cores_overlap(polyhedra, poses)))
+                || (may_have_come_apart(frame, &self.cache.marker) && !start::may_cores_overlap(polyhedra, poses)))
         {
             let beginning = start::anew(polyhedra, poses, true);
             if has_turned_away(frame, &self.cache.marker) {

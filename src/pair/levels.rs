@@ -261,7 +261,7 @@ impl PairQuery<'_> {
             descent.is_trial = false;
             descended = simd::dispatch(&mut descent);
         }
-        let Descent { place, steps, step_limit, found, .. } = descent;
+        let Descent { place, is_trial, steps, step_limit, found, .. } = descent;
         match (descended, found) {
             (Descended::Enough, Some(found)) => {
                 self.fill_found(&found, Status::WithinTolerance, steps);
@@ -271,7 +271,7 @@ impl PairQuery<'_> {
                 }
                 Ok(())
             }
-            (Descended::Finest, _) => self.finish(&bodies, place.state, [before, steps], step_limit),
+            (Descended::Finest, _) => self.finish(&bodies, place.state, is_trial, [before, steps], step_limit),
             _ => {
                 self.spend(&bodies, found, place, [before, steps]);
                 Ok(())
@@ -327,8 +327,16 @@ impl PairQuery<'_> {
         self.near_enough(gap_of_spheres(self.polyhedra, self.poses))
     }
 
-    /// The bodies themselves, from a state of theirs; `before` and `steps` are those made by earlier queries and by this one.
-    fn finish(&mut self, bodies: &Leveled, state: State, [before, steps]: [u32; 2], step_budget: u32) -> Result<()> {
+    /// The bodies themselves, from a state of theirs, of an earlier query or not; `before` and `steps` are those made by earlier queries
+    /// and by this one.
+    fn finish(
+        &mut self,
+        bodies: &Leveled,
+        state: State,
+        is_trial: bool,
+        [before, steps]: [u32; 2],
+        step_budget: u32,
+    ) -> Result<()> {
         let place = |state| Place { levels: [0, 0], state };
         let left = step_budget - steps;
         if left == 0 {
@@ -337,7 +345,7 @@ impl PairQuery<'_> {
         }
         // The number of trial steps makes a trial of it: right for features of an earlier query, if the budget is no matter.
         let limit = match left {
-            u32::MAX if steps == 0 => TRIAL_STEPS,
+            u32::MAX if is_trial => TRIAL_STEPS,
             TRIAL_STEPS => TRIAL_STEPS - 1,
             _ => step_limit(self.polyhedra).min(left),
         };
