@@ -117,7 +117,7 @@ figures:
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
 	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(COMPARE) --figures 5,6,7,8,9,10,11,12 --count 1800 --passes 5 --csv $(FIGURES)-paper.csv
-	$(COMPARE) --figures choice --count 1800 --passes 5 --csv $(FIGURES)-choice.csv
+	$(COMPARE) --figures choice --count 1800 --passes 15 --csv $(FIGURES)-choice.csv
 	$(COMPARE) --figures error --count 1800 --passes 5 --csv $(FIGURES)-error.csv
 	$(COMPARE) --figures size --count 900 --passes 3 --csv $(FIGURES)-size.csv
 	$(COMPARE) --build --n 1002,10002,100002 --passes 2 --csv $(FIGURES)-build.csv

@@ -319,9 +319,12 @@ pub fn try_first<'a, L: Lanes>(
 /// Whether the pair has jumped since it had a marker.
 #[inline(always)]
 fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
-    // The levels' lever is that of the bodies.
+    // The levels' lever is that of the bodies. (A closure would be compiled without the lanes' instructions if it is not inlined.)
     let frame = Frame { size: bodies.size(), ..*frame };
-    marker.is_some_and(|marker| frame.has_jumped(marker))
+    match marker {
+        Some(marker) => frame.has_jumped(marker),
+        None => false,
+    }
 }
 
 /// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.

@@ -174,20 +174,23 @@ impl<'a, L: Lanes> Frame<'a, L> {
         self.bodies[0].rotate_back(self.bodies[1].offset)
     }
 
-    /// How body 1 sees an axis of body 2.
+    /// How body 1 sees the first two axes of body 2.
     #[inline(always)]
-    fn axis(&self, i: usize) -> L {
-        self.bodies[0].rotate_back(self.bodies[1].columns[i])
+    fn axes(&self) -> [L; 2] {
+        let [body1, body2] = &self.bodies;
+        let [first, second, ..] = body2.columns;
+        [body1.rotate_back(first), body1.rotate_back(second)]
     }
 
     /// Writes down where the pair is, to tell later how far it has moved. In place: put together elsewhere and copied as a whole it
     /// would be read before it is written, which stalls (8 % of a query from the tables).
     #[inline(always)]
     pub fn mark(&self, marker: &mut Marker) {
-        let [origin, first, second] = &mut marker.0;
-        self.view().store_single(origin);
-        self.axis(0).store_single(first);
-        self.axis(1).store_single(second);
+        let [to_origin, to_first, to_second] = &mut marker.0;
+        let [first, second] = self.axes();
+        self.view().store_single(to_origin);
+        first.store_single(to_first);
+        second.store_single(to_second);
     }
 
     /// Whether the square of the angle by which the pair has moved since it had a marker is more than so much: the angle by which
@@ -197,7 +200,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
     #[inline(always)]
     pub fn has_moved(&self, last: &Marker, square: f64) -> bool {
         let moved = self.view().sub(L::load_single(&last.0[0]));
-        let turned = self.axis(0).sub(L::load_single(&last.0[1]));
+        let [axis, _] = self.axes();
+        let turned = axis.sub(L::load_single(&last.0[1]));
         let lever = if self.separation > self.size { self.separation } else { self.size };
         moved.dot(moved) > lever * lever * (square - turned.dot(turned))
     }
@@ -219,7 +223,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
     #[inline(always)]
     fn has_moved_or_rolled(&self, last: &Marker, square: f64) -> bool {
         let [first, second] = self.polyhedra();
-        let rolled = self.axis(1).sub(L::load_single(&last.0[2]));
+        let [_, axis] = self.axes();
+        let rolled = axis.sub(L::load_single(&last.0[2]));
         let reach = first.lookup.square_reach(&second.lookup);
         self.has_moved(last, square * reach) | (rolled.dot(rolled) > square * reach)
     }

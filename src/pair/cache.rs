@@ -91,8 +91,8 @@ impl PairCache {
 
     /// From where a pair may have jumped, unless it is to begin at its last features all the same.
     #[inline(always)]
-    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<Marker> {
-        (config.start != Start::Cache).then_some(self.marker)
+    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<&Marker> {
+        (config.start != Start::Cache).then_some(&self.marker)
     }
 
     /// A place among levels, if the bodies have it. A feature pair without levels is one, too.

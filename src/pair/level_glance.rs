@@ -49,7 +49,7 @@ impl Kernel for LastLevels<'_, '_> {
         if (place.levels == [0, 0]) | !(level1.ordinary & level2.ordinary) {
             return false;
         }
-        let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config).as_ref());
+        let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config));
         let Some((found, steps, frame)) = first else { return false };
         if !config.accuracy().is_met_by(found.lower, found.upper) {
             return false;

@@ -224,7 +224,7 @@ impl PairQuery<'_> {
                 return Ok(());
             }
         }
-        let (before, marker) = (cache.spent_before(), cache.last_marker(config));
+        let (before, marker) = (cache.spent_before(), cache.last_marker(config).copied());
         let bodies = Leveled::new(shapes, poses);
         let beyond = config.distance_tolerance;
         let accuracy = match query {
