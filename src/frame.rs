@@ -18,8 +18,8 @@ const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
 /// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at: then |RᵀR − I| ≤ √6·10u < 3·8u + u.
 pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
 
-/// Where the first body of a pair saw the second, and its first two axes ([`Frame::mark`]), as the bits of single-precision numbers;
-/// of each four the last says nothing.
+/// Where the first body of a pair saw the second, and its first two axes ([`Frame::mark`]), as the bits of single-precision
+/// numbers; of each four the last says nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(transparent)]
 pub struct Marker([[u32; 4]; 3]);

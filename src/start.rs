@@ -57,8 +57,8 @@ pub fn anew(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], ask_tables: bool) ->
     anew_after(polyhedra, poses, ask_tables, [0; 2], FROM_CENTRES)
 }
 
-/// As [`anew`] when the last query ended at or beside these vertices: that many rounds of look-ups from them take the place of those
-/// from the bodies' centres of mass where these would be more.
+/// As [`anew`] when the last query ended at or beside these vertices: that many rounds of look-ups from them take the place of
+/// those from the bodies' centres of mass where these would be more.
 #[inline(never)]
 pub fn anew_after(
     polyhedra: [&Polyhedron; 2],

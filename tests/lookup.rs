@@ -542,8 +542,8 @@ fn how_far_a_pair_has_moved_is_told() {
     }
 }
 
-/// The farther a pair has moved the more rounds, whichever axis it has turned about: a roll of body 2 about its own first axis, which
-/// does not count as a jump, tells that its last vertex is elsewhere.
+/// The farther a pair has moved the more rounds, whichever axis it has turned about: a roll of body 2 about its own first axis,
+/// which does not count as a jump, tells that its last vertex is elsewhere.
 #[test]
 fn the_way_since_the_last_vertices_tells_how_many_rounds() {
     let body = shape(&ellipsoid([1.0, 0.1, 0.1], 1_002).unwrap(), LookupKind::Automatic, 0);

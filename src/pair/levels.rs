@@ -327,8 +327,8 @@ impl PairQuery<'_> {
         self.near_enough(gap_of_spheres(self.polyhedra, self.poses))
     }
 
-    /// The bodies themselves, from a state of theirs, of an earlier query or not; `before` and `steps` are those made by earlier queries
-    /// and by this one.
+    /// The bodies themselves, from a state of theirs, of an earlier query or not; `before` and `steps` are those made by earlier
+    /// queries and by this one.
     fn finish(
         &mut self,
         bodies: &Leveled,
