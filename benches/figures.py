@@ -67,8 +67,8 @@ MOTION = "motion from one query to the next; time a query, bodies of 1,002 verti
 
 
 def read(paths):
-    """On what the figures were measured, and the rows of all files: of figures, of verdicts beside peers, and of builds; numbers as floats."""
-    heads, kinds = [], {"figure": [], "disagreements": [], "bytes": []}
+    """On what each figure was measured, and the rows of all files: of figures, of verdicts beside peers, and of builds; numbers as floats."""
+    heads, kinds = {}, {"figure": [], "disagreements": [], "bytes": []}
     for path in paths:
         with open(path) as file:
             head = file.readline().lstrip("# ").strip()
@@ -82,8 +82,9 @@ def read(paths):
                 row[name] = float(row[name])
         kinds[kind] += rows
         if kind == "figure":
-            heads.append(", ".join(part for part in head.split(", ") if not part.endswith("passes")))
-    return heads[0], *kinds.values()
+            machine = ", ".join(part for part in head.split(", ") if not part.endswith("passes"))
+            heads.update({row["figure"]: machine for row in rows})
+    return heads, *kinds.values()
 
 
 def style_rates(names):
@@ -134,7 +135,7 @@ def motion_ticks(rows):
     return [(unit, step if step == "random" else step + "°") for step, unit in position.items()]
 
 
-def draw_paper(head, rows):
+def draw_paper(heads, rows):
     for figure, title in NAMES.items():
         here = [r for r in rows if r["figure"] == figure]
         if not here:
@@ -144,10 +145,10 @@ def draw_paper(head, rows):
             models = in_order(r["model"] for r in here)
             cells = {m: [r for r in here if (r["orbit"], r["model"]) == (orbit, m)] for m in models}
             panels.append([(f"{m}-{m}, {orbit} orbit", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-{figure}.svg"), head, title, panels, motion_ticks(here), MOTION)
+        grid(os.path.join(CHARTS, f"figure-{figure}.svg"), heads[figure], title, panels, motion_ticks(here), MOTION)
 
 
-def draw_error(head, rows):
+def draw_error(heads, rows):
     """Approximate distance over the error asked for, with intersection at the left end and exact distance at the right."""
     rows = [r for r in rows if r["figure"] == "error"]
     errors = sorted({r["error"] for r in rows if r["query"] == "approximate"}, reverse=True)
@@ -170,11 +171,11 @@ def draw_error(head, rows):
             panels.append(row)
         motion = "random poses" if step == "random" else f"{step}° a query"
         if rows:
-            grid(os.path.join(CHARTS, f"figure-error-{step}.svg"), head, f"Time over the error asked for, {motion}", panels, ticks,
+            grid(os.path.join(CHARTS, f"figure-error-{step}.svg"), heads["error"], f"Time over the error asked for, {motion}", panels, ticks,
                  "error of an approximate distance in radii; intersection to the left, exact distance to the right")
 
 
-def draw_size(head, rows):
+def draw_size(heads, rows):
     rows = [r for r in rows if r["figure"] == "size"]
     for query in in_order(r["query"] for r in rows):
         here = [r for r in rows if r["query"] == query]
@@ -183,11 +184,11 @@ def draw_size(head, rows):
             models = in_order(r["model"] for r in here)
             cells = {m: [r for r in here if (r["n"], r["model"]) == (n, m)] for m in models}
             panels.append([(f"{m}-{m}, {2 * n - 4:,} triangles", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-size-{query}.svg"), head, f"Larger bodies, {QUERIES[query]}, small orbit", panels,
+        grid(os.path.join(CHARTS, f"figure-size-{query}.svg"), heads["size"], f"Larger bodies, {QUERIES[query]}, small orbit", panels,
              motion_ticks(here), "motion from one query to the next; time a query")
 
 
-def draw_choice(head, rows):
+def draw_choice(heads, rows):
     """How many times as long as the best fixed setting the automatic one takes, cell by cell."""
     cells = claims.choice_cells(rows)
     if not cells:
@@ -197,7 +198,7 @@ def draw_choice(head, rows):
     lines = sorted(in_order((query, orbit, model) for query, orbit, model, _ in cells), key=lambda line: queries.index(line[0]))
     left, top, wide, high = 270, 92, 104, 19
     width = left + len(steps) * wide + 16
-    parts = plot.title(head, "The automatic choice beside the best fixed setting of each cell", width)
+    parts = plot.title(heads["choice"], "The automatic choice beside the best fixed setting of each cell", width)
     parts.append(text_element(16, 44, "times as long as the best fixed setting, and which that is (quadric 0.03125, cuts 0.25: through levels); green: up to 1.1"))
     for k, step in enumerate(steps):
         parts.append(text_element(left + k * wide + wide / 2, top - 10, step if step == "random" else step + "°", "middle", "bold"))
@@ -224,7 +225,7 @@ def main():
     paths = arguments[1:] if check else arguments
     if not paths:
         sys.exit(__doc__)
-    head, rows, verdicts, builds = read(paths)
+    heads, rows, verdicts, builds = read(paths)
     made = claims.tables(rows, verdicts, builds)
     for page in PAGES:
         with open(page) as file:
@@ -239,10 +240,10 @@ def main():
         return
     plot.STYLES.update(STYLES)
     os.makedirs(CHARTS, exist_ok=True)
-    draw_paper(head, rows)
-    draw_error(head, rows)
-    draw_size(head, rows)
-    draw_choice(head, rows)
+    draw_paper(heads, rows)
+    draw_error(heads, rows)
+    draw_size(heads, rows)
+    draw_choice(heads, rows)
 
 
 if __name__ == "__main__":
