@@ -230,7 +230,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
     }
 
     /// How many rounds of look-ups from the vertices of the last features lead to about the nearest ones: the fewer the less the
-    /// pair has moved. (Of long bodies and plates that saves up to a quarter of a query's time after steps of 7° to 15°. Round ones
+    /// pair has moved. (Of long bodies and plates that saves up to a fifth of a query's time after steps of 7° to 15°. Round ones
     /// need but one round from the centres of mass, and for all these are the better beginning after longer motions.) Chosen by
     /// time, of pairs of long bodies and of plates of 1,002 and 10,002 vertices on three orbits: one round is best up to about √5
     /// times their reach, two up to four or five times.
