@@ -61,7 +61,7 @@ test-rust:
 # in the end: it fails no test, but nobody should have to look for it.
 test-c:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
