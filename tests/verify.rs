@@ -132,8 +132,10 @@ fn whatever_a_separated_answer_says_is_checked() {
     assert_eq!((answer.outcome, answer.distance), (Outcome::Separated, 1.0));
     let forgeries = [
         forgery("a lower end above the distance", "lower", |a| a.lower = 1.5),
-        forgery("an interval below the distance", "more than", |a| (a.lower, a.distance, a.upper) = (0.5, 0.5, 0.5)),
-        forgery("an interval above it", "apart, not", |a| (a.lower, a.distance, a.upper) = (1.5, 1.5, 1.5)),
+        forgery("an interval below the distance", "their distance", |a| {
+            (a.lower, a.distance, a.upper) = (0.5, 0.5, 0.5)
+        }),
+        forgery("an interval above it", "their distance", |a| (a.lower, a.distance, a.upper) = (1.5, 1.5, 1.5)),
         forgery("a NaN", "lower", |a| a.upper = f64::NAN),
         forgery("a long normal", "unit", |a| a.normal[0] *= 1.0 + 1e-14),
         forgery("a normal of NaN", "unit", |a| a.normal = NOWHERE),
@@ -237,7 +239,7 @@ fn bodies_that_touch_are_not_said_to_be_apart() {
     (forged.local1, forged.world1) = ([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
     (forged.local2, forged.world2) = ([0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
     let refused = verify(&cube, &touching, &cube, &here, &forged);
-    assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
+    assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("intersect")), "{refused:?}");
     // Nor is a true gap said to be another one.
     let forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-16, ..apart };
     let refused = verify(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here, &forged);

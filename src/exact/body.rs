@@ -94,6 +94,12 @@ impl<'a> Body<'a> {
         }
     }
 
+    /// A vertex of largest value along `direction`, of all.
+    pub fn support_of_all(&self, direction: &LocalDirection) -> u32 {
+        let higher = |best: u32, vertex: u32| if self.rise(best, vertex, direction).is_gt() { vertex } else { best };
+        (0..self.vertex_count() as u32).fold(0, higher)
+    }
+
     /// direction·head against direction·tail: in doubles where their error bound allows, else in integers.
     fn rise(&self, tail: u32, head: u32, direction: &LocalDirection) -> Ordering {
         if tail == head {

@@ -123,14 +123,24 @@ pub unsafe extern "C" fn swift_pair_approximate(
     unsafe { query(pair::approximate, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// Re-checks an answer, trusting nothing of the search that found it: a separated one by its normal and its witness points, an
-/// intersecting one by the exact position of the origin in its vertex pairs, and of both all points and features that are said.
-/// SWIFT_OK: it holds for these shapes and poses. Takes time linear in the number of vertices; where rounding hides whether there
-/// is a gap along the normal, the pair is decided afresh in integers.
+/// Re-checks an answer, trusting nothing of the search that found it. SWIFT_OK: it holds for these shapes and poses.
 ///
-/// SWIFT_ERROR_UNVERIFIED: it does not; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
-/// unknown, or the objects are separated and so large or far apart that doubles cannot tell. SWIFT_ERROR_POSE,
-/// SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+/// Verdict and interval are proved for the exact objects R*v + T, with no tolerance. Separated and beyond: the distance is not 0,
+/// and it is in [lower, upper]; a lower of 0 is said only of a distance below all doubles, or beyond a tolerance. Intersecting: the
+/// differences of the proof's vertex pairs hold the origin in their hull. Undecided: the distance is at most upper. `distance` is
+/// in the interval.
+///
+/// The other members are rounded, so they hold up to an allowance of 2^-47 (radius 1 + radius 2 + distance of the centres in the
+/// world and of each from its local origin). The normal is of unit length; along it separated objects are at least lower apart.
+/// The witness points are in their objects, and the same in both frames. Those of separated objects are on their features, at a
+/// distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. Status and statistics are
+/// not checked, nor is more of a contact's normal than its length.
+///
+/// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
+///
+/// SWIFT_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
+/// unknown, it holds no outcome, a vertex of its proof is none, or a normal or points are said of objects so large or far apart
+/// that doubles cannot tell. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_pair_verify(
     shape1: *const Shape,

@@ -1,10 +1,13 @@
 //! What an answer says of one object: its witness point, in both frames, and the feature that holds it.
 
+use super::bounds::PointInside;
 use super::{length, unverified};
 use crate::answer::{Feature, FeatureKind};
 use crate::error::Result;
-use crate::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::exact;
+use crate::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::polyhedron::{Face, Polyhedron};
+use crate::polyhedron_build::build;
 
 /// A witness point as an answer says it.
 pub struct Witness<'a> {
@@ -28,16 +31,44 @@ impl Witness<'_> {
         self.local - self.polyhedron.centre
     }
 
-    /// The point is in the object, up to `allowed`, and the same in both frames.
-    pub fn check_point(&self, allowed: f64) -> Result<()> {
+    /// A point that is in the object for sure, near the witness point on its feature; `None` if the object has no such feature.
+    pub fn point_inside(&self) -> Option<PointInside> {
+        let (polyhedron, point) = (self.polyhedron, &self.centred());
+        let [first, second] = self.feature.ids;
+        match self.feature.kind {
+            FeatureKind::None => None,
+            FeatureKind::Vertex => Some(PointInside::vertex(self.vertex(first)?)),
+            FeatureKind::Edge => {
+                Some(PointInside::on_segment(polyhedron, [self.vertex(first)?, self.vertex(second)?], point))
+            }
+            FeatureKind::Face => {
+                let triangles = self.faces(first).flat_map(|face| triangles_of_face(polyhedron, face));
+                let inside = triangles.map(|corners| PointInside::on_triangle(polyhedron, corners, point));
+                let missed = inside.map(|inside| (inside, inside.distance(polyhedron, point)));
+                missed.reduce(|best, other| if other.1 < best.1 { other } else { best }).map(|(inside, _)| inside)
+            }
+        }
+    }
+
+    /// The vertex that the caller calls `label`.
+    fn vertex(&self, label: u32) -> Option<u32> {
+        let index = self.polyhedron.vertex_labels.iter().position(|&other| other == label)?;
+        Some(index as u32)
+    }
+
+    /// The faces that the caller's polygon `label` is part of.
+    fn faces(&self, label: u32) -> impl Iterator<Item = u32> {
+        (0..self.polyhedron.faces.len() as u32)
+            .filter(move |&face| self.polyhedron.labels_of_face(face).contains(&label))
+    }
+
+    /// The point is in the object, up to `allowed`, and the same in both frames; `around` are vertices whose hull may hold it.
+    pub fn check_point(&self, allowed: f64, around: &[u32]) -> Result<()> {
         let Witness { object, polyhedron, pose, local, world, .. } = self;
         if local.iter().any(|x| !x.is_finite()) {
             return Err(unverified(format!("witness point {object} is {local:?}")));
         }
-        let outside = distance_outside(polyhedron, &self.centred());
-        if !(outside <= allowed) {
-            return Err(unverified(format!("witness point {object} lies {outside:e} out of its object")));
-        }
+        self.check_inside(allowed, around)?;
         // An eighth of everything, so that terms which cancel cannot overflow.
         let [local, world, translation, centre] =
             [*local, *world, pose.translation(), polyhedron.centre].map(|v| 0.125 * v);
@@ -49,6 +80,22 @@ impl Witness<'_> {
             return Err(unverified(format!("witness point {object} in the world is {apart:e} off the local one")));
         }
         Ok(())
+    }
+
+    /// The point is in the object, up to `allowed`: near a point of its feature, else integers tell.
+    fn check_inside(&self, allowed: f64, around: &[u32]) -> Result<()> {
+        let Witness { object, polyhedron, local, .. } = self;
+        if self.point_inside().is_some_and(|inside| inside.distance(polyhedron, &self.centred()) <= allowed) {
+            return Ok(());
+        }
+        let at_point = Pose::new(&Matrix::identity(), local);
+        let probe = build(&[Vector::zeros()], None)?;
+        let near: Vec<_> = around.iter().map(|&vertex| [vertex, 0]).collect();
+        let outside = exact::distance(polyhedron, &Pose::IDENTITY, &probe, &at_point, &near);
+        if outside.compare(allowed).is_le() {
+            return Ok(());
+        }
+        Err(unverified(format!("witness point {object} lies {:e} out of its object", outside.bounds().0)))
     }
 
     /// The object has the feature.
@@ -75,10 +122,7 @@ impl Witness<'_> {
     fn distance_if_there(&self) -> Option<f64> {
         let (polyhedron, point) = (self.polyhedron, &self.centred());
         let [first, second] = self.feature.ids;
-        let vertex = |label: u32| {
-            let index = polyhedron.vertex_labels.iter().position(|&other| other == label)?;
-            Some(polyhedron.vertices[index].position)
-        };
+        let vertex = |label: u32| Some(polyhedron.vertices[self.vertex(label)? as usize].position);
         match self.feature.kind {
             FeatureKind::None => None,
             FeatureKind::Vertex => Some(length(&(point - vertex(first)?))),
@@ -92,33 +136,22 @@ impl Witness<'_> {
                 Some(distance_from_segment(&[vertex(first)?, vertex(second)?], point))
             }
             FeatureKind::Face => {
-                let faces =
-                    (0..polyhedron.faces.len() as u32).filter(|&f| polyhedron.labels_of_face(f).contains(&first));
-                let distances = faces.map(|f| distance_from_face(polyhedron, &polyhedron.faces[f as usize], point));
+                let distance = |face: u32| distance_from_face(polyhedron, &polyhedron.faces[face as usize], point);
+                let distances = self.faces(first).map(distance);
                 distances.reduce(f64::min)
             }
         }
     }
 }
 
-/// How far a point in centred coordinates lies out of a polyhedron, at least: the largest violation of a plane, less what the
-/// plane misses the hull by, which is far more than rounding where a face is a sliver.
-fn distance_outside(polyhedron: &Polyhedron, point: &Vector) -> f64 {
-    let vertex = |i: usize| polyhedron.vertices[i].position;
-    match polyhedron.dimension {
-        0 => length(&(point - vertex(0))),
-        1 => distance_from_segment(&[vertex(0), vertex(1)], point),
-        _ => {
-            let over_faces = polyhedron.faces.iter().map(|face| face.planes.value(0, point) - face.slack);
-            // A flat body is bounded by its bevels, which lie in its plane.
-            let over_bevels = polyhedron
-                .edges
-                .iter()
-                .filter_map(|edge| polyhedron.bevels.get(edge.bevel as usize).map(|bevel| (edge, bevel)))
-                .map(|(edge, bevel)| bevel.normal.dot(&(point - vertex(edge.tail() as usize))) - bevel.slack);
-            over_faces.chain(over_bevels).fold(0.0, f64::max)
-        }
-    }
+/// A face as triangles from its first corner.
+fn triangles_of_face(polyhedron: &Polyhedron, face: u32) -> impl Iterator<Item = [u32; 3]> {
+    let record = &polyhedron.faces[face as usize];
+    let corner = move |side: u32| {
+        let edge = &polyhedron.edges[polyhedron.side(record, side) as usize];
+        if edge.left() == face { edge.tail() } else { edge.head() }
+    };
+    (2..record.side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
 }
 
 fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
