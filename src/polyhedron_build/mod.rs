@@ -60,13 +60,14 @@ pub fn build_in_steps(
         }
         _ => label_by_index(&mut polyhedron),
     }
+    if factor != 1.0 {
+        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
+    }
+    // Until here labels are indices of `points`.
     if let Some(Numbers { vertices, .. }) = numbers {
         polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
     }
     copy_labels(&mut polyhedron);
-    if factor != 1.0 {
-        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
-    }
     let is_usual = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.ordinary = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_usual;
     Ok(polyhedron)
