@@ -3,11 +3,13 @@
 use std::collections::HashMap;
 use std::ops::Range;
 
+use crate::error::Result;
 use crate::face_merge::merge_bound;
 use crate::locality::places_of;
 use crate::math::{Matrix, Vector};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::{Face, Polyhedron};
+use crate::progress::Progress;
 
 /// Corners of a polygon whose faces are candidates for it.
 const MOST_CORNERS_TRIED: usize = 8;
@@ -29,14 +31,23 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) {
 /// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
 /// around the hull's support in its normal's direction. Among those whose planes hold it within rounding, or else hold it
 /// best, the one with the closest normal wins.
-pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &PolygonMesh, numbers: Option<&[u32]>) {
+///
+/// # Errors
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+pub fn label_by_polygons(
+    polyhedron: &mut Polyhedron,
+    points: &[Vector],
+    mesh: &PolygonMesh,
+    numbers: Option<&[u32]>,
+    progress: &mut Progress,
+) -> Result<()> {
     let face_count = polyhedron.faces.len();
-    let found = faces_of_polygons(polyhedron, points, mesh);
+    let found = faces_of_polygons(polyhedron, points, mesh, &mut progress.part(0.0, 0.9))?;
     // From here on in the order of labels.
     let polygons = numbers.map(places_of);
     let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
     let mut holders: Vec<u32> = (0..found.len() as u32).map(|label| found[polygon(label)]).collect();
-    let borrowed = borrowed_labels(polyhedron, &holders);
+    let borrowed = borrowed_labels(polyhedron, &holders, &mut progress.part(0.9, 1.0))?;
     holders.extend(borrowed.iter().map(|(face, _)| *face));
     let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
 
@@ -65,11 +76,18 @@ pub fn label_by_polygons(polyhedron: &mut Polyhedron, points: &[Vector], mesh: &
     }
     polyhedron.face_labels = sorted;
     polyhedron.face_label_starts = starts;
+    Ok(())
 }
 
 /// The face on which each polygon lies.
-fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonMesh) -> Vec<u32> {
-    let around = FacesAround::new(polyhedron);
+fn faces_of_polygons(
+    polyhedron: &Polyhedron,
+    points: &[Vector],
+    mesh: &PolygonMesh,
+    progress: &mut Progress,
+) -> Result<Vec<u32>> {
+    let around = FacesAround::new(polyhedron, &mut progress.part(0.0, 0.4))?;
+    let progress = &mut progress.part(0.4, 1.0);
     let hull_vertices = hull_vertices_of(polyhedron, points);
     let bound = 2.0 * merge_bound(polyhedron.radius);
     let mut faces = Vec::with_capacity(mesh.face_count());
@@ -98,6 +116,7 @@ fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonM
         let mut best = ((f64::INFINITY, f64::INFINITY), 0);
         for &vertex in &vertices {
             for face in around.towards(vertex, &centre) {
+                progress.steps(corners.len(), polygon, mesh.face_count())?;
                 let misfit = misfit(face);
                 if misfit < best.0 {
                     best = (misfit, face);
@@ -109,7 +128,7 @@ fn faces_of_polygons(polyhedron: &Polyhedron, points: &[Vector], mesh: &PolygonM
         }
         faces.push(best.1);
     }
-    faces
+    Ok(faces)
 }
 
 /// The merged faces around each hull vertex, flat vertices included.
@@ -123,7 +142,7 @@ struct FacesAround<'a> {
 }
 
 impl FacesAround<'_> {
-    fn new(polyhedron: &Polyhedron) -> FacesAround<'_> {
+    fn new<'a>(polyhedron: &'a Polyhedron, progress: &mut Progress) -> Result<FacesAround<'a>> {
         let count = polyhedron.vertices.len();
         let mut starts = vec![0_u32; count + 1];
         for v in polyhedron.triangles.iter().flatten() {
@@ -134,7 +153,9 @@ impl FacesAround<'_> {
         }
         let mut triangles = vec![0; 3 * polyhedron.triangles.len()];
         let mut fill = starts.clone();
+        let all = 2 * polyhedron.triangles.len();
         for (t, corners) in (0..).zip(&polyhedron.triangles) {
+            progress.steps(3, t as usize, all)?;
             for v in corners {
                 triangles[fill[*v as usize] as usize] = t;
                 fill[*v as usize] += 1;
@@ -143,9 +164,11 @@ impl FacesAround<'_> {
         let mut around = FacesAround { polyhedron, faces: Vec::new(), starts: vec![0], angles: Vec::new() };
         let mut distinct = Vec::new();
         for v in 0..count {
+            let [first, last] = [starts[v], starts[v + 1]].map(|start| start as usize);
+            progress.steps(last - first, all / 2 + first / 3, all)?;
             around.add(v as u32, &triangles[starts[v] as usize..starts[v + 1] as usize], &mut distinct);
         }
-        around
+        Ok(around)
     }
 
     /// Adds the next vertex; `distinct` is scratch.
@@ -227,7 +250,7 @@ fn polygon_normal(points: &[Vector], corners: &[u32]) -> Vector {
 
 /// Labels for the faces that hold no polygon, with those faces: each the lowest label of the neighbour with the closest normal,
 /// spreading from faces that have one.
-fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32]) -> Vec<(u32, u32)> {
+fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32], progress: &mut Progress) -> Result<Vec<(u32, u32)>> {
     let mut lowest = vec![None; polyhedron.faces.len()];
     for (label, face) in holders.iter().enumerate().rev() {
         lowest[*face as usize] = Some(label as u32);
@@ -236,6 +259,7 @@ fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32]) -> Vec<(u32, u32)> 
     let mut borrowed = Vec::new();
     // The faces are connected across edges and one has a label, so each round labels some.
     while !waiting.is_empty() {
+        progress.steps(waiting.len(), borrowed.len(), lowest.len())?;
         let round: Vec<(u32, u32)> =
             waiting.iter().filter_map(|&face| Some((face, label_beside(polyhedron, &lowest, face)?))).collect();
         if round.is_empty() {
@@ -247,7 +271,7 @@ fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32]) -> Vec<(u32, u32)> 
         waiting.retain(|f| lowest[*f as usize].is_none());
         borrowed.extend(round);
     }
-    borrowed
+    Ok(borrowed)
 }
 
 /// The lowest label of the labelled neighbour of `face` with the closest normal.

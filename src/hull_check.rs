@@ -8,13 +8,14 @@ mod proof;
 use convexity::{Side, most_inward};
 
 pub use convexity::check_convexity;
-pub use proof::check_hull;
+pub use proof::{check_hull, check_hull_in_steps};
 
 use crate::error::{Error, Result};
-use crate::hull_build::convex_hull;
+use crate::hull_build::convex_hull_in_steps;
 use crate::locality::for_each_cell;
 use crate::math::Vector;
 use crate::mesh::{PolygonMesh, check_vertex};
+use crate::progress::Progress;
 use edges::match_edges;
 
 /// Checks a mesh in the caller's numbering against the contract of `docs/conventions.md`. `tolerance` is the
@@ -24,8 +25,22 @@ use edges::match_edges;
 /// # Errors
 /// The first violation found, naming the face, edge or vertex.
 pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Result<()> {
-    check_surface(mesh)?;
-    check_convexity(mesh, &convex_hull(&mesh.vertices)?, tolerance, allow_flat)
+    check_mesh_in_steps(mesh, tolerance, allow_flat, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`check_mesh`], saying how far it is.
+///
+/// # Errors
+/// As [`check_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn check_mesh_in_steps(
+    mesh: &PolygonMesh,
+    tolerance: f64,
+    allow_flat: bool,
+    progress: &mut Progress,
+) -> Result<()> {
+    check_surface(mesh, &mut progress.part(0.0, 0.3))?;
+    let hull = convex_hull_in_steps(&mesh.vertices, &mut progress.part(0.3, 0.7))?;
+    check_convexity(mesh, &hull, tolerance, allow_flat, &mut progress.part(0.7, 1.0))
 }
 
 /// The part of [`check_mesh`] that looks at no coordinates, except that exactly equal vertices
@@ -34,16 +49,16 @@ pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Resul
 /// one fan, the surface connected and of genus 0.
 ///
 /// # Errors
-/// The first violation found, naming the face, edge or vertex.
-pub fn check_surface(mesh: &PolygonMesh) -> Result<()> {
+/// The first violation found, naming the face, edge or vertex; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
     check_indices(mesh)?;
-    let corners = Corners::new(mesh);
-    corners.check_faces()?;
+    let corners = Corners::new(mesh, &mut progress.part(0.0, 0.3))?;
+    corners.check_faces(&mut progress.part(0.3, 0.4))?;
     corners.check_use()?;
-    let twins = corners.match_edges()?;
-    corners.check_fans(&twins)?;
-    corners.check_connected(&twins)?;
-    corners.check_genus(&twins, mesh)
+    let twins = corners.match_edges(&mut progress.part(0.4, 0.7))?;
+    corners.check_fans(&twins, &mut progress.part(0.7, 0.85))?;
+    corners.check_connected(&twins, &mut progress.part(0.85, 0.95))?;
+    corners.check_genus(&twins, mesh, &mut progress.part(0.95, 1.0))
 }
 
 /// Which option admits a body that lies in a plane.
@@ -57,17 +72,17 @@ fn violation<T>(message: String) -> Result<T> {
 }
 
 /// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
-fn first_of_equal(points: &[Vector]) -> Vec<u32> {
+fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
     // Equal points are in one cell of the curve; there are few in one nearly always.
     let mut first: Vec<u32> = (0..points.len() as u32).collect();
-    for_each_cell(points, |cell| {
+    for_each_cell(points, progress, |cell| {
         let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
         cell.sort_unstable_by(|i, j| key(i).iter().cmp(key(j).iter()).then(i.cmp(j)));
         for equal in cell.chunk_by(|i, j| points[*i as usize] == points[*j as usize]) {
             equal.iter().for_each(|i| first[*i as usize] = equal[0]);
         }
-    });
-    first
+    })?;
+    Ok(first)
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
@@ -104,17 +119,19 @@ struct Corners {
 }
 
 impl Corners {
-    fn new(mesh: &PolygonMesh) -> Corners {
+    fn new(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Corners> {
         let mut corners = Corners {
-            first: first_of_equal(&mesh.vertices),
+            first: first_of_equal(&mesh.vertices, &mut progress.part(0.0, 0.5))?,
             vertex: Vec::with_capacity(mesh.indices.len()),
             given: Vec::with_capacity(mesh.indices.len()),
             face: Vec::with_capacity(mesh.indices.len()),
             starts: vec![0],
         };
+        let progress = &mut progress.part(0.5, 1.0);
         for f in 0..mesh.face_count() {
             let polygon = mesh.face(f);
             for (i, &v) in polygon.iter().enumerate() {
+                progress.step(f, mesh.face_count())?;
                 let vertex = corners.first[v as usize];
                 let next = corners.first[polygon[(i + 1) % polygon.len()] as usize];
                 if vertex != next {
@@ -125,7 +142,7 @@ impl Corners {
             }
             corners.starts.push(corners.vertex.len() as u32);
         }
-        corners
+        Ok(corners)
     }
 
     fn next(&self, corner: u32) -> u32 {
@@ -139,13 +156,14 @@ impl Corners {
     }
 
     /// At least three vertices in each face, none of them twice.
-    fn check_faces(&self) -> Result<()> {
+    fn check_faces(&self, progress: &mut Progress) -> Result<()> {
         // The last face that each vertex was seen in.
         let mut seen_in = vec![u32::MAX; self.first.len()];
         for (f, range) in self.starts.windows(2).enumerate() {
             let mut distinct = 0;
             let mut repeated = None;
             for corner in range[0] as usize..range[1] as usize {
+                progress.step(corner, self.vertex.len())?;
                 let last = &mut seen_in[self.vertex[corner] as usize];
                 if *last == f as u32 {
                     repeated = repeated.or(Some(self.given[corner]));
@@ -177,11 +195,11 @@ impl Corners {
     }
 
     /// The corner across the edge of each corner.
-    fn match_edges(&self) -> Result<Vec<u32>> {
+    fn match_edges(&self, progress: &mut Progress) -> Result<Vec<u32>> {
         let head = |corner: u32| self.vertex[self.next(corner) as usize];
         let edges: Vec<(u32, u32)> =
             (0..self.vertex.len() as u32).map(|c| (self.vertex[c as usize], head(c))).collect();
-        match_edges(self.first.len(), &edges).or_else(|uses| {
+        match_edges(self.first.len(), &edges, progress)?.or_else(|uses| {
             let face = self.face[uses[0] as usize];
             let ends = [uses[0], self.next(uses[0])].map(|c| self.given[c as usize]);
             let (tail, head) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
@@ -206,7 +224,7 @@ impl Corners {
     }
 
     /// The faces around every vertex follow each other across edges in one cycle.
-    fn check_fans(&self, twins: &[u32]) -> Result<()> {
+    fn check_fans(&self, twins: &[u32], progress: &mut Progress) -> Result<()> {
         let mut visited = vec![false; self.vertex.len()];
         // A face of the fan found at each vertex.
         let mut fan = vec![None; self.first.len()];
@@ -222,6 +240,7 @@ impl Corners {
             }
             let mut corner = start;
             while !visited[corner as usize] {
+                progress.step(start as usize, self.vertex.len())?;
                 visited[corner as usize] = true;
                 corner = twins[self.previous(corner) as usize];
             }
@@ -230,12 +249,15 @@ impl Corners {
     }
 
     /// Every face can be reached from the first one across edges.
-    fn check_connected(&self, twins: &[u32]) -> Result<()> {
+    fn check_connected(&self, twins: &[u32], progress: &mut Progress) -> Result<()> {
         let mut reached = vec![false; self.starts.len() - 1];
         reached[0] = true;
         let mut stack = vec![0_u32];
+        let mut done = 0;
         while let Some(f) = stack.pop() {
             for corner in self.starts[f as usize]..self.starts[f as usize + 1] {
+                progress.step(done, self.vertex.len())?;
+                done += 1;
                 let across = self.face[twins[corner as usize] as usize];
                 if !std::mem::replace(&mut reached[across as usize], true) {
                     stack.push(across);
@@ -250,7 +272,7 @@ impl Corners {
 
     /// Euler's formula. Where it fails no single face is at fault; but somewhere such a surface bends inward or winds about itself
     /// (Gauss & Bonnet): the edge where it bends most is named.
-    fn check_genus(&self, twins: &[u32], mesh: &PolygonMesh) -> Result<()> {
+    fn check_genus(&self, twins: &[u32], mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
         let mut used = vec![false; self.first.len()];
         self.vertex.iter().for_each(|v| used[*v as usize] = true);
         let vertices = used.into_iter().filter(|used| *used).count();
@@ -262,7 +284,7 @@ impl Corners {
             let ends = [corner, self.next(corner)].map(|c| self.given[c as usize]);
             Side { faces: [corner, *twin].map(|c| self.face[c as usize]), ends }
         };
-        let bend = match most_inward(mesh, (0..).zip(twins).map(side)) {
+        let bend = match most_inward(mesh, (0..).zip(twins).map(side), progress)? {
             Some(Side { faces: [face, across], ends: [tail, head] }) => {
                 let (low, high) = (tail.min(head), tail.max(head));
                 format!("; at edge {low}-{high} face {across} bends out of the plane of face {face}")

@@ -27,12 +27,14 @@
 pub mod error;
 mod enumerator;
 pub mod progress;
+mod sorting;
 pub mod math;
 mod locality;
 #[doc(hidden)]
 pub mod simd;
 #[doc(hidden)]
 pub mod double_double;
+mod extended_range;
 #[doc(hidden)]
 pub mod predicates;
 mod normal;

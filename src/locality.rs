@@ -1,44 +1,52 @@
 //! An order that keeps what is near in space near in memory: along a Z-order curve (G. M. Morton, 1966). Whatever walks over a
 //! surface of a million triangles waits for memory unless neighbours are neighbours there, too.
 
+use crate::error::Result;
 use crate::math::Vector;
+use crate::progress::Progress;
+use crate::sorting::sort_in_steps;
 
 /// Fewer points than these, and what is built of them, are in the caches in any order.
 const FEWEST: usize = 4096;
 
 /// The indices of all points in their order along the curve, those in one cell of it by index; as they are where they are few. So
 /// of exact duplicates the lowest index comes first.
-pub fn along_curve(points: &[Vector]) -> Vec<u32> {
+///
+/// # Errors
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on, here and below.
+pub fn along_curve(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
     let mut order: Vec<u32> = (0..points.len() as u32).collect();
     if points.len() >= FEWEST {
-        sort_along_curve(&mut order, points);
+        sort_along_curve(&mut order, points, progress)?;
     }
-    order
+    Ok(order)
 }
 
 /// Sorts indices of points along the curve through these, those in one cell of it by index.
-pub fn sort_along_curve(indices: &mut [u32], points: &[Vector]) {
-    let coded = cells(indices, points);
+pub fn sort_along_curve(indices: &mut [u32], points: &[Vector], progress: &mut Progress) -> Result<()> {
+    let coded = cells(indices, points, progress)?;
     for (index, (_, i)) in indices.iter_mut().zip(coded) {
         *index = i;
     }
+    Ok(())
 }
 
 /// Calls `visit` with the indices of the points in each cell of the curve that holds more than one, ascending.
-pub fn for_each_cell(points: &[Vector], mut visit: impl FnMut(&mut [u32])) {
+pub fn for_each_cell(points: &[Vector], progress: &mut Progress, mut visit: impl FnMut(&mut [u32])) -> Result<()> {
     let all: Vec<u32> = (0..points.len() as u32).collect();
     let mut inside = Vec::new();
-    for cell in cells(&all, points).chunk_by(|a, b| a.0 == b.0) {
+    for cell in cells(&all, points, progress)?.chunk_by(|a, b| a.0 == b.0) {
         if cell.len() > 1 {
             inside.clear();
             inside.extend(cell.iter().map(|(_, i)| *i));
             visit(&mut inside);
         }
     }
+    Ok(())
 }
 
 /// The number of each point's cell along the curve, with its index; in order.
-fn cells(indices: &[u32], points: &[Vector]) -> Vec<(u64, u32)> {
+fn cells(indices: &[u32], points: &[Vector], progress: &mut Progress) -> Result<Vec<(u64, u32)>> {
     let mut low = Vector::repeat(f64::INFINITY);
     let mut high = Vector::repeat(f64::NEG_INFINITY);
     for &i in indices {
@@ -52,10 +60,25 @@ fn cells(indices: &[u32], points: &[Vector]) -> Vec<(u64, u32)> {
         let p = &points[i as usize];
         spread(cell(p.x, low.x)) | spread(cell(p.y, low.y)) << 1 | spread(cell(p.z, low.z)) << 2
     };
-    let mut coded: Vec<(u64, u32)> = indices.iter().map(|i| (code(*i), *i)).collect();
-    // Stable only because that is fast where long parts are in order, as points that come from a polyhedron are.
-    coded.sort();
-    coded
+    let mut coded: Vec<(u64, u32)> = Vec::with_capacity(indices.len());
+    let of_codes = &mut progress.part(0.0, 0.2);
+    for &i in indices {
+        of_codes.step(coded.len(), indices.len())?;
+        coded.push((code(i), i));
+    }
+    // Fast where long parts are in order, as points that come from a polyhedron are.
+    sort_in_steps(&mut coded, Ord::cmp, &mut progress.part(0.2, 1.0))?;
+    Ok(coded)
+}
+
+/// The points in an order of some of them.
+pub fn in_order(points: &[Vector], order: &[u32], progress: &mut Progress) -> Result<Vec<Vector>> {
+    let mut ordered = Vec::with_capacity(order.len());
+    for &v in order {
+        progress.step(ordered.len(), order.len())?;
+        ordered.push(points[v as usize]);
+    }
+    Ok(ordered)
 }
 
 /// Whether an order of 0..n changes nothing.
@@ -83,10 +106,12 @@ fn spread(x: u64) -> u64 {
 }
 
 /// Turns each triangle so that it begins at its lowest corner, all below `vertex_count`, and sorts the triangles.
-pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) {
+pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize, progress: &mut Progress) -> Result<()> {
+    let all = 3 * triangles.len();
     // Counting sort by the lowest corner, then a sort of the few of each: in time linear where a comparison sort is not.
     let mut starts = vec![0_u32; vertex_count + 1];
-    for t in triangles.iter_mut() {
+    for (done, t) in triangles.iter_mut().enumerate() {
+        progress.step(done, all)?;
         let lowest = (0..3).min_by_key(|k| t[*k]).unwrap_or(0);
         t.rotate_left(lowest);
         starts[t[0] as usize + 1] += 1;
@@ -96,15 +121,18 @@ pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) {
     }
     let mut sorted = vec![[0; 3]; triangles.len()];
     let mut fill = starts.clone();
-    for t in triangles.iter() {
+    for (done, t) in triangles.iter().enumerate() {
+        progress.step(all / 3 + done, all)?;
         let place = &mut fill[t[0] as usize];
         sorted[*place as usize] = *t;
         *place += 1;
     }
     for range in starts.windows(2) {
+        progress.steps((range[1] - range[0]) as usize, all / 3 * 2 + range[0] as usize, all)?;
         sorted[range[0] as usize..range[1] as usize].sort_unstable();
     }
     *triangles = sorted;
+    Ok(())
 }
 
 #[cfg(test)]
@@ -120,25 +148,29 @@ mod tests {
         points.extend_from_within(..100);
         points[FEWEST + 7].x = -0.0;
         points.swap(FEWEST, FEWEST + 50);
-        let order = along_curve(&points);
+        let mut go_on = |_| true;
+        let progress = &mut Progress::new(&mut go_on);
+        let order = along_curve(&points, progress).unwrap();
         let places = places_of(&order);
         assert!((0..).zip(&order).all(|(place, i)| places[*i as usize] == place) && !is_identity(&order));
         let twin = |i: usize| (0..i).find(|j| points[*j] == points[i]).unwrap();
         assert!((FEWEST..points.len()).all(|i| places[twin(i)] < places[i]));
         // All in one cell.
-        assert!(is_identity(&along_curve(&vec![Vector::new(1e308, -1e308, 0.0); FEWEST])));
+        let equal = vec![Vector::new(1e308, -1e308, 0.0); FEWEST];
+        assert!(is_identity(&along_curve(&equal, progress).unwrap()));
         let mut cells = 0;
-        for_each_cell(&points, |cell| {
+        for_each_cell(&points, progress, |cell| {
             assert!(cell.is_sorted());
             cells += 1;
-        });
+        })
+        .unwrap();
         assert!((100..120).contains(&cells), "{cells}");
     }
 
     #[test]
     fn triangles_begin_at_their_lowest_corner_and_are_in_order() {
         let mut triangles = vec![[3, 4, 1], [2, 0, 3], [0, 1, 2], [1, 2, 4]];
-        sort_triangles(&mut triangles, 5);
+        sort_triangles(&mut triangles, 5, &mut Progress::new(&mut |_| true)).unwrap();
         assert_eq!(triangles, [[0, 1, 2], [0, 3, 2], [1, 2, 4], [1, 3, 4]]);
     }
 }

@@ -4,6 +4,7 @@
 use crate::error::{Error, Result};
 use crate::locality::places_of;
 use crate::math::Vector;
+use crate::progress::Progress;
 
 /// A polygon mesh in the caller's own numbering.
 #[derive(Debug, Clone, PartialEq)]
@@ -99,15 +100,20 @@ impl PolygonMesh {
 
     /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near each
     /// other. With it what the numbers were before. `None` if the faces are no faces over the vertices.
-    pub(crate) fn in_order(&self, order: Vec<u32>) -> Option<(PolygonMesh, Numbers)> {
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when the caller does not want to go on.
+    pub(crate) fn in_order(&self, order: Vec<u32>, progress: &mut Progress) -> Result<Option<(PolygonMesh, Numbers)>> {
         let count = self.vertices.len();
         if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= count) {
-            return None;
+            return Ok(None);
         }
         let places = places_of(&order);
         let lowest = |f: usize| self.face(f).iter().map(|v| places[*v as usize]).min().unwrap_or(0) as usize;
         // Counting sort; it keeps the order of faces with the same lowest vertex.
-        let lowest: Vec<usize> = (0..self.face_count()).map(lowest).collect();
+        let all = 2 * self.face_count();
+        let in_step = |f: usize| progress.steps(self.face(f).len(), f, all).map(|()| lowest(f));
+        let lowest: Vec<usize> = (0..self.face_count()).map(in_step).collect::<Result<_>>()?;
         let mut fill = vec![0_u32; count + 1];
         lowest.iter().for_each(|v| fill[v + 1] += 1);
         for v in 0..count {
@@ -125,11 +131,12 @@ impl PolygonMesh {
             single_precision: self.single_precision,
         };
         mesh.starts.push(0);
-        for &f in &faces {
+        for (done, &f) in faces.iter().enumerate() {
+            progress.steps(self.face(f as usize).len(), all / 2 + done, all)?;
             mesh.indices.extend(self.face(f as usize).iter().map(|v| places[*v as usize]));
             mesh.starts.push(mesh.indices.len() as u32);
         }
-        Some((mesh, Numbers { vertices: order, faces }))
+        Ok(Some((mesh, Numbers { vertices: order, faces })))
     }
 
     /// The vertex indices of face `f`.

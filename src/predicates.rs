@@ -8,20 +8,25 @@
 //! 3. adaptive expansions (crate `robust`; J. R. Shewchuk, "Adaptive Precision Floating-Point
 //!    Arithmetic and Fast Robust Geometric Predicates", Discrete & Computational Geometry 18,
 //!    1997), exact as long as nothing under- or overflows;
-//! 4. integers (crate `dashu-int`), instead of 2 and 3 for point sets whose exponents spread too
-//!    far for them.
+//! 4. instead of 2 and 3 for points whose exponents spread too far for them: tier 1 once more with
+//!    exponents that do not end, then integers (crate `dashu-int`).
 //!
 //! Every sign here is invariant under a common power-of-two scaling of all points. So the points
 //! are scaled until the largest coordinate lies in [1/2, 1), and nothing can overflow. If then no
 //! non-zero coordinate is below 2⁻³⁰⁰, all coordinates are multiples of 2⁻³⁵³, every product of
 //! three differences and every error term of an expansion is a multiple of 2⁻¹⁰⁵⁹, which doubles
-//! hold: tiers 2 and 3 are what they claim. Otherwise tier 4 takes their place.
+//! hold: tiers 2 and 3 are what they claim. Otherwise tier 4 takes their place for every sign that
+//! a point with such a coordinate has part in.
 
 use dashu_int::IBig;
+use dashu_int::ops::BitTest;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::double_double::{two_sum, wide_cross, wide_dot};
+use crate::error::Result;
+use crate::extended_range::Extended;
 use crate::math::{UNIT_ROUNDOFF, Vector, power_of_two};
+use crate::progress::Progress;
 
 /// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
 /// of this file. 2⁻³⁰⁰.
@@ -42,10 +47,12 @@ const DOUBLE_DOUBLE_FILTER: f64 = 26.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 #[derive(Debug, Clone)]
 pub struct ExactPoints {
     /// The points times a power of two; largest coordinate in [1/2, 1) (or all are zero). Exact,
-    /// unless `integers` is there: then the smallest coordinates may have underflowed.
+    /// unless `original` is there: then the smallest coordinates may have underflowed.
     scaled: Vec<[f64; 3]>,
-    /// The points times another power of two, for sets that expansions cannot decide.
-    integers: Option<Vec<[IBig; 3]>>,
+    /// The points times another power of two, exactly; for sets that expansions cannot decide.
+    original: Option<Vec<[f64; 3]>>,
+    /// Points beyond those of `original`, each the average of four of them.
+    averages: Vec<[u32; 4]>,
     /// Size of the scaled points' bounding box along each axis, rounded up.
     extent: [f64; 3],
     /// The points were multiplied by 2 to this power.
@@ -69,37 +76,38 @@ pub struct FilteredPlane {
 impl ExactPoints {
     /// Prepares finite points; fewer than 2³² of them.
     pub fn new(points: &[Vector]) -> ExactPoints {
-        let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
-        let scale = -exponent_above(largest);
-        let scaled: Vec<[f64; 3]> = points
-            .iter()
-            .map(|p| [times_power_of_two(p.x, scale), times_power_of_two(p.y, scale), times_power_of_two(p.z, scale)])
-            .collect();
-        let expansions_are_exact = points
-            .iter()
-            .zip(&scaled)
-            .all(|(p, s)| (0..3).all(|k| p[k] == 0.0 || s[k].abs() >= SMALLEST_FOR_EXPANSIONS));
-        let as_given = || points.iter().map(|p| (*p).into()).collect::<Vec<_>>();
-        let integers = (!expansions_are_exact).then(|| to_integers(&as_given()));
-        let mut extent = [0.0; 3];
-        for (k, size) in extent.iter_mut().enumerate() {
-            let low = scaled.iter().fold(f64::INFINITY, |m, s| m.min(s[k]));
-            let high = scaled.iter().fold(f64::NEG_INFINITY, |m, s| m.max(s[k]));
-            *size = (high - low).max(0.0).next_up();
-        }
-        ExactPoints { scaled, integers, extent, scale, guard: UNDERFLOW_GUARD }
+        ExactPoints::new_in_steps(points, &mut Progress::new(&mut |_| true)).expect("nobody cancels")
     }
 
-    /// Appends the exact average of four points (a point may be named more than once). It need not
-    /// be a point of doubles, so all signs come from integers from now on: slow.
-    pub fn push_average(&mut self, corners: [u32; 4]) {
-        let integers = self.integers.get_or_insert_with(|| to_integers(&self.scaled));
-        let average = [0, 1, 2].map(|k| corners.iter().map(|&i| &integers[i as usize][k]).sum());
-        // Four times as many units to the length: the sum itself is the average then.
-        for x in integers.iter_mut().flatten() {
-            *x <<= 2;
+    /// As [`ExactPoints::new`], saying how far it is.
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+    pub fn new_in_steps(points: &[Vector], progress: &mut Progress) -> Result<ExactPoints> {
+        let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
+        let scale = -exponent_above(largest);
+        let mut scaled: Vec<[f64; 3]> = Vec::with_capacity(points.len());
+        let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
+        let mut expansions_are_exact = true;
+        for (done, p) in points.iter().enumerate() {
+            progress.step(done, points.len())?;
+            let s = [0, 1, 2].map(|k| times_power_of_two(p[k], scale));
+            for k in 0..3 {
+                (low[k], high[k]) = (low[k].min(s[k]), high[k].max(s[k]));
+                expansions_are_exact &= p[k] == 0.0 || s[k].abs() >= SMALLEST_FOR_EXPANSIONS;
+            }
+            scaled.push(s);
         }
-        integers.push(average);
+        let original = (!expansions_are_exact).then(|| points.iter().map(|p| (*p).into()).collect());
+        let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(0.0).next_up());
+        Ok(ExactPoints { scaled, original, averages: Vec::new(), extent, scale, guard: UNDERFLOW_GUARD })
+    }
+
+    /// Appends the exact average of four of the points it was made of (a point may be named more than once). It need not be a
+    /// point of doubles, so all signs that it has part in come from integers: slow.
+    pub fn push_average(&mut self, corners: [u32; 4]) {
+        self.original.get_or_insert_with(|| self.scaled.clone());
+        self.averages.push(corners);
         let rounded = |k: usize| corners.iter().map(|&i| 0.25 * self.scaled[i as usize][k]).sum();
         self.scaled.push([0, 1, 2].map(rounded));
         // The rounded copy is good for nothing but steering.
@@ -133,7 +141,8 @@ impl ExactPoints {
 
     /// The sign of det(b − a, c − a, d − a): positive when the triangle a, b, c is seen
     /// counter-clockwise from d, so when d lies strictly outside the face (a, b, c) of a hull; 0
-    /// when the four are coplanar. Only the sign means something.
+    /// when the four are coplanar. Its magnitude is about that of the determinant of the scaled
+    /// points; where tier 4 decides, it is below 2⁻¹⁰⁰⁰ and grows with the determinant.
     pub fn orientation(&self, corners: [u32; 3], d: u32) -> f64 {
         let [a, b, c] = corners.map(|i| &self.scaled[i as usize]);
         let (normal, permanent) = normal_and_permanent([a, b, c]);
@@ -143,9 +152,9 @@ impl ExactPoints {
         if height.abs() > FILTER * spread + self.guard {
             return height;
         }
-        if let Some(integers) = &self.integers {
-            let [a, b, c] = corners.map(|i| &integers[i as usize]);
-            return integer_orientation([a, b, c, &integers[d as usize]]);
+        let named = [corners[0], corners[1], corners[2], d];
+        if let Some(original) = self.original_where_needed(&named) {
+            return self.wide_range_orientation(original, named);
         }
         // Cheap and common. With no spread all products vanish, exactly: d lies in a plane normal
         // to an axis, say.
@@ -167,11 +176,11 @@ impl ExactPoints {
     /// It is the sign of component `axis` of (b − a) × (c − a).
     pub fn projected_orientation(&self, axis: usize, [a, b, c]: [u32; 3]) -> f64 {
         let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
-        if let Some(integers) = &self.integers {
-            let [a, b, c] = [a, b, c].map(|i| &integers[i as usize]);
-            let left = (&b[first] - &a[first]) * (&c[second] - &a[second]);
-            let right = (&b[second] - &a[second]) * (&c[first] - &a[first]);
-            return integer_sign(&(left - right));
+        if let Some(original) = self.original_where_needed(&[a, b, c]) {
+            let [x, y] = [first, second].map(|axis| self.integers(original, [a, b, c], axis));
+            let left = (&x.values[1] - &x.values[0]) * (&y.values[2] - &y.values[0]);
+            let right = (&y.values[1] - &y.values[0]) * (&x.values[2] - &x.values[0]);
+            return leading(&(left - right), x.exponent + y.exponent).rank();
         }
         let coord = |i: u32| Coord { x: self.scaled[i as usize][first], y: self.scaled[i as usize][second] };
         orient2d(coord(a), coord(b), coord(c))
@@ -195,14 +204,14 @@ impl ExactPoints {
     }
 
     /// How far point `p` lies above the plane, in units of the length of its unscaled normal. The
-    /// sign is exact (see [`ExactPoints::orientation`]), the magnitude is floating point and never
-    /// 0 unless exactly coplanar.
+    /// sign is exact, the magnitude what [`ExactPoints::orientation`] says: of several points the
+    /// one with the largest is about the farthest, however small.
     pub fn height(&self, plane: &FilteredPlane, p: u32) -> f64 {
         let a = &self.scaled[plane.corners[0] as usize];
         let point = &self.scaled[p as usize];
         let n = &plane.normal;
         let height = n[0] * (point[0] - a[0]) + n[1] * (point[1] - a[1]) + n[2] * (point[2] - a[2]);
-        if height.abs() > plane.error { height } else { self.small_height(plane, p, height) }
+        if height.abs() > plane.error { height } else { self.small_height(plane, p) }
     }
 
     /// An upper bound of the distance of point `p` from the plane, in the units of [`ExactPoints::approximate`]; +∞ for a
@@ -214,16 +223,85 @@ impl ExactPoints {
         // Both off by what is said at `plane`; the factor covers what is left to round.
         let (normal, permanent) = normal_and_permanent(plane.corners.map(|i| &self.scaled[i as usize]));
         let length = Vector::from(normal).norm() - 8.0 * UNIT_ROUNDOFF * permanent.iter().sum::<f64>();
-        let bound = (self.height(plane, p).abs() + plane.error) / length * (1.0 + 16.0 * UNIT_ROUNDOFF);
+        // What the filter does not decide may be told by a rank.
+        let height = self.height(plane, p).abs().max(plane.error);
+        let bound = (height + plane.error) / length * (1.0 + 16.0 * UNIT_ROUNDOFF);
         if length > 0.0 { bound } else { f64::INFINITY }
     }
 
     /// The height where the filter cannot decide its sign.
     #[cold]
-    fn small_height(&self, plane: &FilteredPlane, p: u32, height: f64) -> f64 {
-        let sign = self.orientation(plane.corners, p);
-        if sign == 0.0 { 0.0 } else { height.abs().max(f64::MIN_POSITIVE).copysign(sign) }
+    fn small_height(&self, plane: &FilteredPlane, p: u32) -> f64 {
+        self.orientation(plane.corners, p)
     }
+
+    /// The points as they were given, if expansions cannot decide these, all named: one is an average, or a coordinate is too
+    /// small.
+    fn original_where_needed(&self, named: &[u32]) -> Option<&[[f64; 3]]> {
+        let original = self.original.as_deref()?;
+        let is_in_reach = |i: &u32| {
+            let scaled = &self.scaled[*i as usize];
+            let is_exact = |p: &[f64; 3]| (0..3).all(|k| p[k] == 0.0 || scaled[k].abs() >= SMALLEST_FOR_EXPANSIONS);
+            original.get(*i as usize).is_some_and(is_exact)
+        };
+        (!named.iter().all(is_in_reach)).then_some(original)
+    }
+
+    /// Tier 4.
+    #[cold]
+    fn wide_range_orientation(&self, original: &[[f64; 3]], named: [u32; 4]) -> f64 {
+        if let [Some(a), Some(b), Some(c), Some(p)] = named.map(|i| original.get(i as usize)) {
+            if [a, b, c].contains(&p) {
+                return 0.0;
+            }
+            // The bound is that at `plane`: no operation here under- or overflows.
+            let (height, spread) = extended_height([a, b, c], p);
+            let beyond = height.abs() - Extended::from(FILTER) * spread;
+            if beyond.mantissa > 0.0 || spread.mantissa == 0.0 {
+                return height.rank();
+            }
+        }
+        // The determinant keeps its sign when an axis is scaled, so each has units of its own: the numbers are as short as can be.
+        let axes = [0, 1, 2].map(|axis| self.integers(original, named, axis));
+        let difference = |point: usize| axes.each_ref().map(|axis| &axis.values[point] - &axis.values[0]);
+        let (e, f, g) = (difference(1), difference(2), difference(3));
+        let minor = |i: usize, j: usize| &e[i] * &f[j] - &e[j] * &f[i];
+        let determinant = minor(1, 2) * &g[0] + minor(2, 0) * &g[1] + minor(0, 1) * &g[2];
+        leading(&determinant, axes.iter().map(|axis| axis.exponent).sum()).rank()
+    }
+
+    /// One coordinate of some points, as integers.
+    fn integers<const N: usize>(&self, original: &[[f64; 3]], named: [u32; N], axis: usize) -> Integers<N> {
+        // Where there are averages, every point is the sum of four, in units of a quarter.
+        let count = if self.averages.is_empty() { 1 } else { 4 };
+        let terms = named.map(|i| {
+            let corners = (i as usize).checked_sub(original.len()).map_or([i; 4], |average| self.averages[average]);
+            corners.map(|corner| mantissa_and_exponent(original[corner as usize][axis]))
+        });
+        let nonzero = terms.iter().flatten().filter(|(mantissa, _)| *mantissa != 0);
+        let lowest = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
+        let integer = |&(mantissa, exponent): &(i64, i32)| match mantissa {
+            0 => IBig::ZERO,
+            _ => IBig::from(mantissa) << ((exponent - lowest) as usize),
+        };
+        Integers {
+            values: terms.map(|terms| terms[..count].iter().map(integer).sum()),
+            exponent: lowest - count.ilog2() as i32,
+        }
+    }
+}
+
+/// Numbers values·2^exponent.
+struct Integers<const N: usize> {
+    values: [IBig; N],
+    exponent: i32,
+}
+
+/// The leading bits of value·2^exponent.
+fn leading(value: &IBig, exponent: i32) -> Extended {
+    let excess = value.bit_len().saturating_sub(62);
+    let bits = i64::try_from(value.clone() >> excess).unwrap_or(0);
+    Extended { mantissa: bits as f64, exponent: exponent + excess as i32 }
 }
 
 /// n = (b − a) × (c − a), rounded, and the same with all minus signs of the cross product made
@@ -251,36 +329,17 @@ fn double_double_height([a, b, c]: [&[f64; 3]; 3], p: &[f64; 3]) -> f64 {
     wide_dot(&wide_cross(&from_a(b), &from_a(c)), &from_a(p)).hi
 }
 
-/// The sign of det(b − a, c − a, d − a) for integer points.
-fn integer_orientation([a, b, c, d]: [&[IBig; 3]; 4]) -> f64 {
-    let difference = |p: &[IBig; 3]| [&p[0] - &a[0], &p[1] - &a[1], &p[2] - &a[2]];
-    let (e, f, g) = (difference(b), difference(c), difference(d));
-    let minor = |i: usize, j: usize| &e[i] * &f[j] - &e[j] * &f[i];
-    integer_sign(&(minor(1, 2) * &g[0] + minor(2, 0) * &g[1] + minor(0, 1) * &g[2]))
-}
-
-fn integer_sign(value: &IBig) -> f64 {
-    if *value == IBig::ZERO {
-        0.0
-    } else if *value > IBig::ZERO {
-        1.0
-    } else {
-        -1.0
-    }
-}
-
-/// All points times the same power of two, chosen so that they become integers.
-fn to_integers(points: &[[f64; 3]]) -> Vec<[IBig; 3]> {
-    let nonzero = points.iter().flatten().filter(|x| **x != 0.0);
-    let lowest = nonzero.map(|x| mantissa_and_exponent(*x).1).min().unwrap_or(0);
-    let integer = |x: f64| {
-        if x == 0.0 {
-            return IBig::ZERO;
-        }
-        let (mantissa, exponent) = mantissa_and_exponent(x);
-        IBig::from(mantissa) << ((exponent - lowest) as usize)
+/// det(b − a, c − a, p − a) and the spread of [`ExactPoints::orientation`].
+fn extended_height([a, b, c]: [&[f64; 3]; 3], p: &[f64; 3]) -> (Extended, Extended) {
+    let from_a = |q: &[f64; 3]| [0, 1, 2].map(|k| Extended::difference(q[k], a[k]));
+    let (e, f, g) = (from_a(b), from_a(c), from_a(p));
+    let term = |k: usize| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        let (left, right) = (e[i] * f[j], e[j] * f[i]);
+        ((left - right) * g[k], (left.abs() + right.abs()) * g[k].abs())
     };
-    points.iter().map(|p| p.map(integer)).collect()
+    let [x, y, z] = [0, 1, 2].map(term);
+    (x.0 + y.0 + z.0, x.1 + y.1 + z.1)
 }
 
 /// x = mantissa·2^exponent, exactly.
@@ -387,6 +446,44 @@ mod tests {
             assert_eq!(sign_of(exact.orientation([0, 1, 2], 3)), truth, "{points:?}");
             assert_eq!(sign_of(exact.height(&exact.plane([0, 1, 2]), 3)), truth, "{points:?}");
         }
+    }
+
+    /// Coordinates of any exponents in one set: the sign is exact, and of two points above a plane that only tier 4 tells, the
+    /// farther one is the higher.
+    #[test]
+    fn any_exponents_have_the_exact_sign_and_order() {
+        let mut random = Random::new(15);
+        let mut any = |exponents: u64| {
+            let exponent = (1023 - exponents / 2 + random.next_u64() % exponents).min(2046);
+            f64::from_bits(random.next_u64() & !(0x7ff << 52) | exponent << 52)
+        };
+        let mut ranks = 0;
+        for round in 0..rounds(5_000) {
+            let exponents = [2046, 1400, 700][round % 3];
+            let mut points = [(); 5].map(|()| Vector::from_fn(|_, _| any(exponents)));
+            if round % 4 == 0 {
+                // In the plane but for a rounding.
+                points[3] = 0.5 * points[0] + 0.5 * points[1];
+                points[4] = Vector::new(points[3].x, points[3].y.next_up(), points[3].z);
+            }
+            let [a, b, c, d, e] = points;
+            let exact = ExactPoints::new(&points);
+            let plane = exact.plane([0, 1, 2]);
+            let truths = [d, e].map(|p| exact_determinant(&[a, b, c, p]));
+            let heights = [3, 4].map(|p| exact.height(&plane, p));
+            for (height, truth) in heights.iter().zip(&truths) {
+                assert_eq!(sign_of(*height), sign(truth), "{points:?}");
+            }
+            if heights.iter().all(|height| *height != 0.0 && height.abs() < UNDERFLOW_GUARD) {
+                let [first, second] = truths.map(|truth| truth.clone() * truth);
+                // Not told apart are those that differ by a rounding.
+                let ratio = RBig::from(1_000_001) / RBig::from(1_000_000);
+                assert!(heights[0].abs() >= heights[1].abs() || first < &second * &ratio, "{points:?}");
+                assert!(heights[1].abs() >= heights[0].abs() || second < &first * &ratio, "{points:?}");
+                ranks += 1;
+            }
+        }
+        assert!(cfg!(miri) || ranks > 100, "{ranks}");
     }
 
     /// Small integers times one odd factor: coplanar and collinear ones among them are so exactly.

@@ -7,8 +7,8 @@ use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result, check_range};
 use crate::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
 use crate::hull_build::{check_points, convex_hull_in_steps};
-use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh, check_surface};
-use crate::locality::along_curve;
+use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
+use crate::locality::{along_curve, in_order};
 pub use crate::lookup_build::{LookupKind, LookupOptions};
 use crate::lookup_build::{plan_lookup, table};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
@@ -121,7 +121,8 @@ impl Shape {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
-        let mesh = PolygonMesh { vertices: transformed(&mesh.vertices, options)?, ..mesh.clone() };
+        let vertices = transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?;
+        let mesh = PolygonMesh { vertices, ..mesh.clone() };
         let tolerance = match options.convexity_tolerance {
             Some(tolerance) => {
                 check_range("convexity_tolerance", tolerance, 0.0..=f64::MAX)?;
@@ -134,25 +135,30 @@ impl Shape {
         check_points(&mesh.vertices)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
-        let check_as_given = || check_mesh(&mesh, tolerance, allow_flat);
+        let check_as_given = |progress: &mut Progress| check_mesh_in_steps(&mesh, tolerance, allow_flat, progress);
         // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
-        let Some((ordered, numbers)) = mesh.in_order(along_curve(&mesh.vertices)) else {
+        let order = along_curve(&mesh.vertices, &mut of_body.part(0.0, 0.02))?;
+        let Some((ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {
             return match options.input {
                 InputPolicy::Strict | InputPolicy::Flat => {
-                    check_as_given().and(Err(Error::Bug("faces that are none passed the check".into())))
+                    check_as_given(&mut of_body).and(Err(Error::Bug("faces that are none passed the check".into())))
                 }
-                InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, progress),
+                InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, &mut progress.part(0.05, 1.0)),
             };
         };
-        let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.0, 0.2))?;
-        let closed = check_surface(&ordered);
-        of_body.report(0.32)?;
-        let checked = closed.and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat));
+        let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.05, 0.25))?;
+        let closed = check_surface(&ordered, &mut of_body.part(0.25, 0.36));
+        let checked = closed
+            .and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat, &mut of_body.part(0.36, 0.45)));
+        let checked = match checked {
+            Err(error @ Error::Cancelled(_)) => return Err(error),
+            checked => checked,
+        };
         let polygons = match options.input {
             // A message is about the caller's numbers. A face may pass by a plane that the search meets in one order only: that is
             // good enough, as the plane is one of the hull whichever way led there.
             InputPolicy::Strict | InputPolicy::Flat => {
-                checked.or_else(|_| check_as_given()).map(|()| Some(&ordered))?
+                checked.or_else(|_| check_as_given(&mut of_body.part(0.45, 0.45))).map(|()| Some(&ordered))?
             }
             InputPolicy::Hull => checked.is_ok().then_some(&ordered),
         };
@@ -175,18 +181,18 @@ impl Shape {
     /// # Errors
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
-        let points = transformed(points, options)?;
+        let points = transformed(points, options, &mut progress.part(0.0, 0.0))?;
         check_points(&points)?;
         Shape::of_points(&points, options, progress)
     }
 
     /// From finite points that went through the input transform.
     fn of_points(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
-        let order = along_curve(points);
-        let ordered: Vec<Vector> = order.iter().map(|v| points[*v as usize]).collect();
-        let numbers = Numbers { vertices: order, faces: Vec::new() };
         let mut of_body = progress.part(0.0, options.share_of_body());
-        let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.0, 0.3))?;
+        let order = along_curve(points, &mut of_body.part(0.0, 0.04))?;
+        let ordered = in_order(points, &order, &mut of_body.part(0.04, 0.05))?;
+        let numbers = Numbers { vertices: order, faces: Vec::new() };
+        let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.05, 0.3))?;
         let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
         Shape::admitted(polyhedron, options, progress)
     }
@@ -231,10 +237,11 @@ impl Shape {
         let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = Vec::with_capacity(levels.len());
         for (i, level) in levels.iter().enumerate() {
-            let moved = transformed(&level.vertices, options);
+            let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
             let in_level = |message: String| format!("level {}: {message}", i + 1);
             points.push(moved.map_err(|error| match error {
                 Error::Mesh(message) => Error::Mesh(in_level(message)),
+                cancelled @ Error::Cancelled(_) => cancelled,
                 other => Error::Argument(in_level(other.to_string())),
             })?);
         }
@@ -365,7 +372,7 @@ fn or_none(built: Result<Hierarchy>) -> Hierarchy {
 
 /// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
 /// itself and 2⁻⁹⁶ of the largest term.
-fn transformed(points: &[Vector], options: &ShapeOptions) -> Result<Vec<Vector>> {
+fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Vec<Vector>> {
     let ShapeOptions { rotation, translation, scale, .. } = options;
     if !(*scale > 0.0 && scale.is_finite()) {
         return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
@@ -384,6 +391,7 @@ fn transformed(points: &[Vector], options: &ShapeOptions) -> Result<Vec<Vector>>
         (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
     };
     let transform = |(v, p): (usize, &Vector)| {
+        progress.step(v, points.len())?;
         check_vertex(v, p)?;
         let image = Vector::from_fn(|row, _| coordinate(p, row));
         if image.iter().all(|x| x.is_finite()) {

@@ -12,8 +12,8 @@ use std::path::Path;
 use crate::enumerator::Enumerator;
 use crate::error::{Error, Result};
 use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
-use crate::hull_build::{Hull, convex_hull};
-use crate::hull_check::check_hull;
+use crate::hull_build::{Hull, convex_hull_in_steps};
+use crate::hull_check::check_hull_in_steps;
 use crate::lookup::Plan;
 use crate::lookup_build::{LookupKind, LookupOptions, plan_lookup};
 use crate::math::Vector;
@@ -303,11 +303,11 @@ impl<'a> Reader<'a> {
             3 => {
                 let vertices = (0..positions.len() as u32).collect();
                 let hull = Hull { dimension: 3, vertices, triangles: triangles.to_vec() };
-                check_hull(&points, &hull).or_else(|e| damaged(e.message()))?;
+                sound(check_hull_in_steps(&points, &hull, &mut progress.part(0.0, SHARE_OF_PROOF)))?;
                 hull
             }
             // Of a flat hull the triangulation is known.
-            _ => convex_hull(&points).or_else(|e| damaged(e.message()))?,
+            _ => sound(convex_hull_in_steps(&points, &mut progress.part(0.0, SHARE_OF_PROOF)))?,
         };
         if u32::from(hull.dimension) != dimension || hull.vertices.len() != positions.len() {
             return damaged("the vertices are not those of a hull");

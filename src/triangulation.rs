@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::progress::Progress;
 
 /// A closed triangulated surface and the half-edges out of each vertex.
 #[derive(Debug, Clone)]
@@ -36,6 +37,19 @@ impl Triangulation {
     /// # Errors
     /// [`Error::Bug`] when the triangles are no closed surface or leave a vertex out.
     pub fn new(triangles: Vec<[u32; 3]>, normals: &[Vector], vertex_count: usize) -> Result<Triangulation> {
+        Triangulation::new_in_steps(triangles, normals, vertex_count, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Triangulation::new`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Triangulation::new`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn new_in_steps(
+        triangles: Vec<[u32; 3]>,
+        normals: &[Vector],
+        vertex_count: usize,
+        progress: &mut Progress,
+    ) -> Result<Triangulation> {
         let half_edge_count = 3 * triangles.len();
         let mut outgoing_starts = vec![0_u32; vertex_count + 1];
         for &corner in triangles.iter().flatten() {
@@ -46,7 +60,9 @@ impl Triangulation {
         }
         let mut outgoing = vec![0_u32; half_edge_count];
         let mut fill = outgoing_starts.clone();
+        let all = 3 * half_edge_count;
         for (h, &corner) in triangles.iter().flatten().enumerate() {
+            progress.step(h, all)?;
             let slot = &mut fill[corner as usize];
             outgoing[*slot as usize] = h as u32;
             *slot += 1;
@@ -55,13 +71,14 @@ impl Triangulation {
         let mut surface =
             Triangulation { triangles, twins: vec![u32::MAX; half_edge_count], outgoing, outgoing_starts };
         for h in 0..half_edge_count as u32 {
+            progress.step(half_edge_count + h as usize, all)?;
             if surface.twins[h as usize] == u32::MAX {
                 let twin = surface.find_twin(h, normals).ok_or_else(|| open_surface(&surface, h))?;
                 surface.twins[h as usize] = twin;
                 surface.twins[twin as usize] = h;
             }
         }
-        surface.sort_around_vertices()?;
+        surface.sort_around_vertices(&mut progress.part(2.0 / 3.0, 1.0))?;
         Ok(surface)
     }
 
@@ -105,13 +122,14 @@ impl Triangulation {
     }
 
     /// Puts the half-edges out of each vertex into counter-clockwise order.
-    fn sort_around_vertices(&mut self) -> Result<()> {
+    fn sort_around_vertices(&mut self, progress: &mut Progress) -> Result<()> {
         for v in 0..self.outgoing_starts.len() - 1 {
             let range = self.outgoing_starts[v] as usize..self.outgoing_starts[v + 1] as usize;
             let Some(&first) = self.outgoing.get(range.start).filter(|_| !range.is_empty()) else {
                 return Err(Error::Bug(format!("hull vertex {v} belongs to no triangle")));
             };
             let mut h = first;
+            progress.steps(range.len(), range.start, self.outgoing.len())?;
             for slot in range {
                 self.outgoing[slot] = h;
                 h = self.twins[previous(h) as usize];

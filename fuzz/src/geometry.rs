@@ -132,9 +132,21 @@ fn box_points(u: &mut Unstructured, numbers: &mut Numbers) -> Result<Vec<Vector>
     Ok((0..8).map(|k| half.component_mul(&Vector::new(side(k, 0), side(k, 1), side(k, 2)))).collect())
 }
 
+/// A number of points or sides: few, or, where not only a few are asked for, about the 4,096 from which on the library puts
+/// points in another order.
+fn count(u: &mut Unstructured, least: usize, most: usize) -> Result<usize> {
+    const NOT_ONLY_FEW: usize = 32;
+    // The highest number: bytes that have ended are zeros.
+    if most >= NOT_ONLY_FEW && u.int_in_range(0..=31_u8)? == 31 {
+        u.int_in_range(4_090..=4_200)
+    } else {
+        u.int_in_range(least..=most.max(least))
+    }
+}
+
 /// Two regular polygons, one above the other, or a polygon and an apex: caps and high valences.
 fn ring(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
-    let sides = u.int_in_range(3..=most.max(3))?;
+    let sides = count(u, 3, most)?;
     let corner = |k: usize, z: f64| {
         let angle = std::f64::consts::TAU * k as f64 / sides as f64;
         Vector::new(angle.cos(), angle.sin(), z)
@@ -150,7 +162,7 @@ fn ring(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
 
 /// Spread over the unit sphere, along Fibonacci's spiral.
 fn sphere(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
-    let count = u.int_in_range(4..=most.max(4))?;
+    let count = count(u, 4, most)?;
     let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
     let point = |k: usize| {
         let z = 1.0 - (2 * k + 1) as f64 / count as f64;
@@ -161,9 +173,14 @@ fn sphere(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
     Ok((0..count).map(point).collect())
 }
 
-/// One change to points: flatter, larger, elsewhere, more of the same, turned.
+/// A size from 10⁻³⁰⁰ to 10³⁰⁰.
+fn any_size(u: &mut Unstructured) -> Result<f64> {
+    Ok(power_of_two(u.int_in_range(-997..=997)?))
+}
+
+/// One change to points: flatter, larger, elsewhere, more of the same, turned, of any size, along all axes or along each.
 fn change(u: &mut Unstructured, points: &mut Vec<Vector>, most: usize, numbers: &mut Numbers) -> Result<()> {
-    match u.int_in_range(0..=6)? {
+    match u.int_in_range(0..=8)? {
         0 => {
             let axis = u.choose_index(3)?;
             let (factor, offset) = (numbers.power(u, true)?, numbers.number(u)?);
@@ -193,6 +210,14 @@ fn change(u: &mut Unstructured, points: &mut Vec<Vector>, most: usize, numbers: 
         5 => {
             let turn = rotation(u)?;
             points.iter_mut().for_each(|p| *p = turn * *p);
+        }
+        6 => {
+            let factor = any_size(u)?;
+            points.iter_mut().for_each(|p| *p *= factor);
+        }
+        7 => {
+            let factors = Vector::new(any_size(u)?, any_size(u)?, any_size(u)?);
+            points.iter_mut().for_each(|p| *p = p.component_mul(&factors));
         }
         _ => {
             let by = u.choose_index(points.len())?;

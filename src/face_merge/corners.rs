@@ -1,15 +1,31 @@
 //! Which vertices of the merged faces are corners, and which lie inside a straight edge up to rounding.
 
 use super::MergedFaces;
+use crate::error::Result;
 use crate::math::Vector;
+use crate::progress::Progress;
 use crate::triangulation::Triangulation;
 
 /// Decides which vertices are corners: those where three or more faces meet, and as many of those where two meet as it takes to
 /// stay within the bound of the boundary (U. Ramer, "An Iterative Procedure for the Polygonal Approximation of Plane
 /// Curves", 1972).
-pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &mut MergedFaces, bound: f64) {
+///
+/// # Errors
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+pub fn straighten_edges(
+    surface: &Triangulation,
+    positions: &[Vector],
+    faces: &mut MergedFaces,
+    bound: f64,
+    progress: &mut Progress,
+) -> Result<()> {
     let degree = |v: u32| surface.around(v).iter().filter(|h| faces.is_boundary(surface, **h)).count();
-    let degrees: Vec<usize> = (0..positions.len() as u32).map(degree).collect();
+    let mut degrees: Vec<usize> = Vec::with_capacity(positions.len());
+    let all = 2 * positions.len();
+    for v in 0..positions.len() as u32 {
+        progress.steps(surface.around(v).len(), v as usize, all)?;
+        degrees.push(degree(v));
+    }
     let mut corners: Vec<bool> = degrees.iter().map(|d| *d > 2).collect();
     let mut on_chain = vec![false; positions.len()];
     let chain_from = |first: u32, corners: &[bool]| {
@@ -23,6 +39,7 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
     };
     let mut chains = Vec::new();
     for v in 0..positions.len() as u32 {
+        progress.steps(surface.around(v).len(), positions.len() + v as usize, all)?;
         for &h in surface.around(v) {
             let middle = surface.head(h) as usize;
             if degrees[v as usize] > 2 && degrees[middle] == 2 && !on_chain[middle] && faces.is_boundary(surface, h) {
@@ -33,7 +50,7 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
         }
     }
     for chain in &chains {
-        keep_bends(positions, chain, bound, &mut corners);
+        keep_bends(positions, chain, bound, &mut corners, progress)?;
     }
     // What is left are two faces that share their whole boundary: a flat body.
     for v in 0..positions.len() as u32 {
@@ -43,7 +60,7 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
             };
             let closed = chain_from(h, &corners);
             closed.iter().for_each(|w| on_chain[*w as usize] = true);
-            keep_bends_of_polygon(positions, &closed, bound, &mut corners);
+            keep_bends_of_polygon(positions, &closed, bound, &mut corners, progress)?;
             chains.push(closed);
         }
     }
@@ -62,12 +79,20 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
             chain.iter().for_each(|v| faces.corners[*v as usize] = true);
         }
     }
+    Ok(())
 }
 
 /// Marks the inner vertices of a chain that are needed to stay within the bound of it; its ends are corners.
-fn keep_bends(positions: &[Vector], chain: &[u32], bound: f64, corners: &mut [bool]) {
+fn keep_bends(
+    positions: &[Vector],
+    chain: &[u32],
+    bound: f64,
+    corners: &mut [bool],
+    progress: &mut Progress,
+) -> Result<()> {
     let mut parts = vec![(0, chain.len() - 1)];
     while let Some((first, last)) = parts.pop() {
+        progress.steps(last - first, 1, 1)?;
         let a = &positions[chain[first] as usize];
         let b = &positions[chain[last] as usize];
         let direction = b - a;
@@ -92,11 +117,18 @@ fn keep_bends(positions: &[Vector], chain: &[u32], bound: f64, corners: &mut [bo
             parts.push((i, last));
         }
     }
+    Ok(())
 }
 
 /// The same for a closed chain, whose first vertex comes again as its last. The lexicographically first vertex and the one
 /// farthest from it are corners of the convex polygon.
-fn keep_bends_of_polygon(positions: &[Vector], closed: &[u32], bound: f64, corners: &mut [bool]) {
+fn keep_bends_of_polygon(
+    positions: &[Vector],
+    closed: &[u32],
+    bound: f64,
+    corners: &mut [bool],
+    progress: &mut Progress,
+) -> Result<()> {
     let mut ring = closed[1..].to_vec();
     let key = |v: &u32| positions[*v as usize];
     let first = (0..ring.len())
@@ -111,6 +143,6 @@ fn keep_bends_of_polygon(positions: &[Vector], closed: &[u32], bound: f64, corne
     corners[ring[0] as usize] = true;
     corners[ring[far] as usize] = true;
     ring.push(ring[0]);
-    keep_bends(positions, &ring[..=far], bound, corners);
-    keep_bends(positions, &ring[far..], bound, corners);
+    keep_bends(positions, &ring[..=far], bound, corners, progress)?;
+    keep_bends(positions, &ring[far..], bound, corners, progress)
 }

@@ -10,7 +10,9 @@ mod regions;
 
 use std::f64::consts::PI;
 
+use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::progress::Progress;
 use crate::triangulation::{Triangulation, next};
 use corners::straighten_edges;
 use regions::coplanar_regions;
@@ -77,25 +79,39 @@ impl MergedFaces {
 
 /// Merges the triangles of a hull. `normals` are the triangles' unit normals, `areas` sizes to order them by, `bound` is
 /// [`merge_bound`].
+///
+/// # Errors
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn merge_faces(
     surface: &Triangulation,
     positions: &[Vector],
     normals: &[Vector],
     areas: &[f64],
     bound: f64,
-) -> MergedFaces {
-    let (mut region_of, mut region_normals) = coplanar_regions(surface, positions, normals, areas, bound);
+    progress: &mut Progress,
+) -> Result<MergedFaces> {
+    let of_regions = &mut progress.part(0.0, 0.5);
+    let (mut region_of, mut region_normals) = coplanar_regions(surface, positions, normals, areas, bound, of_regions)?;
+    let mut first = 0.5;
     loop {
-        let mut faces = number_faces(surface, positions.len(), &region_of, &region_normals);
-        straighten_edges(surface, positions, &mut faces, bound);
+        // Hardly ever a second round.
+        let middle = 0.5 * (first + 1.0);
+        let progress = &mut progress.part(first, middle);
+        first = middle;
+        let of_numbers = &mut progress.part(0.0, 0.1);
+        let mut faces = number_faces(surface, positions.len(), &region_of, &region_normals, of_numbers)?;
+        straighten_edges(surface, positions, &mut faces, bound, &mut progress.part(0.1, 0.7))?;
         start_at_corners(surface, &mut faces);
         let mut sizes = vec![0_u32; faces.normals.len()];
         faces.face_of.iter().for_each(|f| sizes[*f as usize] += 1);
-        let dented: Vec<bool> = (0..faces.normals.len())
-            .map(|face| sizes[face] > 1 && !is_convex(surface, positions, &faces, face))
-            .collect();
+        let mut dented = Vec::with_capacity(faces.normals.len());
+        let of_convexity = &mut progress.part(0.7, 1.0);
+        for (face, size) in sizes.iter().enumerate() {
+            of_convexity.steps(*size as usize, face, sizes.len())?;
+            dented.push(*size > 1 && !is_convex(surface, positions, &faces, face));
+        }
         if !dented.contains(&true) {
-            return faces;
+            return Ok(faces);
         }
         // Back to triangles, which are convex; each round leaves fewer merged faces.
         for (t, region) in region_of.iter_mut().enumerate().filter(|(t, _)| dented[faces.face_of[*t] as usize]) {
@@ -146,10 +162,12 @@ fn number_faces(
     vertex_count: usize,
     region_of: &[u32],
     region_normals: &[Vector],
-) -> MergedFaces {
+    progress: &mut Progress,
+) -> Result<MergedFaces> {
     let mut number = vec![NONE; region_normals.len()];
     let mut normals = Vec::with_capacity(region_normals.len());
     for v in 0..vertex_count as u32 {
+        progress.steps(surface.around(v).len(), v as usize, vertex_count)?;
         for &h in surface.around(v) {
             let region = region_of[h as usize / 3] as usize;
             if number[region] == NONE {
@@ -159,7 +177,7 @@ fn number_faces(
         }
     }
     let face_of = region_of.iter().map(|&r| number[r as usize]).collect();
-    MergedFaces { face_of, normals, first_half_edges: Vec::new(), corners: Vec::new() }
+    Ok(MergedFaces { face_of, normals, first_half_edges: Vec::new(), corners: Vec::new() })
 }
 
 /// Chooses each face's first half-edge: the first one at a corner, in order of vertices.

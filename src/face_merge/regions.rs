@@ -1,19 +1,26 @@
 //! Which triangles lie in one plane up to rounding.
 
 use super::NONE;
+use crate::error::Result;
 use crate::math::Vector;
 use crate::normal::{area_vector, normal_of};
+use crate::progress::Progress;
+use crate::sorting::sort_in_steps;
 use crate::triangulation::{Triangulation, previous};
 
 /// The region of each triangle, and the unit normal of each region: connected, each within `bound` of one plane and facing one way,
 /// each a disk. `normals` and `areas` are the triangles'.
+///
+/// # Errors
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn coplanar_regions(
     surface: &Triangulation,
     positions: &[Vector],
     normals: &[Vector],
     areas: &[f64],
     bound: f64,
-) -> (Vec<u32>, Vec<Vector>) {
+    progress: &mut Progress,
+) -> Result<(Vec<u32>, Vec<Vector>)> {
     let mut regions = Regions {
         surface,
         positions,
@@ -22,14 +29,23 @@ pub fn coplanar_regions(
         region_of: vec![NONE; surface.triangles.len()],
         normals: Vec::with_capacity(surface.triangles.len()),
         out: vec![NONE; positions.len()],
+        failures: vec![0; surface.triangles.len()],
     };
     // Largest first, and most meshes have few triangles that can begin anything.
-    let mut seeds: Vec<u32> =
-        (0..surface.triangles.len() as u32).filter(|t| regions.has_coplanar_neighbour(*t)).collect();
-    seeds.sort_by(|s, t| areas[*t as usize].total_cmp(&areas[*s as usize]));
-    for seed in seeds {
+    let of_seeds = &mut progress.part(0.0, 0.3);
+    let mut seeds = Vec::new();
+    for t in 0..surface.triangles.len() as u32 {
+        of_seeds.step(t as usize, surface.triangles.len())?;
+        if regions.has_coplanar_neighbour(t) {
+            seeds.push(t);
+        }
+    }
+    let larger_first = |s: &u32, t: &u32| areas[*t as usize].total_cmp(&areas[*s as usize]);
+    sort_in_steps(&mut seeds, larger_first, &mut progress.part(0.3, 0.4))?;
+    let of_regions = &mut progress.part(0.4, 1.0);
+    for (done, &seed) in seeds.iter().enumerate() {
         if regions.region_of[seed as usize] == NONE {
-            regions.add(seed);
+            regions.add(seed, &mut |steps| of_regions.steps(steps, done, seeds.len()))?;
         }
     }
     for (region, normal) in regions.region_of.iter_mut().zip(normals) {
@@ -38,8 +54,12 @@ pub fn coplanar_regions(
             regions.normals.push(*normal);
         }
     }
-    (regions.region_of, regions.normals)
+    Ok((regions.region_of, regions.normals))
 }
+
+/// Regions that a triangle may be in before it gets one and that were none; after that it is left out of the regions of others.
+/// Where they creep around a smooth needle they take in half of it each time.
+const MOST_FAILURES: u8 = 8;
 
 /// Regions of triangles while they grow.
 struct Regions<'a> {
@@ -51,6 +71,8 @@ struct Regions<'a> {
     normals: Vec<Vector>,
     /// Scratch: a region's boundary half-edge out of each vertex, NONE elsewhere.
     out: Vec<u32>,
+    /// How often each triangle was in a region that was none.
+    failures: Vec<u8>,
 }
 
 impl Regions<'_> {
@@ -67,25 +89,31 @@ impl Regions<'_> {
 
     /// Makes a region from a triangle that has none: everything coplanar around it, or single triangles if that
     /// is no disk.
-    fn add(&mut self, seed: u32) {
+    fn add(&mut self, seed: u32, tell: &mut impl FnMut(usize) -> Result<()>) -> Result<()> {
         let region = self.normals.len() as u32;
-        let (triangles, normal) = self.grow(seed, region);
+        let (triangles, normal) = self.grow(seed, region, tell)?;
         if triangles.len() == 1 || self.is_disk(&triangles) {
             self.normals.push(normal);
-            return;
+            return Ok(());
         }
         for t in triangles {
             self.region_of[t as usize] = self.normals.len() as u32;
             self.normals.push(self.triangle_normals[t as usize]);
         }
+        Ok(())
     }
 
     /// Marks the triangles around `seed` that lie within the bound of one plane as `region`; returns them and the plane's normal.
     ///
     /// The plane is that of a reference triangle among the region's vertices: the seed first, later one at least twice as large
     /// whenever there is one. So a cap of thin triangles is measured by a large one and not by the extrapolation of a sliver.
-    /// If the last plane does not hold all of the region (it crept around a smooth body), the seed stays alone.
-    fn grow(&mut self, seed: u32, region: u32) -> (Vec<u32>, Vector) {
+    /// If the last plane does not hold all of the region (it crept around a smooth body), the seed stays alone. Tells of steps.
+    fn grow(
+        &mut self,
+        seed: u32,
+        region: u32,
+        tell: &mut impl FnMut(usize) -> Result<()>,
+    ) -> Result<(Vec<u32>, Vector)> {
         let surface = self.surface;
         let position = |v: u32| &self.positions[v as usize];
         let mut reference = surface.triangles[seed as usize];
@@ -97,10 +125,12 @@ impl Regions<'_> {
         while done < triangles.len() {
             let t = triangles[done];
             done += 1;
+            tell(1)?;
             for h in 3 * t..3 * t + 3 {
                 let twin = surface.twins[h as usize];
                 let neighbour = twin / 3;
                 if self.region_of[neighbour as usize] != NONE
+                    || self.failures[neighbour as usize] == MOST_FAILURES
                     || self.triangle_normals[neighbour as usize].dot(&normal) <= 0.0
                 {
                     continue;
@@ -138,11 +168,12 @@ impl Regions<'_> {
         if triangles.len() > 1 && triangles.iter().any(off) {
             for &t in &triangles[1..] {
                 self.region_of[t as usize] = NONE;
+                self.failures[t as usize] += 1;
             }
             triangles.truncate(1);
             normal = self.triangle_normals[seed as usize];
         }
-        (triangles, normal)
+        Ok((triangles, normal))
     }
 
     /// Whether the region is bounded by one simple loop. On a sphere, that makes it a disk.

@@ -11,6 +11,7 @@ use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::mesh::PolygonMesh;
 use crate::normal::{area_vector, normal_of, unit};
 use crate::predicates::ExactPoints;
+use crate::progress::Progress;
 
 /// In units of the largest coordinate: bounds the rounding of a distance from a plane as computed
 /// here (a point relative to an origin: u; a unit normal: relatively 6u, times distances below 4; a
@@ -44,8 +45,14 @@ const MOST_PLANES: usize = 100;
 ///
 /// # Errors
 /// The first violation found, naming the face and the vertex, or an edge; a tolerance that is negative
-/// or not a number.
-pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_flat: bool) -> Result<()> {
+/// or not a number; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn check_convexity(
+    mesh: &PolygonMesh,
+    hull: &Hull,
+    tolerance: f64,
+    allow_flat: bool,
+    progress: &mut Progress,
+) -> Result<()> {
     if tolerance.is_nan() || tolerance < 0.0 {
         return Err(Error::Argument(format!("the convexity tolerance is {tolerance}")));
     }
@@ -69,15 +76,17 @@ pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_fl
     let exact = ExactPoints::new(&mesh.vertices);
     let origin = exact.approximate(hull.vertices[0]);
     let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v) - origin).collect();
-    let boundary = Boundary::new(hull, &position);
+    let boundary = Boundary::new(hull, &position, &mut progress.part(0.0, 0.2))?;
     let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
-    let surface = Extent::of((0..mesh.face_count()).map(polygon));
+    let surface = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.2, 0.3))?;
     if hull.dimension == 3 && surface.volume < -surface.volume_rounding() {
         return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
     }
     let allowed = exact.to_scaled(tolerance) + ROUNDING;
     let mut search = boundary.search();
+    let of_faces = &mut progress.part(0.3, 0.9);
     for f in 0..mesh.face_count() {
+        of_faces.steps(mesh.face(f).len() + std::mem::take(&mut search.steps), f, mesh.face_count())?;
         if boundary.has_triangle_under(mesh.face(f), &exact, allowed) {
             continue;
         }
@@ -99,7 +108,7 @@ pub fn check_convexity(mesh: &PolygonMesh, hull: &Hull, tolerance: f64, allow_fl
             exact.from_scaled(distance)
         ));
     }
-    check_single_cover(mesh, hull, &position, &boundary, &surface, allowed)
+    check_single_cover(mesh, hull, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
 }
 
 /// A vertex farther from a plane than allowed.
@@ -180,14 +189,21 @@ pub(super) struct Side {
 
 /// The side of a closed surface across which a face rises most steeply out of the plane of the other, the first of equals; `None`
 /// if none does but for rounding.
-pub(super) fn most_inward(mesh: &PolygonMesh, sides: impl Iterator<Item = Side>) -> Option<Side> {
+pub(super) fn most_inward(
+    mesh: &PolygonMesh,
+    sides: impl Iterator<Item = Side>,
+    progress: &mut Progress,
+) -> Result<Option<Side>> {
     let exact = ExactPoints::new(&mesh.vertices);
     let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v)).collect();
     let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
     // The faces may all run clockwise.
-    let outward = Extent::of((0..mesh.face_count()).map(polygon)).volume.signum();
+    let outward = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.0, 0.2))?.volume.signum();
     let mut best = (ROUNDING, None);
-    for side in sides {
+    let progress = &mut progress.part(0.2, 1.0);
+    for (done, side) in sides.enumerate() {
+        let corners = side.faces.map(|f| mesh.face(f as usize).len());
+        progress.steps(corners[0] + corners[1], done, mesh.indices.len())?;
         let [normal, across] = side.faces.map(|f| unit(&polygon(f as usize).area));
         let [tail, head] = side.ends.map(|v| position[v as usize]);
         // The sine of the angle between the faces: positive where they bend inward.
@@ -196,7 +212,7 @@ pub(super) fn most_inward(mesh: &PolygonMesh, sides: impl Iterator<Item = Side>)
             best = (rise, Some(side));
         }
     }
-    best.1
+    Ok(best.1)
 }
 
 /// Measures of a whole surface.
@@ -212,16 +228,18 @@ struct Extent {
 }
 
 impl Extent {
-    fn of<'a>(polygons: impl Iterator<Item = Polygon<'a>>) -> Extent {
+    fn of<'a>(polygons: impl ExactSizeIterator<Item = Polygon<'a>>, progress: &mut Progress) -> Result<Extent> {
         let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, squares: 0.0, faces: 0 };
+        let all = polygons.len();
         for p in polygons {
+            progress.steps(p.corners.len(), sum.faces, all)?;
             sum.area += p.area.norm();
             sum.volume += p.centre.dot(&p.area) / 3.0;
             sum.perimeter += p.perimeter;
             sum.squares += p.corners.len() as f64 * p.perimeter * p.perimeter;
             sum.faces += 1;
         }
-        sum
+        Ok(sum)
     }
 
     /// Each face's term is at most its area times the size (below 4 in scaled units) over 3, the
@@ -237,12 +255,13 @@ impl Extent {
 fn check_single_cover(
     mesh: &PolygonMesh,
     hull: &Hull,
-    position: &[Vector],
     boundary: &Boundary,
     surface: &Extent,
     allowed: f64,
+    progress: &mut Progress,
 ) -> Result<()> {
-    let whole = Extent::of(hull.triangles.iter().map(|t| Polygon::new(t, position)));
+    let position = boundary.position;
+    let whole = Extent::of(hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
     let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
     let volume_allowed =
         2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();
@@ -292,12 +311,13 @@ struct Boundary<'a> {
 }
 
 impl<'a> Boundary<'a> {
-    fn new(hull: &'a Hull, position: &'a [Vector]) -> Boundary<'a> {
+    fn new(hull: &'a Hull, position: &'a [Vector], progress: &mut Progress) -> Result<Boundary<'a>> {
         let edges = edges_of(hull);
         // In a hull of dimension 3 each directed edge occurs once; in a flat one twice, which does
         // no harm.
         let mut starts = vec![0_u32; position.len() + 1];
-        for &(tail, _) in &edges {
+        for (done, &(tail, _)) in edges.iter().enumerate() {
+            progress.step(done, 2 * edges.len())?;
             starts[tail as usize + 1] += 1;
         }
         for v in 0..position.len() {
@@ -306,12 +326,13 @@ impl<'a> Boundary<'a> {
         let mut free = starts.clone();
         let (mut neighbours, mut beside) = (vec![0; edges.len()], vec![0; edges.len()]);
         for (corner, &(tail, head)) in edges.iter().enumerate() {
+            progress.step(edges.len() + corner, 2 * edges.len())?;
             let place = free[tail as usize] as usize;
             (neighbours[place], beside[place]) = (head, corner as u32 / 3);
             free[tail as usize] += 1;
         }
         let centre = hull.vertices.iter().map(|v| position[*v as usize]).sum::<Vector>() / hull.vertices.len() as f64;
-        Boundary { hull, position, across: OnceCell::new(), neighbours, beside, starts, centre }
+        Ok(Boundary { hull, position, across: OnceCell::new(), neighbours, beside, starts, centre })
     }
 
     fn across(&self) -> &[u32] {
@@ -320,7 +341,9 @@ impl<'a> Boundary<'a> {
                 return Vec::new();
             }
             let edges = edges_of(self.hull);
-            match_edges(self.position.len(), &edges).unwrap_or_default().iter().map(|c| c / 3).collect()
+            // Of a hull all edges match.
+            let twins = match_edges(self.position.len(), &edges, &mut Progress::new(&mut |_| true));
+            twins.ok().and_then(|twins| twins.ok()).unwrap_or_default().iter().map(|c| c / 3).collect()
         })
     }
 
@@ -395,7 +418,7 @@ impl<'a> Boundary<'a> {
     }
 
     fn search(&'a self) -> Search<'a> {
-        Search { boundary: self, vertex: self.hull.vertices[0], triangle: None }
+        Search { boundary: self, vertex: self.hull.vertices[0], triangle: None, steps: 0 }
     }
 }
 
@@ -404,6 +427,8 @@ struct Search<'a> {
     boundary: &'a Boundary<'a>,
     vertex: u32,
     triangle: Option<usize>,
+    /// Neighbours and triangles looked at.
+    steps: usize,
 }
 
 impl Search<'_> {
@@ -425,6 +450,7 @@ impl Search<'_> {
         let mut level = height(self.vertex);
         loop {
             let v = self.vertex as usize;
+            self.steps += b.valence(self.vertex) as usize;
             let (mut best, mut top) = (self.vertex, level + ROUNDING);
             for &w in &b.neighbours[b.starts[v] as usize..b.starts[v + 1] as usize] {
                 if height(w) > top {
@@ -446,6 +472,7 @@ impl Search<'_> {
         let target = p - b.centre;
         let most_steps = if b.across().is_empty() { 0 } else { 64 + 4 * b.across().len().isqrt() };
         for _ in 0..most_steps {
+            self.steps += 1;
             let corners = b.hull.triangles[triangle].map(|v| b.position[v as usize] - b.centre);
             let outside = |i: &usize| corners[*i].cross(&corners[(i + 1) % 3]).dot(&target) < 0.0;
             let Some(side) = (0..3).find(outside) else { break };

@@ -5,6 +5,7 @@ use crate::error::{Error, Result};
 use crate::hull_build::Hull;
 use crate::math::Vector;
 use crate::predicates::ExactPoints;
+use crate::progress::Progress;
 
 /// Proves with exact predicates that `hull` is what [`Hull`] says of `points`, trusting nothing of
 /// the builder. O(n) for points that are hull vertices, and about O(√n) for each other one.
@@ -27,6 +28,14 @@ use crate::predicates::ExactPoints;
 /// # Errors
 /// [`Error::Bug`], naming the triangle, edge or point at fault.
 pub fn check_hull(points: &[Vector], hull: &Hull) -> Result<()> {
+    check_hull_in_steps(points, hull, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`check_hull`], saying how far it is.
+///
+/// # Errors
+/// As [`check_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn check_hull_in_steps(points: &[Vector], hull: &Hull, progress: &mut Progress) -> Result<()> {
     let count = points.len() as u32;
     let named = hull.vertices.iter().chain(hull.triangles.iter().flatten());
     if let Some(v) = named.clone().find(|v| **v >= count) {
@@ -39,9 +48,9 @@ pub fn check_hull(points: &[Vector], hull: &Hull) -> Result<()> {
     for &v in &hull.vertices {
         is_vertex[v as usize] = true;
     }
-    check_lowest_duplicates(points, &is_vertex)?;
+    check_lowest_duplicates(points, &is_vertex, &mut progress.part(0.0, 0.1))?;
     match hull.dimension {
-        3 => check_solid(points, hull, &is_vertex),
+        3 => check_solid(points, hull, &is_vertex, &mut progress.part(0.1, 1.0)),
         2 => check_polygon(points, hull),
         1 => check_segment(points, hull),
         0 => {
@@ -62,8 +71,8 @@ fn fault<T>(message: String) -> Result<T> {
 }
 
 /// Of exactly equal points only the first may be a vertex.
-fn check_lowest_duplicates(points: &[Vector], is_vertex: &[bool]) -> Result<()> {
-    let first = super::first_of_equal(points);
+fn check_lowest_duplicates(points: &[Vector], is_vertex: &[bool], progress: &mut Progress) -> Result<()> {
+    let first = super::first_of_equal(points, progress)?;
     match (0..points.len()).find(|&i| is_vertex[i] && first[i] != i as u32) {
         Some(i) => fault(format!("vertex {i} equals point {}", first[i])),
         None => Ok(()),
@@ -142,7 +151,7 @@ fn check_polygon(points: &[Vector], hull: &Hull) -> Result<()> {
 }
 
 /// The proof in three dimensions.
-fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()> {
+fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mut Progress) -> Result<()> {
     let triangles = &hull.triangles;
     let mut used = vec![false; points.len()];
     for t in triangles {
@@ -157,7 +166,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()>
         return fault(format!("point {i} is listed as a vertex or used by a triangle, but not both"));
     }
     let edges: Vec<(u32, u32)> = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
-    let twins = match_edges(points.len(), &edges).or_else(|uses| {
+    let twins = match_edges(points.len(), &edges, &mut progress.part(0.0, 0.2))?.or_else(|uses| {
         let (tail, head) = edges[uses[0] as usize];
         fault(format!("edge {tail}-{head} is not used twice in opposite directions"))
     })?;
@@ -173,7 +182,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()>
     extended.extend([centre, target]);
     let (c, g) = (points.len() as u32, points.len() as u32 + 1);
     let mut exact = ExactPoints::new(&extended);
-    if !is_proper_ray(&exact, triangles, start, c, g) {
+    if !is_proper_ray(&exact, triangles, start, [c, g], &mut progress.part(0.2, 0.4))? {
         let [p, q, r] = triangles[start];
         exact = ExactPoints::new(points);
         // A point off the plane of one triangle makes the average of all four strictly interior.
@@ -182,14 +191,20 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()>
         };
         exact.push_average([p, q, r, s]);
         exact.push_average([p, p, q, r]);
-        if let Some(t) = triangles.iter().find(|t| exact.orientation(**t, c) >= 0.0) {
-            return fault(format!("triangle {t:?} is not strictly in front of an interior point"));
+        let progress = &mut progress.part(0.4, 0.5);
+        for (done, t) in triangles.iter().enumerate() {
+            progress.step(done, triangles.len())?;
+            if exact.orientation(*t, c) >= 0.0 {
+                return fault(format!("triangle {t:?} is not strictly in front of an interior point"));
+            }
         }
     }
     // Signs of (c, tail, head, g): whether g is on the inner side of the cone over the triangle at
     // that edge.
     let mut inside = vec![0.0; edges.len()];
+    let of_cones = &mut progress.part(0.5, 0.7);
     for (corner, &(tail, head)) in edges.iter().enumerate() {
+        of_cones.step(corner, edges.len())?;
         let twin = twins[corner] as usize;
         inside[corner] = if twin < corner { -inside[twin] } else { exact.orientation([c, tail, head], g) };
     }
@@ -200,7 +215,9 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()>
     }
 
     let mut sharp_edges = vec![0; points.len()];
+    let of_edges = &mut progress.part(0.7, 0.9);
     for (corner, &twin) in twins.iter().enumerate() {
+        of_edges.step(corner, twins.len())?;
         if twin as usize > corner {
             let (tail, head) = edges[corner];
             let across = edges[previous(twin) as usize].0;
@@ -220,7 +237,9 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool]) -> Result<()>
 
     let planes: Vec<_> = triangles.iter().map(|t| exact.plane(*t)).collect();
     let mut at = start;
+    let of_others = &mut progress.part(0.9, 1.0);
     for p in (0..points.len() as u32).filter(|p| !is_vertex[*p as usize]) {
+        of_others.step(p as usize, points.len())?;
         at = pierced_triangle(&exact, triangles, &twins, c, p, at);
         if exact.height(&planes[at], p) > 0.0 {
             return fault(format!("point {p} is above triangle {:?}", triangles[at]));
@@ -236,10 +255,21 @@ fn previous(corner: u32) -> u32 {
 
 /// Whether c is strictly behind all triangles and the ray from c to g passes through the inside of
 /// triangle `start`.
-fn is_proper_ray(exact: &ExactPoints, triangles: &[[u32; 3]], start: usize, c: u32, g: u32) -> bool {
+fn is_proper_ray(
+    exact: &ExactPoints,
+    triangles: &[[u32; 3]],
+    start: usize,
+    [c, g]: [u32; 2],
+    progress: &mut Progress,
+) -> Result<bool> {
+    for (done, t) in triangles.iter().enumerate() {
+        progress.step(done, triangles.len())?;
+        if exact.orientation(*t, c) >= 0.0 {
+            return Ok(false);
+        }
+    }
     let [p, q, r] = triangles[start];
-    triangles.iter().all(|t| exact.orientation(*t, c) < 0.0)
-        && [[c, p, q], [c, q, r], [c, r, p]].iter().all(|side| exact.orientation(*side, g) > 0.0)
+    Ok([[c, p, q], [c, q, r], [c, r, p]].iter().all(|side| exact.orientation(*side, g) > 0.0))
 }
 
 /// The triangle that the ray from c through p meets, by a walk from `start`. The cones over the

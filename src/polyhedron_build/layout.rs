@@ -5,6 +5,7 @@ use crate::face_merge::MergedFaces;
 use crate::math::{UNIT_ROUNDOFF, Vector};
 use crate::normal::unit;
 use crate::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
+use crate::progress::Progress;
 use crate::slack::Flood;
 use crate::triangulation::Triangulation;
 
@@ -130,6 +131,9 @@ impl Polyhedron {
 
     /// Adds all edges, ordered by their lower vertex, and the bevels of the sharp ones. Returns the edge of each half-edge, NONE
     /// inside faces.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when the caller does not want to go on.
     pub(super) fn add_edges(
         &mut self,
         surface: &Triangulation,
@@ -137,11 +141,13 @@ impl Polyhedron {
         merged: &MergedFaces,
         slacks: &[f64],
         flood: &mut Flood,
-    ) -> Vec<u32> {
+        progress: &mut Progress,
+    ) -> Result<Vec<u32>> {
         let mut edge_of = vec![NONE; surface.twins.len()];
         // Euler: corners − edges + faces = 2.
         self.edges.reserve_exact(merged.normals.len() + merged.corners.iter().filter(|c| **c).count());
         for tail in (0..positions.len() as u32).filter(|v| merged.corners[*v as usize]) {
+            progress.steps(4 * surface.around(tail).len(), tail as usize, positions.len())?;
             for &first in surface.around(tail) {
                 if !merged.is_boundary(surface, first) || edge_of[first as usize] != NONE {
                     continue;
@@ -166,7 +172,7 @@ impl Polyhedron {
                 self.edges.push(edge);
             }
         }
-        edge_of
+        Ok(edge_of)
     }
 
     /// Adds all faces with their sides.
@@ -177,6 +183,7 @@ impl Polyhedron {
         merged: &MergedFaces,
         slacks: &[f64],
         edge_of: &[u32],
+        progress: &mut Progress,
     ) -> Result<()> {
         self.faces.reserve_exact(merged.normals.len());
         self.sides.reserve_exact(2 * self.edges.len());
@@ -189,6 +196,7 @@ impl Polyhedron {
             let mut h = first;
             loop {
                 let last = merged.last_of_edge(surface, h);
+                progress.steps(4, face, merged.normals.len())?;
                 let (tail, head) = (surface.tail(h), surface.head(last));
                 let height = normal.dot(&positions[tail as usize]);
                 (low, high) = (low.min(height), high.max(height));
@@ -226,14 +234,16 @@ impl Polyhedron {
     }
 
     /// Finds the vertices inside merged faces: no edge leads to a neighbour of theirs.
-    pub(super) fn find_flat_vertices(&mut self) {
+    pub(super) fn find_flat_vertices(&mut self, progress: &mut Progress) -> Result<()> {
         let is_flat = |v: &&u32| self.vertices[**v as usize].neighbours.edge[0] == NONE;
-        for (triangle, &face) in self.triangles.iter().zip(&self.face_of_triangle) {
+        for (done, (triangle, &face)) in self.triangles.iter().zip(&self.face_of_triangle).enumerate() {
+            progress.step(done, self.triangles.len())?;
             self.flat_vertices.extend(triangle.iter().filter(is_flat).map(|v| [*v, face]));
         }
         self.flat_vertices.sort_unstable();
         self.flat_vertices.dedup();
         self.flat_vertices.shrink_to_fit();
+        Ok(())
     }
 
     /// Adds one of the sides beyond the third of the last face; lane 0 begins a block.

@@ -9,7 +9,7 @@ use crate::error::Result;
 use crate::face_labels::{label_by_index, label_by_polygons};
 use crate::face_merge::{MergedFaces, merge_bound, merge_faces};
 use crate::hull_build::{Hull, convex_hull};
-use crate::locality::{sort_along_curve, sort_triangles};
+use crate::locality::{in_order, sort_along_curve, sort_triangles};
 use crate::lookup::Lookup;
 use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
@@ -47,26 +47,29 @@ pub fn build_in_steps(
     let centre = centre_of(points);
     // The sum with +0 turns −0 into 0.
     let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
-    sort_along_curve(&mut hull.vertices, &centred);
+    sort_along_curve(&mut hull.vertices, &centred, &mut progress.part(0.0, 0.02))?;
 
     let factor = factor_to_middle_scale(&centred);
     let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
     // At another scale the centre may be beyond the doubles.
     let about = if factor == 1.0 { centre } else { Vector::zeros() };
-    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about, &mut progress.part(0.1, 0.9))?;
+    let surface = HullSurface::new(&scaled, hull, &mut progress.part(0.02, 0.1))?;
+    let mut polyhedron = surface.lay_out(about, &mut progress.part(0.1, 0.88))?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
-            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers.map(|numbers| &numbers.faces[..]));
+            let numbers = numbers.map(|numbers| &numbers.faces[..]);
+            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers, &mut progress.part(0.88, 0.97))?;
         }
         _ => label_by_index(&mut polyhedron),
     }
-    if let Some(Numbers { vertices, .. }) = numbers {
-        polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
-    }
-    copy_labels(&mut polyhedron);
     if factor != 1.0 {
         scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
     }
+    // Until here labels are indices of `points`.
+    if let Some(Numbers { vertices, .. }) = numbers {
+        polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
+    }
+    copy_labels_in_steps(&mut polyhedron, &mut progress.part(0.97, 1.0))?;
     let is_usual = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.ordinary = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_usual;
     Ok(polyhedron)
@@ -137,16 +140,24 @@ fn are_distinct(numbers: &[u32]) -> bool {
 
 /// Puts the labels where an answer reads them together with the feature; to be called when they have changed.
 pub fn copy_labels(polyhedron: &mut Polyhedron) {
-    for edge in &mut polyhedron.edges {
+    copy_labels_in_steps(polyhedron, &mut Progress::new(&mut |_| true)).expect("nobody cancels");
+}
+
+fn copy_labels_in_steps(polyhedron: &mut Polyhedron, progress: &mut Progress) -> Result<()> {
+    let all = polyhedron.edges.len() + polyhedron.faces.len();
+    for (done, edge) in polyhedron.edges.iter_mut().enumerate() {
+        progress.step(done, all)?;
         edge.labels = [edge.tail(), edge.head()].map(|v| polyhedron.vertex_labels[v as usize]);
     }
     for face in 0..polyhedron.faces.len() {
+        progress.step(polyhedron.edges.len() + face, all)?;
         let label = match *polyhedron.labels_of_face(face as u32) {
             [label] => label,
             _ => NONE,
         };
         polyhedron.faces[face].label = label;
     }
+    Ok(())
 }
 
 /// What to subtract from all points: per axis the middle m of the range [m−h, m+h] if h ≤ |m|/3, else 0.
@@ -175,32 +186,31 @@ struct HullSurface {
 }
 
 impl HullSurface {
-    fn new(points: &[Vector], hull: Hull) -> HullSurface {
-        let positions: Vec<Vector> = hull.vertices.iter().map(|v| points[*v as usize]).collect();
+    fn new(points: &[Vector], hull: Hull, progress: &mut Progress) -> Result<HullSurface> {
+        let positions = in_order(points, &hull.vertices, &mut progress.part(0.0, 0.05))?;
         let mut index = vec![NONE; points.len()];
         for (new, &old) in hull.vertices.iter().enumerate() {
             index[old as usize] = new as u32;
         }
         // Like the vertices in order of place, each triangle from its lowest vertex.
-        let mut triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(|v| index[v as usize])).collect();
-        sort_triangles(&mut triangles, positions.len());
+        let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(hull.triangles.len());
+        let of_triangles = &mut progress.part(0.05, 0.15);
+        for t in &hull.triangles {
+            of_triangles.step(triangles.len(), hull.triangles.len())?;
+            triangles.push(t.map(|v| index[v as usize]));
+        }
+        sort_triangles(&mut triangles, positions.len(), &mut progress.part(0.15, 0.3))?;
         let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
-        let areas: Vec<WideVector> = triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = corners(t);
-                area_vector(&a, &b, &c)
-            })
-            .collect();
-        let normals = triangles
-            .iter()
-            .zip(&areas)
-            .map(|(t, area)| {
-                let [a, b, c] = corners(t);
-                normal_of(area, &a, &b, &c)
-            })
-            .collect();
-        HullSurface { dimension: hull.dimension, positions, labels: hull.vertices, triangles, areas, normals }
+        let (mut areas, mut normals) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(triangles.len()));
+        let progress = &mut progress.part(0.3, 1.0);
+        for (done, [a, b, c]) in triangles.iter().map(corners).enumerate() {
+            progress.step(done, triangles.len())?;
+            let area = area_vector(&a, &b, &c);
+            areas.push(area);
+            normals.push(normal_of(&area, &a, &b, &c));
+        }
+        let (dimension, labels) = (hull.dimension, hull.vertices);
+        Ok(HullSurface { dimension, positions, labels, triangles, areas, normals })
     }
 
     fn lay_out(self, centre: Vector, progress: &mut Progress) -> Result<Polyhedron> {
@@ -208,7 +218,8 @@ impl HullSurface {
         let longest = self.positions.iter().map(|p| p.norm()).fold(0.0, f64::max);
         // The norm is right to 3u.
         let radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
-        let mass = mass_properties(self.dimension, &self.positions, &centre, &self.triangles, &self.areas);
+        let of_mass = &mut progress.part(0.0, 0.05);
+        let mass = mass_properties(self.dimension, &self.positions, &centre, &self.triangles, &self.areas, of_mass)?;
         let mut polyhedron = Polyhedron {
             dimension: self.dimension,
             centre,
@@ -242,23 +253,26 @@ impl HullSurface {
         }
 
         let sizes: Vec<f64> = self.areas.iter().map(|a| narrow(a).norm()).collect();
-        let surface = Triangulation::new(self.triangles, &self.normals, self.positions.len())?;
-        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius));
-        progress.report(0.3)?;
+        let of_surface = &mut progress.part(0.05, 0.15);
+        let surface = Triangulation::new_in_steps(self.triangles, &self.normals, self.positions.len(), of_surface)?;
+        let bound = merge_bound(radius);
+        let of_merging = &mut progress.part(0.15, 0.3);
+        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, bound, of_merging)?;
         let mut flood = Flood::new(&surface, &self.positions, radius);
-        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood);
-        progress.report(0.5)?;
-        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
-        progress.report(0.7)?;
-        polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
-        progress.report(0.8)?;
+        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood, &mut progress.part(0.3, 0.5))?;
+        let of_edges = &mut progress.part(0.5, 0.7);
+        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood, of_edges)?;
+        let of_faces = &mut progress.part(0.7, 0.8);
+        polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of, of_faces)?;
+        let of_vertices = &mut progress.part(0.8, 0.9);
         polyhedron.vertices.reserve_exact(self.positions.len());
         for v in 0..self.positions.len() as u32 {
+            of_vertices.steps(surface.around(v).len(), v as usize, self.positions.len())?;
             polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
         }
         polyhedron.triangles = surface.triangles;
         polyhedron.face_of_triangle = merged.face_of;
-        polyhedron.find_flat_vertices();
+        polyhedron.find_flat_vertices(&mut progress.part(0.9, 1.0))?;
         Ok(polyhedron)
     }
 }
@@ -268,20 +282,27 @@ const FLOOD_EFFORT: usize = 128;
 
 /// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below. `normals` are the
 /// triangles'.
-fn face_slacks(surface: &Triangulation, normals: &[Vector], merged: &MergedFaces, flood: &mut Flood) -> Vec<f64> {
+fn face_slacks(
+    surface: &Triangulation,
+    normals: &[Vector],
+    merged: &MergedFaces,
+    flood: &mut Flood,
+    progress: &mut Progress,
+) -> Result<Vec<f64>> {
     let start = |face: usize| surface.tail(merged.first_half_edges[face]);
     let mut triangle_counts = vec![0_usize; merged.normals.len()];
     merged.face_of.iter().for_each(|face| triangle_counts[*face as usize] += 1);
-    let flooded: Vec<Option<f64>> = merged
-        .normals
-        .iter()
-        .zip(&triangle_counts)
-        .enumerate()
-        .map(|(face, (normal, count))| flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count))
-        .collect();
+    let all = merged.normals.len() + surface.triangles.len();
+    let mut flooded: Vec<Option<f64>> = Vec::with_capacity(merged.normals.len());
+    for (face, (normal, count)) in merged.normals.iter().zip(&triangle_counts).enumerate() {
+        // Most look at twenty neighbours, as said above; a face of many triangles looks at some of each.
+        progress.steps(16 + 8 * count, face, all)?;
+        flooded.push(flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
+    }
     let mut slacks: Vec<f64> = flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)).collect();
     let mut falls = vec![0.0_f64; slacks.len()];
     for (t, (triangle, &face)) in surface.triangles.iter().zip(&merged.face_of).enumerate() {
+        progress.steps(4, merged.normals.len() + t, all)?;
         let face = face as usize;
         let normal = &merged.normals[face];
         falls[face] = falls[face].max(flood.fall(normal, start(face), *triangle));
@@ -295,5 +316,5 @@ fn face_slacks(surface: &Triangulation, normals: &[Vector], merged: &MergedFaces
     for (slack, fall) in slacks.iter_mut().zip(falls) {
         *slack = (*slack + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF);
     }
-    slacks
+    Ok(slacks)
 }
