@@ -271,25 +271,22 @@ fn integer_sign(value: &IBig) -> f64 {
 
 /// All points times the same power of two, chosen so that they become integers.
 fn to_integers(points: &[[f64; 3]]) -> Vec<[IBig; 3]> {
-    let nonzero = points.iter().flatten().filter(|x| **x != 0.0);
-    let lowest = nonzero.map(|x| mantissa_and_exponent(*x).1).min().unwrap_or(0);
-    let integer = |x: f64| {
-        if x == 0.0 {
-            return IBig::ZERO;
-        }
-        let (mantissa, exponent) = mantissa_and_exponent(x);
-        IBig::from(mantissa) << ((exponent - lowest) as usize)
+    let parts = || points.iter().flatten().map(|x| mantissa_and_exponent(*x));
+    let lowest = parts().filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0);
+    let integer = |x: f64| match mantissa_and_exponent(x) {
+        (0, _) => IBig::ZERO,
+        (mantissa, exponent) => IBig::from(mantissa) << ((exponent - lowest) as usize),
     };
     points.iter().map(|p| p.map(integer)).collect()
 }
 
-/// x = mantissa·2^exponent, exactly.
+/// x = mantissa·2^exponent, exactly. By its bits alone: a comparison takes a subnormal number for 0 where these are flushed.
 pub fn mantissa_and_exponent(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)) as i64;
     let (magnitude, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };
-    (if x < 0.0 { -magnitude } else { magnitude }, exponent)
+    (if bits >> 63 == 1 { -magnitude } else { magnitude }, exponent)
 }
 
 /// The e with 2^(e−1) ≤ x < 2^e, for x ≥ 0; 0 for x = 0.
