@@ -26,11 +26,11 @@
 
 pub mod error;
 mod enumerator;
-pub mod progress;
 pub mod math;
 mod locality;
 #[doc(hidden)]
 pub mod simd;
+pub mod progress;
 #[doc(hidden)]
 pub mod double_double;
 #[doc(hidden)]

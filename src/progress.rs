@@ -1,6 +1,9 @@
 //! Progress of long builds, and their cancellation.
 
+use std::hint::black_box;
+
 use crate::error::{Error, Result};
+use crate::simd::environment;
 
 /// Where a long build says how far it is: the caller's function gets a fraction that never falls, from 0 to 1, and returns whether
 /// to go on.
@@ -27,7 +30,9 @@ impl<'a> Progress<'a> {
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on.
     pub fn report(&mut self, fraction: f64) -> Result<()> {
-        if (self.callback)(self.start + fraction * (self.end - self.start)) {
+        // In the library's floating-point environment: nothing may move it behind the change to the program's.
+        let fraction = black_box(self.start + fraction * (self.end - self.start));
+        if environment::with_callers(|| (self.callback)(fraction)) {
             Ok(())
         } else {
             Err(Error::Cancelled("the progress callback asked to stop".into()))
