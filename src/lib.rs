@@ -26,12 +26,12 @@
 
 pub mod error;
 mod enumerator;
-pub mod progress;
-mod sorting;
 pub mod math;
-mod locality;
 #[doc(hidden)]
 pub mod simd;
+pub mod progress;
+mod sorting;
+mod locality;
 #[doc(hidden)]
 pub mod double_double;
 mod extended_range;

@@ -55,6 +55,8 @@ fn cells(indices: &[u32], points: &[Vector], progress: &mut Progress) -> Result<
     }
     // Halves, so that the size of the largest box does not overflow.
     let (low, half_size) = (0.5 * low, (0.5 * high - 0.5 * low).amax());
+    // Points that are all one are all in the first cell.
+    let half_size = if half_size > 0.0 { half_size } else { 1.0 };
     let cell = |x: f64, low: f64| ((0.5 * x - low) / half_size * f64::from((1_u32 << 21) - 1)) as u64;
     let code = |i: u32| {
         let p = &points[i as usize];

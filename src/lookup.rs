@@ -12,7 +12,7 @@
 use std::f64::consts::PI;
 use std::sync::OnceLock;
 
-use crate::math::Vector;
+use crate::math::{Vector, divisor};
 
 /// A vertex for each cell, as narrow as the number of vertices allows.
 #[derive(Debug, Clone, PartialEq)]
@@ -169,7 +169,7 @@ impl Grid {
     fn cell(&self, [x, y, z]: [f32; 3]) -> usize {
         // The octahedron |x| + |y| + |z| = 1 seen from above; its lower half is folded out to the corners of the square, where
         // 1 − |v| = |u| + |w|. Without a branch, which would be guessed wrong half of the time.
-        let scale = 1.0 / (x.abs() + y.abs() + z.abs());
+        let scale = 1.0 / (x.abs() + y.abs() + z.abs()).max(f32::MIN_POSITIVE);
         let (u, v, w) = (x * scale, y * scale, z * scale);
         let fold = if w < 0.0 { -w } else { 0.0 };
         let (u, v) = (u + fold.copysign(u), v + fold.copysign(v));
@@ -226,7 +226,7 @@ impl Spherical {
     pub fn cell(&self, direction: &Vector) -> usize {
         let around_length = 2 * self.resolution;
         let [x, y, z] = [direction.x, direction.y, direction.z];
-        let altitude = -z * z.abs() / (x * x + y * y + z * z);
+        let altitude = -z * z.abs() / divisor(x * x + y * y + z * z);
         match self.altitudes.partition_point(|step| *step < altitude) {
             0 => 0,
             ring if ring == self.resolution => self.cells.len() - 1,
@@ -262,7 +262,7 @@ impl Spherical {
 
 /// A number in [0, 4) that rises with the azimuth of (x, y): where a ray meets the square |x| + |y| = 1, going round.
 fn around(x: f64, y: f64) -> f64 {
-    let along = y / (x.abs() + y.abs());
+    let along = y / divisor(x.abs() + y.abs());
     if x < 0.0 {
         2.0 - along
     } else if along < 0.0 {

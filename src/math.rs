@@ -23,6 +23,12 @@ pub fn clamp(x: f64, low: f64, high: f64) -> f64 {
     if x < high { x } else { high }
 }
 
+/// A number from 0 on to divide by: at least the least normal one, so that no 0/0 is computed where centres or points are one.
+#[inline(always)]
+pub fn divisor(x: f64) -> f64 {
+    if x > f64::MIN_POSITIVE { x } else { f64::MIN_POSITIVE }
+}
+
 /// 2^`exponent`, from −1022 to 1023, exactly: `powi` promises no precision.
 #[inline]
 pub fn power_of_two(exponent: i32) -> f64 {

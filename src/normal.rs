@@ -51,8 +51,8 @@ pub fn normal_of(area: &WideVector, o: &Vector, p: &Vector, q: &Vector) -> Vecto
 /// As [`normal_of`], by integers: for the thinnest triangles.
 #[cold]
 fn exact_normal(o: &Vector, p: &Vector, q: &Vector) -> Vector {
-    let coordinates = || [o, p, q].into_iter().flat_map(|v| v.iter().copied());
-    let lowest = coordinates().filter(|x| *x != 0.0).map(|x| mantissa_and_exponent(x).1).min().unwrap_or(0);
+    let parts = [o, p, q].into_iter().flat_map(|v| v.iter().map(|x| mantissa_and_exponent(*x)));
+    let lowest = parts.filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0);
     let integer = |x: f64| match mantissa_and_exponent(x) {
         (0, _) => IBig::ZERO,
         (mantissa, exponent) => IBig::from(mantissa) << ((exponent - lowest) as usize),

@@ -24,6 +24,7 @@ use crate::math::{Pose, clamp};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::simd;
+use crate::simd::environment::{self, with_default};
 use crate::state::State;
 
 /// What is asked of a pair.
@@ -54,6 +55,9 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
+    if !environment::is_default() {
+        return with_default(move || distance(shape1, pose1, shape2, pose2, cache, config, answer));
+    }
     query(Query::Distance, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
@@ -71,6 +75,9 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
+    if !environment::is_default() {
+        return with_default(move || intersection(shape1, pose1, shape2, pose2, cache, config, answer));
+    }
     query(Query::Intersection, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
@@ -91,6 +98,9 @@ pub fn contact(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
+    if !environment::is_default() {
+        return with_default(move || contact(shape1, pose1, shape2, pose2, cache, config, answer));
+    }
     query(Query::Contact, [shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 
@@ -114,6 +124,9 @@ pub fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
+    if !environment::is_default() {
+        return with_default(move || approximate(shape1, pose1, shape2, pose2, cache, config, answer));
+    }
     levels::approximate([shape1, shape2], [pose1, pose2], cache, config, answer)
 }
 

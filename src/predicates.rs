@@ -342,13 +342,13 @@ fn extended_height([a, b, c]: [&[f64; 3]; 3], p: &[f64; 3]) -> (Extended, Extend
     (x.0 + y.0 + z.0, x.1 + y.1 + z.1)
 }
 
-/// x = mantissa·2^exponent, exactly.
+/// x = mantissa·2^exponent, exactly. By its bits alone: a comparison takes a subnormal number for 0 where these are flushed.
 pub fn mantissa_and_exponent(x: f64) -> (i64, i32) {
     let bits = x.to_bits();
     let biased = ((bits >> 52) & 0x7ff) as i32;
     let fraction = (bits & ((1 << 52) - 1)) as i64;
     let (magnitude, exponent) = if biased == 0 { (fraction, -1074) } else { (fraction | (1 << 52), biased - 1075) };
-    (if x < 0.0 { -magnitude } else { magnitude }, exponent)
+    (if bits >> 63 == 1 { -magnitude } else { magnitude }, exponent)
 }
 
 /// The e with 2^(e−1) ≤ x < 2^e, for x ≥ 0; 0 for x = 0.

@@ -1,6 +1,9 @@
 //! Progress of long builds, and their cancellation.
 
+use std::hint::black_box;
+
 use crate::error::{Error, Result};
+use crate::simd::environment;
 
 /// Steps between two reports. A step takes well below a microsecond; the longest, a sign from integers of 2,000 bits, some ten.
 const STEPS_A_REPORT: usize = 2048;
@@ -33,7 +36,9 @@ impl<'a> Progress<'a> {
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on.
     pub fn report(&mut self, fraction: f64) -> Result<()> {
-        if (self.callback)(self.start + fraction * (self.end - self.start)) {
+        // In the library's floating-point environment: nothing may move it behind the change to the program's.
+        let fraction = black_box(self.start + fraction * (self.end - self.start));
+        if environment::with_callers(|| (self.callback)(fraction)) {
             Ok(())
         } else {
             Err(Error::Cancelled("the progress callback asked to stop".into()))

@@ -14,6 +14,7 @@ use crate::math::{Pose, ROTATION_LIMIT};
 use crate::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use crate::shape::Shape;
+use crate::simd::environment::with_default;
 
 /// How a scene is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -198,7 +199,7 @@ impl Scene {
     /// [`Error::Argument`] for a rotation limit that is negative, NaN or above [`ROTATION_LIMIT`].
     pub fn new(options: &SceneOptions) -> Result<Scene> {
         let rotation_limit = options.rotation_limit;
-        check_range("rotation_limit", rotation_limit, 0.0..=ROTATION_LIMIT)?;
+        with_default(|| check_range("rotation_limit", rotation_limit, 0.0..=ROTATION_LIMIT))?;
         Ok(Scene {
             objects: ObjectTable::new(),
             activation: Activation::default(),
@@ -224,7 +225,7 @@ impl Scene {
         if u32::try_from(pieces.len()).is_err() {
             return Err(Error::Limit(format!("{} pieces do not fit 32 bits", pieces.len())));
         }
-        options.pose.check(self.rotation_limit)?;
+        with_default(|| options.pose.check(self.rotation_limit))?;
         let id = self.objects.insert(pieces, options)?;
         self.activation.set_object(self.objects.get_mut(id)?, true);
         self.pairs_changed = true;
@@ -288,7 +289,7 @@ impl Scene {
     /// the object then stays where it is.
     pub fn set_pose(&mut self, id: ObjectId, pose: &Pose) -> Result<()> {
         let object = self.objects.get_mut(id)?;
-        pose.check(self.rotation_limit)?;
+        with_default(|| pose.check(self.rotation_limit))?;
         object.pose = *pose;
         Ok(())
     }
@@ -304,7 +305,8 @@ impl Scene {
             return Err(Error::Argument(format!("{} poses for {moving} objects that are not fixed", poses.len())));
         }
         for (k, pose) in poses.iter().enumerate() {
-            pose.check(self.rotation_limit).map_err(|e| Error::Pose(format!("pose {k} of {moving}: {e}")))?;
+            with_default(|| pose.check(self.rotation_limit))
+                .map_err(|e| Error::Pose(format!("pose {k} of {moving}: {e}")))?;
         }
         let mut poses = poses.iter();
         self.objects.for_each_mut(|object| {
@@ -486,6 +488,10 @@ impl Scene {
     /// Solves every tested pair and lists those within `tolerance`; without one only the verdict is asked for, and intersecting
     /// pairs are listed.
     fn run(&mut self, query: &SceneQuery, tolerance: Option<f64>, solver: Solver) -> Result<SceneAnswer<'_>> {
+        with_default(|| self.solve_all(query, tolerance, solver))
+    }
+
+    fn solve_all(&mut self, query: &SceneQuery, tolerance: Option<f64>, solver: Solver) -> Result<SceneAnswer<'_>> {
         check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
         pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
         check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;

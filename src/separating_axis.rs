@@ -8,7 +8,7 @@ use crate::certificate::{Interval, interval, reciprocal_length};
 use crate::frame::{Body, Frame};
 use crate::lookup::{Plan, Table};
 use crate::lookup_build::tables;
-use crate::math::Vector;
+use crate::math::{Vector, divisor};
 use crate::simd::{Lanes, Work};
 use crate::voronoi::{Corner, Rule, VertexTest, test_vertex};
 
@@ -118,9 +118,9 @@ impl<L: Lanes> Trial<L> {
     fn next(&self, frame: &Frame<L>) -> Trial<L> {
         let unit = self.direction.mul(L::splat(self.inverse));
         let direction = if self.is_clear {
-            self.difference.negated_mul_add(L::splat(2.0 * self.gap / (self.distance * self.distance)), unit)
+            self.difference.negated_mul_add(L::splat(2.0 * self.gap / divisor(self.distance * self.distance)), unit)
         } else {
-            self.difference.mul_add(L::splat(NUDGE / self.distance), unit)
+            self.difference.mul_add(L::splat(NUDGE / divisor(self.distance)), unit)
         };
         Trial::new(frame, direction, self.vertices, self.steps, LONGEST_CLIMBS[1])
     }
@@ -140,7 +140,7 @@ impl<L: Lanes> Work for Search<'_, L> {
     #[inline(always)]
     fn run(&mut self) {
         let frame = self.frame;
-        let direction = frame.bodies[0].offset.mul(L::splat(1.0 / frame.separation));
+        let direction = frame.bodies[0].offset.mul(L::splat(1.0 / divisor(frame.separation)));
         let vertices = farthest(frame, direction).unwrap_or(self.trial.vertices);
         self.trial = Trial::new(frame, direction, vertices, self.trial.steps, LONGEST_CLIMBS[1]);
         for _ in 1..MOST_DIRECTIONS {

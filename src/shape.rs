@@ -17,6 +17,7 @@ use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::build_in_steps;
 use crate::progress::Progress;
+use crate::simd::environment::with_default;
 
 /// Default of [`ShapeOptions::convexity_tolerance`].
 const CONVEXITY_TOLERANCE: f64 = 1e-9;
@@ -118,6 +119,10 @@ impl Shape {
     /// # Errors
     /// As [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_mesh_in_steps(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| Shape::of_mesh(mesh, options, progress))
+    }
+
+    fn of_mesh(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
@@ -181,9 +186,11 @@ impl Shape {
     /// # Errors
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
-        let points = transformed(points, options, &mut progress.part(0.0, 0.0))?;
-        check_points(&points)?;
-        Shape::of_points(&points, options, progress)
+        with_default(|| {
+            let points = transformed(points, options, &mut progress.part(0.0, 0.0))?;
+            check_points(&points)?;
+            Shape::of_points(&points, options, progress)
+        })
     }
 
     /// From finite points that went through the input transform.
@@ -224,6 +231,10 @@ impl Shape {
     /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks
     /// for levels to be built.
     pub fn from_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| Shape::of_levels(meshes, options, progress))
+    }
+
+    fn of_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let Some((mesh, levels)) = meshes.split_first() else {
             return Err(Error::Argument("no level is given, not even the body itself".into()));
         };
@@ -260,7 +271,7 @@ impl Shape {
     /// # Errors
     /// As [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
-        options.check()?;
+        with_default(|| options.check())?;
         let Shape { polyhedron, .. } = self;
         let hierarchy = match options.kind {
             HierarchyKind::Automatic => {
@@ -317,6 +328,10 @@ impl Shape {
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on: no levels are made then, and the shape can be used as before.
     pub fn prepare(&self, progress: &mut Progress) -> Result<()> {
+        with_default(|| self.make_ready(progress))
+    }
+
+    fn make_ready(&self, progress: &mut Progress) -> Result<()> {
         /// Of the time that both take, about, at 100,000 and 200,000 vertices.
         const SHARE_OF_TABLE: f64 = 0.06;
         progress.report(0.0)?;

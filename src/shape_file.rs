@@ -21,6 +21,7 @@ use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::{Labels, build_in_steps};
 use crate::progress::Progress;
 use crate::shape::Shape;
+use crate::simd::environment::with_default;
 use crate::state::FeatureId;
 
 /// What a shape file begins with. The last byte keeps it from passing for text.
@@ -101,6 +102,10 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
 /// # Errors
 /// As [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
+    with_default(|| read(bytes, progress))
+}
+
+fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
     /// What reading and proving the bodies takes of the time: 0.95 without levels, 0.65 with 32, and this with five.
     const SHARE_OF_BODIES: f64 = 0.8;
     progress.report(0.0)?;

@@ -247,7 +247,8 @@ impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
         // How far the body reaches towards the other's centre of mass, which is at this point, as a fraction of the way.
         let part = |point: [f32; 3], [x, y, z, _]: [f32; 4]| {
             let [a, b, c] = point;
-            (a * x + b * y + c * z) / (a * a + b * b + c * c)
+            let square = a * a + b * b + c * c;
+            if square > 0.0 { (a * x + b * y + c * z) / square } else { f32::INFINITY }
         };
         let part1 = part(back.offset, self.first.position(self.first.farthest(back.offset)));
         let part2 = part(there.offset, self.second.position(self.second.farthest(there.offset)));

@@ -10,6 +10,7 @@ use crate::exact::{self, VertexPair};
 use crate::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
+use crate::simd::environment::with_default;
 use bounds::{Bounds, PointInside};
 use witness::Witness;
 
@@ -48,6 +49,10 @@ use witness::Witness;
 /// answer that holds no outcome or vertex indices that the shapes do not have, and for a normal or points of objects so large or
 /// far apart that doubles cannot tell.
 pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
+    with_default(|| check_answer(shape1, pose1, shape2, pose2, answer))
+}
+
+fn check_answer(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
     let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
     let poses = [pose1, pose2];
     for pose in poses {

@@ -126,8 +126,12 @@ pub fn steepest<L: Lanes>(corner: Corner, g: L) -> (f32, u32, u32) {
 /// A vertex farthest in direction g, by steepest hill climbing in plain rounding.
 #[inline(always)]
 pub fn climb<L: Lanes>(polyhedron: &Polyhedron, g: L, start: u32) -> u32 {
+    let length = g.norm1();
+    if !(length >= f64::MIN_POSITIVE) {
+        return start;
+    }
     // Of a length that single precision holds.
-    let g = g.mul(L::splat(1.0 / g.norm1()));
+    let g = g.mul(L::splat(1.0 / length));
     // Rounding could make steps along edges normal to g go round in circles: a vertex seen at a power of two is met again (Brent).
     let (mut vertex, mut mark) = (start, start);
     for step in 1..=polyhedron.vertices.len() {
@@ -262,7 +266,7 @@ pub fn exit_of_prism<L: Lanes>(
         let fractions = exit_fractions(plane_values(block, from), plane_values(block, to)).to_array();
         for (lane, fraction) in fractions.into_iter().enumerate() {
             let further = (3 + 4 * index + lane) as u32;
-            // Unused lanes are left never, at +∞.
+            // Unused lanes, which hold the largest double everywhere, are left never.
             if fraction < exit && polyhedron.side(face, further) != skip {
                 (exit, side) = (fraction, further);
             }
@@ -276,7 +280,10 @@ pub fn exit_of_prism<L: Lanes>(
 fn exit_fractions<L: Lanes>(start: L, end: L) -> L {
     let (zero, never) = (L::splat(0.0), L::splat(f64::INFINITY));
     let inside = start.max(zero);
-    let fraction = inside.div(inside.sub(end));
+    // What does not fall below 0 falls by the least double, so that no 0/0 is computed. (Not by a choice of lanes: LLVM divides first
+    // and chooses afterwards.)
+    let below = end.negate().max(L::splat(f64::from_bits(1)));
+    let fraction = inside.div(inside.add(below));
     fraction.where_greater(zero, end, never).where_greater(start, end, never)
 }
 

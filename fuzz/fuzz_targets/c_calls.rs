@@ -1,7 +1,8 @@
 //! The C interface driven by arbitrary bytes as a careless C program would: any order of calls, ids that are stale, foreign or
 //! made up, null pointers, sizes and enumerators of no struct, poses of NaN, handles that are made and never used. Nothing may
 //! panic, be poisoned, leak, or read or write a byte that was not handed over (arrays and structs have exactly the room that they
-//! claim); what a scene answers is held against a plain model of its objects and pairs.
+//! claim); what a scene answers is held against a plain model of its objects and pairs. The last byte chooses the floating-point
+//! environment of the program.
 #![no_main]
 
 use std::ffi::CStr;
@@ -11,11 +12,13 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::library::*;
 use swiftprox_fuzz::c_program::{Program, last_message};
+use swiftprox_fuzz::geometry::last_is_environment;
 
 const MOST_CALLS: usize = 64;
 
 fuzz_target!(|bytes: &[u8]| {
-    let mut program = Program::begin();
+    let (environment, bytes) = last_is_environment(bytes);
+    let mut program = Program::begin(environment);
     let mut u = Unstructured::new(bytes);
     for _ in 0..MOST_CALLS {
         if u.is_empty() || step(&mut program, &mut u).is_err() {

@@ -1,6 +1,7 @@
 //! Pair queries about any two bodies, with any levels of detail and look-up tables, along any sequence of poses, the cache carried
 //! on or corrupted: every answer is checked by `verify`, against all that answers promise, against the other queries and the
-//! swapped pair from caches of every origin, and for small bodies against exact rationals.
+//! swapped pair from caches of every origin, and for small bodies against exact rationals. In the floating-point environment
+//! that the last byte chooses bodies and answers are bit for bit the same.
 #![no_main]
 
 use std::sync::Mutex;
@@ -10,13 +11,15 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
 use swiftprox::pair::{
-    Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, distance,
+    Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
+    intersection,
 };
 use swiftprox::shape::Shape;
+use swiftprox::simd::environment::Environment;
 use swiftprox::verify::verify;
 use swiftprox_fuzz::bodies::Body;
 use swiftprox_fuzz::cases::{Case, Random};
-use swiftprox_fuzz::geometry::{any_number, hull_options, points, poses};
+use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
 use swiftprox_fuzz::properties::{Placed, Session, Work};
 
 /// The oracle takes time in the fourth power of this.
@@ -27,13 +30,14 @@ const MOST_STEPS: usize = 6;
 static MOST_WORK: Mutex<Work> = Mutex::new(Work([0; 3]));
 
 fuzz_target!(|bytes: &[u8]| {
+    let (environment, bytes) = last_is_environment(bytes);
     // Bytes that end early end the run.
-    let _: Result<()> = run(&mut Unstructured::new(bytes));
+    let _: Result<()> = run(&mut Unstructured::new(bytes), environment);
 });
 
-fn run(u: &mut Unstructured) -> Result<()> {
+fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     let most = if u.ratio(1, 4)? { 64 } else { FEW_POINTS };
-    let bodies = [body(u, most)?, body(u, most)?];
+    let bodies = [body(u, most, environment)?, body(u, most, environment)?];
     let mut session = Session::new(0);
     for _ in 0..MOST_STEPS {
         let poses = poses(u, [&bodies[0].points, &bodies[1].points])?;
@@ -43,6 +47,7 @@ fn run(u: &mut Unstructured) -> Result<()> {
             session.own = any_cache(u)?;
         }
         check(u, &placed, &mut session)?;
+        check_environment(environment, &placed, session.own);
         if u.is_empty() {
             break;
         }
@@ -51,10 +56,13 @@ fn run(u: &mut Unstructured) -> Result<()> {
 }
 
 /// The hull of points; levels of detail and look-up tables must not change what it is.
-fn body(u: &mut Unstructured, most: usize) -> Result<Body> {
+fn body(u: &mut Unstructured, most: usize, environment: Environment) -> Result<Body> {
     let options = hull_options(u)?;
     let mut body = Body::from_points(points(u, most)?);
-    match Shape::from_points(&body.points, &options) {
+    let made = Shape::from_points(&body.points, &options);
+    let again = inside(environment, || Shape::from_points(&body.points, &options));
+    assert!(again == made, "{environment:?}: another shape");
+    match made {
         Ok(shape) => body.shape = shape,
         Err(error @ Error::Bug(_)) => panic!("{error}: {options:?} of {:?}", body.points),
         // Not every body has levels.
@@ -91,6 +99,22 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
         check_truth(placed, &cold);
     }
     Ok(())
+}
+
+/// Each query, from the same cache, in the default environment and in another one.
+fn check_environment(environment: Environment, placed: &Placed, own: PairCache) {
+    let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
+    let config = PairConfig { relative_error: 0.1, levels: Levels::All, ..PairConfig::default() };
+    for query in [distance, intersection, contact, approximate] {
+        let ask = || {
+            let (mut cache, mut answer) = (own, PairAnswer::default());
+            let asked = query(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
+            let verified = asked.is_ok().then(|| verify(&body1.shape, pose1, &body2.shape, pose2, &answer));
+            (asked, answer, cache, verified)
+        };
+        let [expected, found] = [ask(), inside(environment, ask)].map(|told| format!("{told:?}"));
+        assert_eq!(found, expected, "{environment:?}");
+    }
 }
 
 fn print_most_work(of_session: Work) {

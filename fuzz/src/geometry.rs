@@ -7,6 +7,7 @@ use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::shape::{InputPolicy, ShapeOptions};
+use swiftprox::simd::environment::Environment;
 
 /// What doubles do badly.
 const SPECIAL: [f64; 16] = [
@@ -314,4 +315,20 @@ pub fn poses(u: &mut Unstructured, points: [&[Vector]; 2]) -> Result<[Pose; 2]> 
     translation[axis] = nudged(translation[axis], u.arbitrary()?);
     translation.iter_mut().filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
     Ok([poses[0], Pose::new(&turn, &translation)])
+}
+
+/// The floating-point environment that the last byte chooses, and the bytes before it.
+pub fn last_is_environment(bytes: &[u8]) -> (Environment, &[u8]) {
+    let (chosen, rest) = bytes.split_last().unwrap_or((&0, &[]));
+    let environments: Vec<Environment> = Environment::all().collect();
+    (environments[usize::from(*chosen) % environments.len()], rest)
+}
+
+/// Runs `body` in an environment, which it leaves as it is.
+pub fn inside<T>(environment: Environment, body: impl FnOnce() -> T) -> T {
+    environment.run(|| {
+        let made = body();
+        assert!(environment.is_set(), "{environment:?} is not put back");
+        made
+    })
 }

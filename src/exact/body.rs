@@ -8,6 +8,12 @@ use super::dyadic::{DyadicVector, IntVector, dot, leading_bits};
 use crate::math::{Pose, Vector};
 use crate::polyhedron::Polyhedron;
 
+/// Sums of differences from here, 2⁻⁸⁰⁰ …
+const SMALLEST_FOR_DOUBLES: f64 = f64::from_bits((1023 - 800) << 52);
+
+/// … to here, 2⁸⁰⁰, are compared in doubles where these tell.
+const LARGEST_FOR_DOUBLES: f64 = f64::from_bits((1023 + 800) << 52);
+
 /// The objects' exact description: world vertex = R·(centre + position) + T.
 pub(crate) struct Body<'a> {
     polyhedron: &'a Polyhedron,
@@ -108,13 +114,16 @@ impl<'a> Body<'a> {
         let o = &self.polyhedron.vertices[tail as usize].position;
         let p = &self.polyhedron.vertices[head as usize].position;
         let t = p - o;
-        let value = direction.rounded.dot(&t);
-        // With |g| ≤ 2⁶³ a component: each rounded g misses by 1 + u|g|, each difference by u, each product by u, the two
-        // sums by 2u, together less than (6.1u·2⁶³ + 1)Σ|t| < 6300 Σ|t|. A component of g is 0 or ≥ 1: nothing underflows. What
-        // overflows is not finite, or its bound is not.
-        let bound = 8192.0 * (t.x.abs() + t.y.abs() + t.z.abs());
-        if value.is_finite() && value.abs() > bound {
-            return value.total_cmp(&0.0);
+        let spread = t.x.abs() + t.y.abs() + t.z.abs();
+        if (SMALLEST_FOR_DOUBLES..=LARGEST_FOR_DOUBLES).contains(&spread) {
+            // With |g| ≤ 2⁶³ a component: each rounded g misses by 1 + v|g|, each difference by v, each product by v, the two sums
+            // by 2v, together less than (6.1v·2⁶³ + 1)Σ|t| < 12500 Σ|t|, in whatever direction results are rounded, with v = 2u. In
+            // this range nothing overflows, to +∞ or the largest double; what is flushed to 0 changes a product by 2⁶³·2⁻¹⁰²² at
+            // most.
+            let value = direction.rounded.dot(&t);
+            if value.abs() > 16384.0 * spread {
+                return value.total_cmp(&0.0);
+            }
         }
         dot(&direction.exact, &exact_difference(p, o)).cmp(&IBig::ZERO)
     }

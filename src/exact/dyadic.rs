@@ -3,7 +3,7 @@
 use dashu_int::ops::{BitTest, SquareRootRem};
 use dashu_int::{IBig, UBig};
 
-use crate::math::{Vector, power_of_two};
+use crate::math::Vector;
 use crate::predicates::mantissa_and_exponent;
 
 /// Three integers: a vector up to a common scale.
@@ -138,14 +138,22 @@ fn round(mantissa: UBig, exponent: i64, rounding: Rounding) -> f64 {
         let up = rounding == Rounding::Up && (&kept << shift) != mantissa;
         if up { kept + UBig::ONE } else { kept }
     };
-    let power = if unit >= -1022 { power_of_two(unit as i32) } else { f64::from_bits(1 << (unit + 1074)) };
-    // At most 2⁵³, times the unit: both exact, or rounded up to 2¹⁰²⁴, which is +∞.
-    u64::try_from(integer).map_or(f64::INFINITY, |i| i as f64 * power)
+    u64::try_from(integer).map_or(f64::INFINITY, |i| in_units(i, unit as i32))
+}
+
+/// integer·2^unit, for at most 2⁵³ units, each the last place of the result; 2¹⁰²⁴ is +∞. Put together from bits: a product with a
+/// subnormal unit would be 0 where these are flushed.
+fn in_units(integer: u64, unit: i32) -> f64 {
+    // A fraction of 52 bits, the biased exponent above it. In normal numbers the leading bit, 2⁵², is the exponent's: it adds 1 to
+    // one less. That of 2⁵³ carries into the next exponent, from the largest one to that of +∞.
+    let exponent_below = (unit + 1074) as u64;
+    f64::from_bits((exponent_below << 52) + integer)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::power_of_two;
 
     #[test]
     fn doubles_decode_exactly() {

@@ -1,4 +1,4 @@
-//! The C interface: with the dispatch in `simd.rs` the only unsafe code. One file per noun; this one holds what every entry
+//! The C interface: with `simd` the only unsafe code. One file per noun; this one holds what every entry
 //! point shares: the guard that turns errors and caught panics into a [`StatusCode`], the message of the last failure, and the
 //! checks of pointers.
 //!
@@ -31,6 +31,7 @@ use crate::enumerator::{Enumerator, enumerator};
 use crate::error::Error;
 use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
 use crate::shape::InputPolicy;
+use crate::simd::environment::with_default;
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -111,10 +112,16 @@ impl From<Error> for Failure {
 
 // --- The guard ---------------------------------------------------------------------------------------------------------
 
-/// Runs the body of an entry point: nothing unwinds into C. Nothing but the result is looked at on success, so that a
-/// pair query pays a few instructions for it.
+/// Runs the body of an entry point in the default floating-point environment: nothing unwinds into C.
 #[inline(always)]
 fn guard(body: impl FnOnce() -> Checked<()>) -> StatusCode {
+    caught(|| with_default(body))
+}
+
+/// As [`guard`], in whatever environment the program has set: for what computes nothing itself, and calls what sees to it. Nothing
+/// but the result is looked at on success, so that a pair query pays a few instructions for it.
+#[inline(always)]
+fn caught(body: impl FnOnce() -> Checked<()>) -> StatusCode {
     let outside = INSIDE.replace(true);
     // Unwind safety: what a panic may leave half-changed is reset or poisoned by the entry points themselves.
     let ended = catch_unwind(AssertUnwindSafe(body)).map_err(discard);

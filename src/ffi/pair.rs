@@ -2,7 +2,8 @@
 //! and configuration are read where the caller has them.
 
 use super::{
-    Checked, Failure, StatusCode, Versioned, exclusive, guard, input, output, read_enumerator, read_struct, struct_size,
+    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, input, output, read_enumerator, read_struct,
+    struct_size,
 };
 use crate::error::Result;
 use crate::math::Pose;
@@ -182,7 +183,7 @@ unsafe fn query(
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the caller's; a pose is twelve doubles, row by row, as is `Pose`.
-    let status = guard(move || unsafe {
+    let status = caught(move || unsafe {
         let answer = write_answer(answer)?;
         let shape1 = input(shape1, "shape1")?;
         let pose1 = input(pose1.cast::<Pose>(), "pose1")?;

@@ -22,6 +22,7 @@ use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::polyhedron_build::build;
 use crate::progress::Progress;
 use crate::quadric::simplify;
+use crate::simd::environment::with_default;
 use crate::state::FeatureId;
 use bounding::{Scaling, bounding, translated};
 use correspondence::{Correspondence, by_identity, by_position};
@@ -189,6 +190,10 @@ impl Hierarchy {
     /// # Errors
     /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].
     pub fn build(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
+        with_default(|| Hierarchy::built(base, options, progress))
+    }
+
+    fn built(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
         options.check()?;
         let centred = centred(base);
         let mut builder = Builder::new(&centred, options.kind)?;
@@ -214,6 +219,10 @@ impl Hierarchy {
     /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
     /// contain P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`].
     pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
+        with_default(|| Hierarchy::of_given(base, levels, progress))
+    }
+
+    fn of_given(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
         let centred = centred(base);
         let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
         if !levels.is_empty() && !builder.is_of_usual_size() {

@@ -15,6 +15,7 @@ use std::path::Path;
 
 use crate::error::{Error, Result};
 use crate::mesh::PolygonMesh;
+use crate::simd::environment::with_default;
 pub use registered::{MeshReader, register_mesh_reader, unregister_mesh_reader};
 use scanner::Scanner;
 
@@ -97,12 +98,12 @@ fn parse_format(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Poly
     let format = format
         .or_else(|| Format::from_content(bytes))
         .ok_or_else(|| Error::File(format!("{name}: not a TRI, POLY, OFF, OBJ or STL file, by its first bytes")))?;
-    let mesh = match format {
+    let mesh = with_default(|| match format {
         Format::TriPoly => tri_poly::parse(bytes, name),
         Format::Off => off::parse(bytes, name),
         Format::Obj => obj::parse(bytes, name),
         Format::Stl => stl::parse(bytes, name),
-    }?;
+    })?;
     with_vertices(mesh, name)
 }
 

@@ -5,6 +5,7 @@ use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::error::{Error, Result};
 use crate::mesh::PolygonMesh;
+use crate::simd::environment::with_callers;
 
 use super::scanner::{is_space, shown};
 use super::{BYTE_ORDER_MARK, without_mark};
@@ -81,7 +82,8 @@ pub(super) fn parse(bytes: &[u8], name: &str) -> Option<Result<PolygonMesh>> {
     let (magic, reader) = (shown(&registered.magic), Arc::clone(&registered.reader));
     // The reader may read other files and register readers.
     drop(readers);
-    Some(reader(bytes).map_err(|error| Error::File(format!("{name}: the reader registered for {magic}: {error}"))))
+    let read = with_callers(|| reader(bytes));
+    Some(read.map_err(|error| Error::File(format!("{name}: the reader registered for {magic}: {error}"))))
 }
 
 /// A reader that panicked somewhere else has left the list as it was.

@@ -5,7 +5,7 @@ use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
 use crate::contact;
 use crate::frame::Frame;
 use crate::marching;
-use crate::math::{Pose, ROTATION_LIMIT};
+use crate::math::{Pose, ROTATION_LIMIT, divisor};
 use crate::polyhedron::Polyhedron;
 use crate::separating_axis::NUDGE;
 use crate::simd::{Kernel, Lanes};
@@ -75,7 +75,7 @@ impl Acceptance<'_> {
             contact::fill_normal(answer, normal);
         }
         if self.query == Query::Intersection {
-            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / frame.separation), normal);
+            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / divisor(frame.separation)), normal);
             let direction = frame.bodies[0].rotate_back(nudged).to_vector();
             self.cache.remember_axis(state.vertices(frame.polyhedra()), direction);
         }

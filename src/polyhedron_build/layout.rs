@@ -249,7 +249,8 @@ impl Polyhedron {
     /// Adds one of the sides beyond the third of the last face; lane 0 begins a block.
     fn add_further_side(&mut self, lane: usize, side: &Vector, offset: f64) {
         if lane == 0 {
-            let unused = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::INFINITY; 4] };
+            // No infinity: differences and quotients of unused lanes have a value, too.
+            let unused = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::MAX; 4] };
             self.more_sides.push(unused);
         }
         if let Some(block) = self.more_sides.last_mut() {

@@ -275,7 +275,7 @@ fn faces(p: &Polyhedron) {
         let last = ends.len().saturating_sub(3).div_ceil(4);
         for i in ends.len()..3 + 4 * last {
             let (block, lane) = side_plane(p, face, i);
-            assert_eq!((normal(block, lane), block.offset[lane]), (Vector::zeros(), f64::INFINITY));
+            assert_eq!((normal(block, lane), block.offset[lane]), (Vector::zeros(), f64::MAX));
         }
         used_blocks += last;
     }

@@ -14,7 +14,8 @@ use swiftprox::scene::PairResult;
 
 use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
 use super::{Program, check_verified, last_message};
-use crate::geometry::any_number;
+use super::shapes::ask_alike;
+use crate::geometry::{any_number, inside};
 
 const ERRORS: [f64; 5] = [0.0, 1e-9, 1e-2, 1.0, f64::INFINITY];
 const BUDGETS: [u32; 6] = [1, 2, 3, 7, 20, u32::MAX];
@@ -77,7 +78,8 @@ impl Program {
         // SAFETY: living shapes or null, blocks of the sizes that the header names.
         unsafe {
             let cache = &raw mut self.caches[slot];
-            let status = query(shape1, pose1.at(), shape2, pose2.at(), cache, start(&config), answer.at());
+            let ask = || query(shape1, pose1.at(), shape2, pose2.at(), cache, start(&config), answer.at());
+            let status = ask_alike(self.environment, cache, answer.at(), ask);
             let said = answer.at::<PairAnswer>().read();
             assert_eq!(status == StatusCode::Ok, said.outcome != Outcome::None, "{}", last_message());
             match said.outcome {
@@ -107,7 +109,8 @@ impl Program {
         let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
         // SAFETY: a living scene, query and answer; the results are the scene's until its next change.
         unsafe {
-            let status = swift_scene_query_approximate_distance(scene.handle, &query, &mut answer);
+            let run = || swift_scene_query_approximate_distance(scene.handle, &query, &mut answer);
+            let status = inside(self.environment, run);
             assert_eq!(status == StatusCode::Ok, query.error_budget >= 0.0, "{}", last_message());
             let listed: &[PairResult] =
                 if answer.count == 0 { &[] } else { std::slice::from_raw_parts(answer.pairs, answer.count) };

@@ -21,6 +21,7 @@ use swiftprox::ffi::shape_options::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::PairAnswer;
 use swiftprox::shape::Shape;
+use swiftprox::simd::environment::Environment;
 
 use model::Scene;
 
@@ -31,8 +32,9 @@ pub fn last_message() -> String {
 }
 
 /// All that the program holds.
-#[derive(Default)]
 pub struct Program {
+    /// Its floating-point environment.
+    environment: Environment,
     /// Shapes, one entry for each share.
     shapes: Vec<*mut Shape>,
     scenes: Vec<Scene>,
@@ -50,9 +52,16 @@ const MOST_POINTS: usize = 16;
 
 impl Program {
     /// Before the first call.
-    pub fn begin() -> Program {
+    pub fn begin(environment: Environment) -> Program {
         readers::register();
-        Program::default()
+        Program {
+            environment,
+            shapes: Vec::new(),
+            scenes: Vec::new(),
+            old_ids: Vec::new(),
+            caches: Default::default(),
+            answer: None,
+        }
     }
 
     /// One call, or a few that belong together.

@@ -16,7 +16,7 @@ use swiftprox::shape::Shape;
 use super::arguments::{Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, shape_options, start};
 use super::model::{Object, Scene};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
-use crate::geometry::any_number;
+use crate::geometry::{any_number, inside};
 
 impl Program {
     pub fn create_or_destroy_scene(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
@@ -346,7 +346,7 @@ impl Program {
         let handle = or_null(u, scene.handle)?;
         // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next change.
         unsafe {
-            let status = run(handle, start(&given), target);
+            let status = inside(self.environment, || run(handle, start(&given), target));
             if target.is_null() {
                 return Ok(status);
             }

@@ -9,13 +9,14 @@ use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape::*;
 use swiftprox::pair::{Outcome, PairAnswer};
 use swiftprox::shape::Shape;
+use swiftprox::simd::environment::Environment;
 
 use super::arguments::{
     Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, pair_config, shape_options, start, temporary_file,
 };
 use super::readers::reading;
 use super::{MOST_POINTS, MOST_SHAPES, Program, check_verified, last_message};
-use crate::geometry::any_points;
+use crate::geometry::{any_points, inside};
 
 impl Program {
     /// Any shape of the program's, or null.
@@ -46,8 +47,20 @@ impl Program {
         let block = Block::of(&coordinates);
         let mut shape = null_mut();
         let (array, count) = array(u, block.at(), coordinates.len())?;
-        // SAFETY: what is not null has the room that it claims.
-        let status = unsafe { swift_shape_create_from_points(array, count, start(&options), &mut shape) };
+        let make = |shape: &mut *mut Shape| {
+            // SAFETY: what is not null has the room that it claims.
+            unsafe { swift_shape_create_from_points(array, count, start(&options), shape) }
+        };
+        let status = make(&mut shape);
+        let mut again = null_mut();
+        assert_eq!(inside(self.environment, || make(&mut again)), status, "{:?}", self.environment);
+        if !shape.is_null() {
+            // SAFETY: both live while they are compared; the second is released once.
+            unsafe {
+                assert!(*shape == *again, "{:?}: another shape", self.environment);
+                assert_eq!(swift_shape_release(again), StatusCode::Ok);
+            }
+        }
         Ok(self.keep(status, shape))
     }
 
@@ -188,7 +201,8 @@ impl Program {
         let target = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
         unsafe {
-            let status = query(shape1, pointer1, shape2, pointer2, cache, start(&config), target);
+            let ask = || query(shape1, pointer1, shape2, pointer2, cache, start(&config), target);
+            let status = ask_alike(self.environment, cache, target, ask);
             if target.is_null() {
                 assert_eq!(status, StatusCode::ErrorNullPointer);
                 return Ok(status);
@@ -218,6 +232,35 @@ impl Program {
         }
         let answer = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
-        Ok(unsafe { swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer) })
+        Ok(unsafe {
+            inside(self.environment, || swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer))
+        })
     }
+}
+
+/// Asks in the default environment, and what is answered again in another one: bit for bit the same.
+///
+/// # Safety
+/// `ask` asks for `answer` with `cache`, which are null or can be written.
+pub unsafe fn ask_alike(
+    environment: Environment,
+    cache: *mut CPairCache,
+    answer: *mut PairAnswer,
+    ask: impl Fn() -> StatusCode,
+) -> StatusCode {
+    // SAFETY: not null, readable.
+    let before = (!cache.is_null()).then(|| unsafe { cache.read() });
+    let status = ask();
+    if let Some(before) = before
+        && status == StatusCode::Ok
+    {
+        // SAFETY: what is answered had both.
+        let told = || unsafe { (format!("{:?}", answer.read()), cache.read().words) };
+        let first = told();
+        // SAFETY: as above.
+        unsafe { cache.write(before) };
+        assert_eq!(inside(environment, &ask), status, "{environment:?}");
+        assert_eq!(told(), first, "{environment:?}");
+    }
+    status
 }

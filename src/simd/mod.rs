@@ -7,9 +7,11 @@
 //! 6 % of its time, others 1 to 2 %, on an Intel Xeon 8 % and 3 to 6 %, if the functions begin at multiples of 64 bytes (see
 //! `.cargo/config.toml`); if not, both are equal there.
 //!
-//! The only `unsafe` outside the C interface.
+//! The only `unsafe` outside the C interface, with that of [`environment`], the floating-point environment.
 
 #![allow(unsafe_code)]
+
+pub mod environment;
 
 use crate::math::Vector;
 

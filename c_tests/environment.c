@@ -1,0 +1,495 @@
+/*
+ * The floating-point environment of the program: whatever it is, every call answers bit for bit as in the default one, calls the
+ * program's functions in the program's environment, and leaves that as it was.
+ *
+ *     environment [folder for the files that it writes]
+ */
+#define _GNU_SOURCE /* feenableexcept */
+#include <fenv.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+
+#include "check.h"
+
+/* ---- environments ---- */
+
+typedef struct environment {
+    const char *name;
+    int rounding;
+    int flushes;
+    int traps;
+} environment;
+
+static const environment ENVIRONMENTS[] = {
+    {"default", FE_TONEAREST, 0, 0},
+    {"downward", FE_DOWNWARD, 0, 0},
+    {"upward", FE_UPWARD, 0, 0},
+    {"toward zero", FE_TOWARDZERO, 0, 0},
+    {"flushing", FE_TONEAREST, 1, 0},
+    {"flushing, downward", FE_DOWNWARD, 1, 0},
+    {"flushing, upward", FE_UPWARD, 1, 0},
+    {"flushing, toward zero", FE_TOWARDZERO, 1, 0},
+    {"trapping", FE_TONEAREST, 0, 1},
+    {"trapping, downward", FE_DOWNWARD, 0, 1},
+    {"trapping, upward", FE_UPWARD, 0, 1},
+    {"trapping, toward zero", FE_TOWARDZERO, 0, 1},
+    {"flushing, trapping", FE_TONEAREST, 1, 1},
+    {"flushing, trapping, downward", FE_DOWNWARD, 1, 1},
+    {"flushing, trapping, upward", FE_UPWARD, 1, 1},
+    {"flushing, trapping, toward zero", FE_TOWARDZERO, 1, 1},
+};
+
+#if defined(__x86_64__)
+#include <xmmintrin.h>
+
+/* DAZ and FTZ. */
+enum { FLUSH = 0x8040, FLAGS = 0x3f };
+
+/* What is set, but for the flags of exceptions. */
+static unsigned long control(void)
+{
+    return _mm_getcsr() & ~(unsigned)FLAGS;
+}
+
+static void set_flushing(int flushes)
+{
+    _mm_setcsr((_mm_getcsr() & ~(unsigned)FLUSH) | (flushes ? FLUSH : 0));
+}
+#elif defined(__aarch64__)
+static unsigned long control(void)
+{
+    unsigned long control;
+    __asm__ volatile("mrs %0, fpcr" : "=r"(control));
+    return control;
+}
+
+static void set_flushing(int flushes)
+{
+    const unsigned long flush = 1UL << 24;
+    __asm__ volatile("msr fpcr, %0" : : "r"((control() & ~flush) | (flushes ? flush : 0)));
+}
+#else
+#define NOT_HERE
+static unsigned long control(void)
+{
+    return 0;
+}
+
+static void set_flushing(int flushes)
+{
+    (void)flushes;
+}
+#endif
+
+enum { TRAPPED = FE_INVALID | FE_DIVBYZERO | FE_OVERFLOW };
+
+/* What is set now, as control() says it. */
+static unsigned long expected;
+
+static void enter(const environment *environment)
+{
+    fedisableexcept(FE_ALL_EXCEPT);
+    feclearexcept(FE_ALL_EXCEPT);
+    fesetround(environment->rounding);
+    set_flushing(environment->flushes);
+    if (environment->traps)
+        feenableexcept(TRAPPED);
+    expected = control();
+}
+
+/* ---- what is told, byte by byte ---- */
+
+static struct record {
+    unsigned char *bytes;
+    size_t size, room;
+} told;
+
+static void tell(const void *bytes, size_t size)
+{
+    if (told.size + size > told.room) {
+        told.room = 2 * (told.size + size);
+        told.bytes = realloc(told.bytes, told.room);
+    }
+    memcpy(told.bytes + told.size, bytes, size);
+    told.size += size;
+}
+
+/* Without the padding at its end. */
+static void tell_answer(const swift_pair_answer *answer)
+{
+    tell(answer, offsetof(swift_pair_answer, statistics) + sizeof answer->statistics);
+}
+
+/* A call: its status is told, and the environment is that of before. */
+#define CALL(call) after_call((call), #call, __LINE__)
+
+static swift_status after_call(swift_status status, const char *call, int line)
+{
+    check_that(control() == expected, call, "changes the environment", __FILE__, line);
+    tell(&status, sizeof status);
+    return status;
+}
+
+static void call_succeeds(swift_status status, const char *call, int line)
+{
+    check_that(status == SWIFT_OK, call, swift_library_last_error_message(), __FILE__, line);
+    after_call(status, call, line);
+}
+
+#define CALL_OK(call) call_succeeds((call), #call, __LINE__)
+
+/* ---- the program's functions ---- */
+
+static int progress_calls, reader_calls, log_calls, memory_calls;
+
+static int32_t progress(void *user, double fraction)
+{
+    (void)user;
+    CHECK(control() == expected);
+    ++progress_calls;
+    tell(&fraction, sizeof fraction);
+    return 0;
+}
+
+static const double TETRAHEDRON[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const uint32_t TETRAHEDRON_FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+
+static int32_t read_mesh(void *user, const char *data, size_t size, swift_mesh_sink *sink)
+{
+    swift_shape *shape;
+    (void)user, (void)data, (void)size;
+    CHECK(control() == expected);
+    ++reader_calls;
+    CALL_OK(swift_mesh_sink_add_vertices(sink, TETRAHEDRON, 4));
+    /* The library, called from a function that it called. */
+    CALL_OK(swift_shape_create_from_points(TETRAHEDRON, 4, NULL, &shape));
+    CALL_OK(swift_shape_release(shape));
+    CALL_OK(swift_mesh_sink_add_faces(sink, TETRAHEDRON_FACES, NULL, 4));
+    /* What it changes ends with it. */
+    fesetround(FE_UPWARD);
+    return 0;
+}
+
+static void hear(int32_t status, const char *message, void *user)
+{
+    (void)status, (void)user;
+    CHECK(control() == expected && message[0] != '\0');
+    ++log_calls;
+}
+
+static void *allocate(void *user, size_t size, size_t alignment)
+{
+    (void)user;
+    CHECK(control() == expected);
+    ++memory_calls;
+    return aligned_alloc(alignment, size);
+}
+
+static void deallocate(void *user, void *memory, size_t size, size_t alignment)
+{
+    (void)user, (void)size, (void)alignment;
+    CHECK(control() == expected);
+    free(memory);
+}
+
+/* ---- bodies and poses, made before any environment is set ---- */
+
+enum { POINTS = 300, POSES = 24, CORNERS = 8 };
+
+static double sphere[3 * POINTS], cube[3 * CORNERS], low_cube[3 * CORNERS], huge_cube[3 * CORNERS], tiny_cube[3 * CORNERS];
+static double poses[POSES][12];
+static char mesh_path[1024], reader_path[1024], shape_path[1024];
+
+static void write_file(const char *path, const char *mode, int vertices)
+{
+    FILE *file = fopen(path, mode);
+    if (!CHECK(file != NULL))
+        return;
+    if (vertices == 0) {
+        fputs("ENVIRONMENT\n", file);
+    } else {
+        fprintf(file, "OFF %d 0 0\n", vertices);
+        for (int i = 0; i < 3 * vertices; ++i) /* more digits than a double has */
+            fprintf(file, "%.19g%c", sphere[i] * 1.1, i % 3 == 2 ? '\n' : ' ');
+    }
+    fclose(file);
+}
+
+static void prepare(const char *folder)
+{
+    for (int i = 0; i < POINTS; ++i) { /* a spiral around an ellipsoid */
+        const double z = 1 - (2 * i + 1.0) / POINTS, r = sqrt(1 - z * z);
+        sphere[3 * i] = r * cos(2.4 * i);
+        sphere[3 * i + 1] = 0.7 * r * sin(2.4 * i);
+        sphere[3 * i + 2] = 1.3 * z;
+    }
+    for (int i = 0; i < 3 * CORNERS; ++i) {
+        cube[i] = i / 3 >> i % 3 & 1;
+        low_cube[i] = cube[i] - (i % 3 == 0);
+        huge_cube[i] = (cube[i] - 0.5) * 1e300 * (1 + 0.1 * (i % 7));
+        tiny_cube[i] = cube[i] * 1e-310;
+    }
+    for (int i = 0; i < POSES; ++i) {
+        const double angle = 0.1 * i * i, c = cos(angle), s = sin(angle), x = 0.2 * i - 1.3;
+        const double pose[12] = {c, -s, 0, x, s, c, 0, 0.1 * x, 0, 0, 1, 0.3};
+        memcpy(poses[i], pose, sizeof pose);
+    }
+    snprintf(mesh_path, sizeof mesh_path, "%s/environment.off", folder);
+    snprintf(reader_path, sizeof reader_path, "%s/environment.txt", folder);
+    snprintf(shape_path, sizeof shape_path, "%s/environment.shape", folder);
+    write_file(mesh_path, "w", 36);
+    write_file(reader_path, "w", 0);
+}
+
+/* ---- what is asked ---- */
+
+typedef swift_status pair_query(const swift_shape *, const double *, const swift_shape *, const double *, swift_pair_cache *,
+                                const swift_pair_config *, swift_pair_answer *);
+
+static pair_query *const QUERIES[] = {swift_pair_distance, swift_pair_intersection, swift_pair_contact, swift_pair_approximate};
+enum { QUERY_COUNT = sizeof QUERIES / sizeof QUERIES[0] };
+
+/* All queries of a pair, and their verification. */
+static void ask(const swift_shape *shape1, const double *pose1, const swift_shape *shape2, const double *pose2,
+                swift_pair_cache caches[QUERY_COUNT], const swift_pair_config *config)
+{
+    for (int i = 0; i < QUERY_COUNT; ++i) {
+        swift_pair_answer answer;
+        memset(&answer, 0, sizeof answer);
+        CALL_OK(QUERIES[i](shape1, pose1, shape2, pose2, &caches[i], config, &answer));
+        tell_answer(&answer);
+        tell(&caches[i], sizeof caches[i]);
+        CALL(swift_pair_verify(shape1, pose1, shape2, pose2, &answer));
+    }
+}
+
+static void ask_once(const swift_shape *shape1, const swift_shape *shape2, double x)
+{
+    swift_pair_cache caches[QUERY_COUNT];
+    const double here[12] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    memset(caches, 0, sizeof caches);
+    ask(shape1, here, shape2, there, caches, NULL);
+}
+
+/* All that can be told of a shape. */
+static void tell_shape(const swift_shape *shape)
+{
+    double *const vertices = malloc(3 * POINTS * sizeof *vertices);
+    swift_shape_info info;
+    swift_level_info level;
+    memset(&info, 0, sizeof info);
+    info.struct_size = sizeof info;
+    CALL_OK(swift_shape_get_info(shape, &info));
+    tell(&info.dimension, sizeof info.dimension);
+    tell(&info.vertex_count, offsetof(swift_shape_info, hierarchy) - offsetof(swift_shape_info, vertex_count));
+    tell(&info.hierarchy, sizeof info.hierarchy);
+    tell(&info.level_count, sizeof info - offsetof(swift_shape_info, level_count));
+    for (size_t i = 0; i <= info.level_count; ++i) {
+        memset(&level, 0, sizeof level);
+        level.struct_size = sizeof level;
+        CALL_OK(swift_shape_get_level_info(shape, i, &level));
+        tell(&level, sizeof level);
+        CALL_OK(swift_shape_copy_level_vertices(shape, i, vertices, POINTS));
+        tell(vertices, 3 * level.vertex_count * sizeof *vertices);
+    }
+    free(vertices);
+}
+
+static swift_shape *shape_of(const double *points, size_t count, const swift_shape_options *options)
+{
+    swift_shape *shape = NULL;
+    CALL_OK(swift_shape_create_from_points(points, count, options, &shape));
+    tell_shape(shape);
+    return shape;
+}
+
+static void build_and_ask(void)
+{
+    static const int32_t hierarchies[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
+                                          SWIFT_HIERARCHY_OUTER_CUTS};
+    swift_shape_options options;
+    swift_pair_config config;
+    CALL_OK(swift_shape_options_init(&options));
+    CALL_OK(swift_pair_config_init(&config));
+    options.progress = progress;
+    options.scale = 0.7;
+    config.relative_error = 0.01;
+    config.levels = SWIFT_LEVELS_ALL;
+    for (size_t k = 0; k < sizeof hierarchies / sizeof hierarchies[0]; ++k) {
+        swift_shape *shape, *loaded = NULL;
+        swift_pair_cache caches[QUERY_COUNT];
+        options.hierarchy = hierarchies[k];
+        shape = shape_of(sphere, POINTS, &options);
+        CALL_OK(swift_shape_prepare(shape, progress, NULL));
+        CALL_OK(swift_shape_save(shape, shape_path));
+        CALL_OK(swift_shape_load(shape_path, progress, NULL, &loaded));
+        tell_shape(loaded);
+        memset(caches, 0, sizeof caches);
+        for (int i = 0; i < POSES; ++i)
+            ask(shape, poses[0], loaded, poses[i], caches, k == 0 ? NULL : &config);
+        CALL_OK(swift_shape_release(shape));
+        CALL_OK(swift_shape_release(loaded));
+    }
+}
+
+static void read_files(void)
+{
+    swift_shape_options options;
+    swift_shape *shape = NULL;
+    CALL_OK(swift_shape_options_init(&options));
+    options.input = SWIFT_INPUT_HULL;
+    CALL_OK(swift_shape_create_from_file(mesh_path, &options, &shape));
+    tell_shape(shape);
+    CALL_OK(swift_shape_release(shape));
+    CALL_OK(swift_shape_create_from_file(reader_path, &options, &shape));
+    tell_shape(shape);
+    CALL_OK(swift_shape_release(shape));
+}
+
+/* Contact and gaps below the normal numbers, bodies across the range of doubles, bodies in each other, and what is refused. */
+static void ask_hard_questions(void)
+{
+    static const double shifts[] = {-1e-310, 0, 1e-310, 0.5, -0.5, 1, 1e-300, 3, 1e10};
+    const double not_a_number[12] = {NAN};
+    swift_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
+    swift_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
+    swift_shape_options options;
+    swift_pair_cache cache = {{0}};
+    swift_pair_answer answer;
+    swift_shape *none = NULL;
+    const int heard = log_calls;
+    for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; ++i) {
+        ask_once(unit, low, shifts[i]);
+        ask_once(unit, unit, shifts[i]);
+        ask_once(huge, unit, shifts[i]);
+        ask_once(tiny, unit, shifts[i]);
+        ask_once(tiny, tiny, shifts[i]);
+    }
+    ask_once(huge, huge, 1e300);
+    ask_once(huge, huge, 2e300);
+    CHECK(CALL(swift_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFT_ERROR_POSE);
+    CALL_OK(swift_shape_options_init(&options));
+    options.convexity_tolerance = NAN;
+    CHECK(CALL(swift_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFT_ERROR_INVALID_ARGUMENT);
+    CHECK(CALL(swift_shape_create_from_file("no such file", NULL, &none)) == SWIFT_ERROR_FILE);
+    CHECK(log_calls == heard + 3);
+    CALL_OK(swift_shape_release(unit));
+    CALL_OK(swift_shape_release(low));
+    CALL_OK(swift_shape_release(huge));
+    CALL_OK(swift_shape_release(tiny));
+}
+
+typedef swift_status scene_query(swift_scene *, const swift_scene_query *, swift_scene_answer *);
+
+/* Of ids only the order counts: they differ from scene to scene. */
+static void tell_pairs(const swift_scene_answer *answer)
+{
+    tell(&answer->count, sizeof answer->count);
+    for (size_t i = 0; i < answer->count; ++i) {
+        const swift_pair_result *const pair = &answer->pairs[i];
+        tell(&pair->user_data1, sizeof pair->user_data1);
+        tell(&pair->user_data2, sizeof pair->user_data2);
+        tell_answer(&pair->answer);
+    }
+}
+
+static void ask_a_scene(void)
+{
+    scene_query *const queries[] = {swift_scene_query_intersection, swift_scene_query_tolerance,
+                                    swift_scene_query_exact_distance, swift_scene_query_contacts,
+                                    swift_scene_query_approximate_distance};
+    swift_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
+    swift_scene_statistics statistics;
+    swift_scene_query query;
+    swift_scene *scene = NULL;
+    swift_object_id ids[5];
+    CALL_OK(swift_scene_create(NULL, &scene));
+    CALL_OK(swift_scene_query_init(&query));
+    query.distance_tolerance = 2;
+    query.relative_error = 0.05;
+    for (int i = 0; i < 4; ++i) {
+        const swift_shape *const piece = shapes[i % 2];
+        swift_object_options options;
+        CALL_OK(swift_object_options_init(&options));
+        memcpy(options.pose, poses[5 * i], sizeof poses[0]);
+        options.user_data = (uint64_t)i;
+        CALL_OK(swift_scene_add_object(scene, &piece, 1, &options, &ids[i]));
+    }
+    CALL_OK(swift_scene_add_mesh(scene, TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, NULL, &ids[4]));
+    for (int i = 0; i < POSES; ++i) {
+        CALL_OK(swift_scene_set_pose(scene, ids[i % 5], poses[i]));
+        for (size_t k = 0; k < sizeof queries / sizeof queries[0]; ++k) {
+            swift_scene_answer answer;
+            CALL_OK(queries[k](scene, &query, &answer));
+            tell_pairs(&answer);
+        }
+    }
+    memset(&statistics, 0, sizeof statistics);
+    CALL_OK(swift_scene_get_statistics(scene, &statistics));
+    tell(&statistics, sizeof statistics);
+    CALL_OK(swift_scene_destroy(scene));
+    CALL_OK(swift_shape_release(shapes[0]));
+    CALL_OK(swift_shape_release(shapes[1]));
+}
+
+static void raise_underflow(void)
+{
+    static volatile double small = 1e-300, product;
+    product = small * small;
+    (void)product;
+}
+
+/* All of it in one environment. */
+static void run(const environment *environment)
+{
+    enter(environment);
+    told.size = 0;
+    raise_underflow();
+    build_and_ask();
+    read_files();
+    ask_a_scene();
+    /* What has no value is not computed, nor is a call's flag taken back. */
+    CHECK(fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0 && fetestexcept(FE_UNDERFLOW) != 0);
+    ask_hard_questions();
+    CHECK(fetestexcept(FE_UNDERFLOW) != 0);
+    enter(&ENVIRONMENTS[0]);
+}
+
+int main(int argument_count, char **arguments)
+{
+    struct record first;
+    swift_status set;
+#ifdef NOT_HERE
+    puts("environment: not on this processor");
+    return 0;
+#endif
+    enter(&ENVIRONMENTS[0]);
+    prepare(argument_count > 1 ? arguments[1] : ".");
+    set = swift_library_set_allocator(allocate, deallocate, NULL);
+    CHECK(set == SWIFT_OK || set == SWIFT_ERROR_UNSUPPORTED);
+    swift_library_set_log(hear, NULL);
+    CHECK_OK(swift_library_register_mesh_reader("ENVIRONMENT", read_mesh, NULL));
+    run(&ENVIRONMENTS[0]);
+    first = told;
+    memset(&told, 0, sizeof told);
+    for (size_t i = 0; i < sizeof ENVIRONMENTS / sizeof ENVIRONMENTS[0]; ++i) {
+        const int failures = check_failures;
+        run(&ENVIRONMENTS[i]);
+        CHECK(told.size == first.size && memcmp(told.bytes, first.bytes, first.size) == 0);
+        if (check_failures > failures)
+            fprintf(stderr, "    in the environment \"%s\"\n", ENVIRONMENTS[i].name);
+    }
+    CHECK(progress_calls > 100 && reader_calls == 17 && log_calls > 17 && (memory_calls > 0) == (set == SWIFT_OK));
+    CHECK_OK(swift_library_register_mesh_reader("ENVIRONMENT", NULL, NULL));
+    swift_library_set_log(NULL, NULL);
+    swift_library_set_allocator(NULL, NULL, NULL);
+    remove(mesh_path);
+    remove(reader_path);
+    remove(shape_path);
+    printf("environment: %zu bytes of answers, the same in %zu environments\n", first.size,
+           sizeof ENVIRONMENTS / sizeof ENVIRONMENTS[0]);
+    free(first.bytes);
+    free(told.bytes);
+    return check_report("environment");
+}
