@@ -17,8 +17,10 @@ pub enum Error {
     File(String),
     /// An object id is null, stale or of another scene.
     Handle(String),
-    /// A limit of the library was reached (counts that overflow 32 bits, no memory).
+    /// A limit of the library was reached: a count that does not fit.
     Limit(String),
+    /// The memory for an array is not there; the message says how much was asked for. Nothing has changed.
+    Memory(String),
     /// The caller's callback asked to stop.
     Cancelled(String),
     /// An answer that was to be verified does not hold; the message says what does not.
@@ -48,6 +50,7 @@ impl Error {
             | Error::File(m)
             | Error::Handle(m)
             | Error::Limit(m)
+            | Error::Memory(m)
             | Error::Cancelled(m)
             | Error::Unverified(m)
             | Error::Bug(m) => m,

@@ -11,6 +11,7 @@ use std::path::Path;
 
 use crate::enumerator::Enumerator;
 use crate::error::{Error, Result};
+use crate::files::read_whole;
 use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::hull_build::{Hull, convex_hull};
 use crate::hull_check::check_hull;
@@ -40,8 +41,8 @@ pub fn save(shape: &Shape, path: &Path) -> Result<()> {
 /// Loads a shape that was [saved](save).
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be read, is no shape file, is of another version or damaged; the message names it and says
-/// what is wrong.
+/// [`Error::File`] if the file cannot be read, is no regular file, is larger than [`MOST_FILE_BYTES`](crate::files::MOST_FILE_BYTES),
+/// is no shape file, is of another version or damaged; the message names it and says what is wrong. [`Error::Memory`].
 pub fn load(path: &Path) -> Result<Shape> {
     load_in_steps(path, &mut Progress::new(&mut |_| true))
 }
@@ -51,7 +52,7 @@ pub fn load(path: &Path) -> Result<Shape> {
 /// # Errors
 /// As [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
-    let bytes = fs::read(path).map_err(|e| Error::File(format!("{}: cannot be read: {e}", path.display())))?;
+    let bytes = read_whole(path, &path.display().to_string())?;
     from_bytes_in_steps(&bytes, progress).map_err(|error| match error {
         Error::Cancelled(_) => error,
         _ => Error::File(format!("{}: {}", path.display(), error.message())),
