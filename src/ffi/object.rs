@@ -63,6 +63,17 @@ unsafe impl Versioned for ObjectInfo {
     const FIRST_SIZE: usize = size_of::<ObjectInfo>();
 }
 
+impl ObjectInfo {
+    /// What is said of no object.
+    const UNKNOWN: ObjectInfo = ObjectInfo {
+        struct_size: size_of::<ObjectInfo>(),
+        user_data: 0,
+        piece_count: 0,
+        pose: [f64::NAN; 12],
+        fixed: 0,
+    };
+}
+
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
 /// Fills `options` with the defaults, struct_size included.
@@ -194,7 +205,7 @@ pub unsafe extern "C" fn swift_scene_set_user_data(
     unsafe { change(scene, |scene| Ok(scene.set_user_data(id, user_data)?)) }
 }
 
-/// Says what an object is: set info->struct_size to sizeof(swift_object_info) first.
+/// Says what an object is: set info->struct_size to sizeof(swift_object_info) first. On failure the pose is NaN, all else 0.
 ///
 /// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene or info is null.
 /// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFT_ERROR_POISONED.
@@ -206,15 +217,18 @@ pub unsafe extern "C" fn swift_scene_get_object_info(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
-        let object = look(scene)?.object(id)?;
-        let value = ObjectInfo {
-            struct_size: size_of::<ObjectInfo>(),
-            user_data: object.user_data(),
-            piece_count: object.pieces().len(),
-            pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
-            fixed: i32::from(object.fixed()),
-        };
-        write_struct(info, "info", &value)
+        write_struct(info, "info", &ObjectInfo::UNKNOWN)?;
+        look(scene, |scene| {
+            let object = scene.object(id)?;
+            let value = ObjectInfo {
+                struct_size: size_of::<ObjectInfo>(),
+                user_data: object.user_data(),
+                piece_count: object.pieces().len(),
+                pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
+                fixed: i32::from(object.fixed()),
+            };
+            write_struct(info, "info", &value)
+        })
     })
 }
 
@@ -233,13 +247,15 @@ pub unsafe extern "C" fn swift_scene_get_piece(
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(shape, "shape", std::ptr::null())?;
-        let pieces = look(scene)?.object(id)?.pieces();
-        let found = pieces.get(piece).ok_or_else(|| {
-            let message = format!("piece {piece} of an object with {}", pieces.len());
-            Failure::new(StatusCode::ErrorInvalidArgument, message)
-        })?;
-        shape.write(Arc::as_ptr(found));
-        Ok(())
+        look(scene, |scene| {
+            let pieces = scene.object(id)?.pieces();
+            let found = pieces.get(piece).ok_or_else(|| {
+                let message = format!("piece {piece} of an object with {}", pieces.len());
+                Failure::new(StatusCode::ErrorInvalidArgument, message)
+            })?;
+            shape.write(Arc::as_ptr(found));
+            Ok(())
+        })
     })
 }
 
