@@ -49,6 +49,19 @@ unsafe impl Versioned for LevelInfo {
     const FIRST_SIZE: usize = size_of::<LevelInfo>();
 }
 
+impl LevelInfo {
+    /// What is said of no level.
+    const UNKNOWN: LevelInfo = LevelInfo {
+        struct_size: size_of::<LevelInfo>(),
+        vertex_count: 0,
+        edge_count: 0,
+        face_count: 0,
+        triangle_count: 0,
+        deviation: f64::NAN,
+        bytes: 0,
+    };
+}
+
 /// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
 /// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
 /// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
@@ -87,7 +100,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
 }
 
 /// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swift_level_info) first.
+/// info->struct_size to sizeof(swift_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
 /// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
@@ -98,6 +111,8 @@ pub unsafe extern "C" fn swift_shape_get_level_info(
     info: *mut LevelInfo,
 ) -> StatusCode {
     guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &LevelInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let polyhedron = polyhedron_of(shape, level)?;

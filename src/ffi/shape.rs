@@ -66,6 +66,30 @@ unsafe impl Versioned for ShapeInfo {
     const FIRST_SIZE: usize = size_of::<ShapeInfo>();
 }
 
+impl ShapeInfo {
+    /// What is said of no shape.
+    const UNKNOWN: ShapeInfo = ShapeInfo {
+        struct_size: size_of::<ShapeInfo>(),
+        dimension: 0,
+        vertex_count: 0,
+        edge_count: 0,
+        face_count: 0,
+        triangle_count: 0,
+        volume: f64::NAN,
+        centre_of_mass: [f64::NAN; 3],
+        radius: f64::NAN,
+        lower: [f64::NAN; 3],
+        upper: [f64::NAN; 3],
+        bytes: 0,
+        hierarchy: 0,
+        level_count: 0,
+        level_bytes: 0,
+        lookup: 0,
+        lookup_resolution: 0,
+        lookup_bytes: 0,
+    };
+}
+
 /// Makes a shape from a polygon mesh. The arrays are copied.
 ///
 /// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
@@ -239,12 +263,14 @@ pub unsafe extern "C" fn swift_shape_prepare(
     })
 }
 
-/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
+/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first. On failure real numbers are NaN, all else 0.
 ///
 /// SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
