@@ -41,6 +41,14 @@ pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -
 }
 
 impl Error {
+    /// Another error in place of this one; a lack of memory stays one.
+    pub(crate) fn unless_memory(self, other: impl FnOnce(&Error) -> Error) -> Error {
+        match self {
+            Error::Memory(_) => self,
+            _ => other(&self),
+        }
+    }
+
     /// The message without the kind.
     pub fn message(&self) -> &str {
         match self {

@@ -1,7 +1,7 @@
-//! Files read whole: regular ones, no larger than the limit.
+//! Files read and written whole: regular ones, no larger than the limit. Whatever else bears a file's name is refused, not waited for.
 
 use std::fs::{File, OpenOptions};
-use std::io::{ErrorKind, Read};
+use std::io::{ErrorKind, Read, Write};
 use std::path::Path;
 
 use crate::error::{Error, Result};
@@ -16,7 +16,7 @@ pub const MOST_FILE_BYTES: u64 = 1 << 32;
 /// [`Error::File`] if it cannot be read, is no regular file or is larger than [`MOST_FILE_BYTES`]; [`Error::Memory`].
 pub(crate) fn read_whole(path: &Path, name: &str) -> Result<Vec<u8>> {
     let unreadable = |e: std::io::Error| Error::File(format!("{name}: cannot be read: {e}"));
-    let file = open(path).map_err(unreadable)?;
+    let file = open(OpenOptions::new().read(true), path).map_err(unreadable)?;
     let metadata = file.metadata().map_err(unreadable)?;
     if !metadata.file_type().is_file() {
         let what = kind(&metadata.file_type());
@@ -29,12 +29,26 @@ pub(crate) fn read_whole(path: &Path, name: &str) -> Result<Vec<u8>> {
     read_at_most(file, metadata.len(), MOST_FILE_BYTES, name)
 }
 
+/// Makes these bytes the content of a regular file, a new one or one that is there.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be written or is no regular file.
+pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
+    let unwritable = |e: std::io::Error| Error::File(format!("{}: cannot be written: {e}", path.display()));
+    // Cut off only once it is known to be a file.
+    let mut file = open(OpenOptions::new().write(true).create(true).truncate(false), path).map_err(unwritable)?;
+    let file_type = file.metadata().map_err(unwritable)?.file_type();
+    if !file_type.is_file() {
+        let (name, what) = (path.display(), kind(&file_type));
+        return Err(Error::File(format!("{name}: cannot be written: it is {what}; only regular files are written")));
+    }
+    file.set_len(0).and_then(|()| file.write_all(bytes)).map_err(unwritable)
+}
+
 /// Opens a file without waiting for another end of it, and without becoming the terminal's.
-fn open(path: &Path) -> std::io::Result<File> {
-    let mut options = OpenOptions::new();
-    options.read(true);
+fn open(options: &mut OpenOptions, path: &Path) -> std::io::Result<File> {
     #[cfg(unix)]
-    std::os::unix::fs::OpenOptionsExt::custom_flags(&mut options, libc::O_NONBLOCK | libc::O_NOCTTY);
+    std::os::unix::fs::OpenOptionsExt::custom_flags(options, libc::O_NONBLOCK | libc::O_NOCTTY);
     options.open(path)
 }
 

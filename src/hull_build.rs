@@ -28,6 +28,7 @@
 use crate::error::{Error, Result};
 use crate::locality::{along_curve, is_identity, sort_triangles};
 use crate::math::Vector;
+use crate::memory::{collected, extend, filled, push, with_capacity};
 use crate::mesh::check_vertex;
 use crate::predicates::{ExactPoints, FilteredPlane};
 use crate::progress::Progress;
@@ -48,6 +49,15 @@ pub struct Hull {
     pub vertices: Vec<u32>,
     /// Corners as indices into the input points.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl Hull {
+    /// The directed edges of the triangles, three each.
+    pub(crate) fn edges(&self) -> Result<Vec<(u32, u32)>> {
+        let mut edges = with_capacity(3 * self.triangles.len())?;
+        edges.extend(self.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
+        Ok(edges)
+    }
 }
 
 /// The largest number of points that a hull is made of.
@@ -74,11 +84,11 @@ pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
 pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
     check_points(points)?;
     // Along the curve: what is near on the hull is then near in memory.
-    let order = along_curve(points);
+    let order = along_curve(points)?;
     if is_identity(&order) {
         return hull_in_order(points, progress);
     }
-    let sorted: Vec<Vector> = order.iter().map(|&v| points[v as usize]).collect();
+    let sorted: Vec<Vector> = collected(order.iter().map(|&v| points[v as usize]))?;
     let mut hull = hull_in_order(&sorted, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
         *v = order[*v as usize];
@@ -103,17 +113,17 @@ pub fn check_points(points: &[Vector]) -> Result<()> {
 
 /// The hull of finite points in about the order of the curve.
 fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
-    let exact = ExactPoints::new(points);
+    let exact = ExactPoints::new(points)?;
     match AffineBasis::find(points, &exact) {
         AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: vec![a], triangles: Vec::new() }),
         AffineBasis::Line => Ok(segment(points)),
-        AffineBasis::Plane(corners) => Ok(polygon(points, &exact, corners)),
+        AffineBasis::Plane(corners) => polygon(points, &exact, corners),
         AffineBasis::Space(corners) => {
             let hull = Quickhull::run(&exact, corners, &mut progress.part(0.0, 0.9))?;
-            let (vertices, mut triangles) = (hull.extreme_vertices(), hull.triangles());
+            let (vertices, mut triangles) = (hull.extreme_vertices()?, hull.triangles()?);
             // Euler's formula: a triangulated sphere has half as many vertices as triangles, and two.
             if vertices.len() == triangles.len() / 2 + 2 {
-                sort_triangles(&mut triangles, points.len());
+                sort_triangles(&mut triangles, points.len())?;
                 Ok(Hull { dimension: 3, vertices, triangles })
             } else {
                 hull_of_some(points, &vertices, &mut progress.part(0.9, 1.0))
@@ -124,7 +134,7 @@ fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
 
 /// The hull of the points named in `some`, ascending and without duplicates.
 fn hull_of_some(points: &[Vector], some: &[u32], progress: &mut Progress) -> Result<Hull> {
-    let chosen: Vec<Vector> = some.iter().map(|&v| points[v as usize]).collect();
+    let chosen: Vec<Vector> = collected(some.iter().map(|&v| points[v as usize]))?;
     let mut hull = hull_in_order(&chosen, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
         *v = some[*v as usize];
@@ -203,19 +213,19 @@ fn segment(points: &[Vector]) -> Hull {
 /// The hull of coplanar points that span a plane: its strictly convex corners, by the monotone
 /// chain (A. M. Andrew, "Another efficient algorithm for convex hulls in two dimensions",
 /// Information Processing Letters 9, 1979).
-fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3]) -> Hull {
+fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3]) -> Result<Hull> {
     // Dropping a coordinate along which the plane's normal does not vanish is a bijection of the
     // plane that keeps lines, so any such coordinate is as good as another.
     let axis = (0..3).find(|k| exact.projected_orientation(*k, basis) != 0.0).unwrap_or(2);
     let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
     let key = |i: &u32| (points[*i as usize][first], points[*i as usize][second]);
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let mut order: Vec<u32> = collected(0..points.len() as u32)?;
     // The coordinates are finite, and 0.0 equals -0.0 here as everywhere.
-    order.sort_by(|i, j| key(i).partial_cmp(&key(j)).expect("coordinates are finite").then(i.cmp(j)));
+    order.sort_unstable_by(|i, j| key(i).partial_cmp(&key(j)).expect("coordinates are finite").then(i.cmp(j)));
     order.dedup_by(|later, kept| key(later) == key(kept));
 
     let mut corners: Vec<u32> = Vec::new();
-    let mut extend = |sequence: &mut dyn Iterator<Item = u32>| {
+    let mut extend = |sequence: &mut dyn Iterator<Item = u32>| -> Result<()> {
         let start = corners.len();
         for p in sequence {
             while let [.., q, r] = corners[start..] {
@@ -224,18 +234,19 @@ fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3]) -> Hull {
                 }
                 corners.pop();
             }
-            corners.push(p);
+            push(&mut corners, p)?;
         }
         // The last point begins the other chain.
         corners.pop();
+        Ok(())
     };
-    extend(&mut order.iter().copied());
-    extend(&mut order.iter().rev().copied());
+    extend(&mut order.iter().copied())?;
+    extend(&mut order.iter().rev().copied())?;
 
     let fan = corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
-    let triangles = fan.clone().chain(fan.map(|[a, b, c]| [a, c, b])).collect();
+    let triangles = collected(fan.clone().chain(fan.map(|[a, b, c]| [a, c, b])))?;
     corners.sort_unstable();
-    Hull { dimension: 2, vertices: corners, triangles }
+    Ok(Hull { dimension: 2, vertices: corners, triangles })
 }
 
 /// A triangle of the growing hull.
@@ -295,23 +306,23 @@ impl<'a> Quickhull<'a> {
             facets: Vec::new(),
             free: Vec::new(),
             waiting: Vec::new(),
-            next_outside: vec![NONE; points.len()],
-            new_facet_from: vec![NONE; points.len()],
+            next_outside: filled(NONE, points.len())?,
+            new_facet_from: filled(NONE, points.len())?,
         };
         // d is above (a, b, c). Facet i lacks corner i of [a, b, c, d].
-        hull.add_facet([b, c, d], [3, 1, 2]);
-        hull.add_facet([c, a, d], [3, 2, 0]);
-        hull.add_facet([a, b, d], [3, 0, 1]);
-        hull.add_facet([a, c, b], [1, 0, 2]);
-        let mut outside: Vec<u32> = (0..points.len() as u32).collect();
+        hull.add_facet([b, c, d], [3, 1, 2])?;
+        hull.add_facet([c, a, d], [3, 2, 0])?;
+        hull.add_facet([a, b, d], [3, 0, 1])?;
+        hull.add_facet([a, c, b], [1, 0, 2])?;
+        let mut outside: Vec<u32> = collected(0..points.len() as u32)?;
         let mut new = vec![0, 1, 2, 3];
-        hull.distribute(&outside, &new);
+        hull.distribute(&outside, &new)?;
         let (mut visible, mut horizon) = (Vec::new(), Vec::new());
         let mut vertex_count = 4;
         let mut round = Vec::new();
         loop {
             if round.is_empty() {
-                hull.begin_round(&mut round);
+                hull.begin_round(&mut round)?;
             }
             let Some((_, f)) = round.pop() else { break };
             let Facet { first_outside, farthest: apex, .. } = *hull.facet(f);
@@ -320,10 +331,10 @@ impl<'a> Quickhull<'a> {
                     progress.report(f64::from(vertex_count) / points.len() as f64)?;
                 }
                 vertex_count += 1;
-                hull.remove_visible(f, apex, &mut visible, &mut horizon);
-                hull.take_outside(&visible, apex, &mut outside);
-                hull.add_cone(apex, &horizon, &mut new);
-                hull.distribute(&outside, &new);
+                hull.remove_visible(f, apex, &mut visible, &mut horizon)?;
+                hull.take_outside(&visible, apex, &mut outside)?;
+                hull.add_cone(apex, &horizon, &mut new)?;
+                hull.distribute(&outside, &new)?;
             }
         }
         Ok(hull)
@@ -331,20 +342,21 @@ impl<'a> Quickhull<'a> {
 
     /// Moves all that wait into a round, last first: in rounds, so that the hull grows evenly on all sides, and each along the
     /// curve, as points are numbered.
-    fn begin_round(&mut self, round: &mut Vec<(u32, u32)>) {
-        round.extend(self.waiting.iter().map(|&f| (self.facet(f).farthest, f)));
+    fn begin_round(&mut self, round: &mut Vec<(u32, u32)>) -> Result<()> {
+        extend(round, self.waiting.iter().map(|&f| (self.facet(f).farthest, f)))?;
         round.sort_unstable_by(|a, b| b.cmp(a));
         self.waiting.clear();
+        Ok(())
     }
 
-    fn triangles(&self) -> Vec<[u32; 3]> {
-        self.facets.iter().filter(|f| !f.removed).map(|f| f.corners).collect()
+    fn triangles(&self) -> Result<Vec<[u32; 3]>> {
+        collected(self.facets.iter().filter(|f| !f.removed).map(|f| f.corners))
     }
 
     /// The vertices where three edges or more meet between facets that are not exactly coplanar. At a vertex inside a
     /// facet of the merged hull none do, inside an edge two.
-    fn extreme_vertices(&self) -> Vec<u32> {
-        let mut sharp_edges = vec![0_u32; self.points.len()];
+    fn extreme_vertices(&self) -> Result<Vec<u32>> {
+        let mut sharp_edges = filled(0_u32, self.points.len())?;
         for facet in self.facets.iter().filter(|f| !f.removed) {
             for side in 0..3 {
                 let (tail, head) = (facet.corners[side], facet.corners[(side + 1) % 3]);
@@ -358,14 +370,14 @@ impl<'a> Quickhull<'a> {
                 }
             }
         }
-        (0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3).collect()
+        collected((0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3))
     }
 
     fn facet(&self, f: u32) -> &Facet {
         &self.facets[f as usize]
     }
 
-    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
+    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> Result<u32> {
         let facet = Facet {
             corners,
             neighbours,
@@ -378,16 +390,16 @@ impl<'a> Quickhull<'a> {
         };
         if let Some(f) = self.free.pop() {
             self.facets[f as usize] = facet;
-            f
+            Ok(f)
         } else {
-            self.facets.push(facet);
-            self.facets.len() as u32 - 1
+            push(&mut self.facets, facet)?;
+            Ok(self.facets.len() as u32 - 1)
         }
     }
 
     /// Puts each point into the list of the first of `facets` that it sees; drops it if there is
     /// none. Facets with points then wait for their turn.
-    fn distribute(&mut self, points: &[u32], facets: &[u32]) {
+    fn distribute(&mut self, points: &[u32], facets: &[u32]) -> Result<()> {
         for &p in points {
             for &f in facets {
                 let facet = &mut self.facets[f as usize];
@@ -406,18 +418,25 @@ impl<'a> Quickhull<'a> {
         }
         for &f in facets {
             if self.facet(f).first_outside != NONE {
-                self.waiting.push(f);
+                push(&mut self.waiting, f)?;
             }
         }
+        Ok(())
     }
 
     /// Removes all facets that `apex` sees, `start` being one, and lists them in `visible`; lists
     /// the edges at which the rest of the hull begins in `horizon`.
-    fn remove_visible(&mut self, start: u32, apex: u32, visible: &mut Vec<u32>, horizon: &mut Vec<HorizonEdge>) {
+    fn remove_visible(
+        &mut self,
+        start: u32,
+        apex: u32,
+        visible: &mut Vec<u32>,
+        horizon: &mut Vec<HorizonEdge>,
+    ) -> Result<()> {
         visible.clear();
         horizon.clear();
         self.facets[start as usize].removed = true;
-        visible.push(start);
+        push(visible, start)?;
         let mut done = 0;
         while done < visible.len() {
             let Facet { corners, neighbours, .. } = *self.facet(visible[done]);
@@ -430,36 +449,37 @@ impl<'a> Quickhull<'a> {
                 }
                 if facet.unseen_by != apex && self.points.height(&facet.plane, apex) > 0.0 {
                     facet.removed = true;
-                    visible.push(outer);
+                    push(visible, outer)?;
                 } else {
                     facet.unseen_by = apex;
-                    horizon.push(HorizonEdge { tail: corners[side], head: corners[(side + 1) % 3], outer });
+                    push(horizon, HorizonEdge { tail: corners[side], head: corners[(side + 1) % 3], outer })?;
                 }
             }
         }
-        self.free.extend_from_slice(visible);
+        extend(&mut self.free, visible.iter().copied())
     }
 
     /// Moves the points of the lists of `removed` facets to `outside`, except the new vertex
     /// `apex`.
-    fn take_outside(&mut self, removed: &[u32], apex: u32, outside: &mut Vec<u32>) {
+    fn take_outside(&mut self, removed: &[u32], apex: u32, outside: &mut Vec<u32>) -> Result<()> {
         outside.clear();
         for &f in removed {
             let mut p = std::mem::replace(&mut self.facets[f as usize].first_outside, NONE);
             while p != NONE {
                 if p != apex {
-                    outside.push(p);
+                    push(outside, p)?;
                 }
                 p = self.next_outside[p as usize];
             }
         }
+        Ok(())
     }
 
     /// Joins `apex` to every edge of the horizon; lists the new facets in `new`.
-    fn add_cone(&mut self, apex: u32, horizon: &[HorizonEdge], new: &mut Vec<u32>) {
+    fn add_cone(&mut self, apex: u32, horizon: &[HorizonEdge], new: &mut Vec<u32>) -> Result<()> {
         new.clear();
         for &HorizonEdge { tail, head, outer } in horizon {
-            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE]);
+            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE])?;
             let outer = &mut self.facets[outer as usize];
             for side in 0..3 {
                 if outer.corners[side] == head {
@@ -467,7 +487,7 @@ impl<'a> Quickhull<'a> {
                 }
             }
             self.new_facet_from[tail as usize] = f;
-            new.push(f);
+            push(new, f)?;
         }
         // The horizon is a simple cycle, so one new facet begins at each of its vertices.
         for &f in new.iter() {
@@ -475,5 +495,6 @@ impl<'a> Quickhull<'a> {
             self.facets[f as usize].neighbours[1] = following;
             self.facets[following as usize].neighbours[2] = f;
         }
+        Ok(())
     }
 }

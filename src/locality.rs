@@ -1,44 +1,48 @@
 //! An order that keeps what is near in space near in memory: along a Z-order curve (G. M. Morton, 1966). Whatever walks over a
 //! surface of a million triangles waits for memory unless neighbours are neighbours there, too.
 
+use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, copied, extend, filled};
 
 /// Fewer points than these, and what is built of them, are in the caches in any order.
 const FEWEST: usize = 4096;
 
 /// The indices of all points in their order along the curve, those in one cell of it by index; as they are where they are few. So
 /// of exact duplicates the lowest index comes first.
-pub fn along_curve(points: &[Vector]) -> Vec<u32> {
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+pub fn along_curve(points: &[Vector]) -> Result<Vec<u32>> {
+    let mut order = collected(0..points.len() as u32)?;
     if points.len() >= FEWEST {
-        sort_along_curve(&mut order, points);
+        sort_along_curve(&mut order, points)?;
     }
-    order
+    Ok(order)
 }
 
 /// Sorts indices of points along the curve through these, those in one cell of it by index.
-pub fn sort_along_curve(indices: &mut [u32], points: &[Vector]) {
-    let coded = cells(indices, points);
+pub fn sort_along_curve(indices: &mut [u32], points: &[Vector]) -> Result<()> {
+    let coded = cells(indices, points)?;
     for (index, (_, i)) in indices.iter_mut().zip(coded) {
         *index = i;
     }
+    Ok(())
 }
 
 /// Calls `visit` with the indices of the points in each cell of the curve that holds more than one, ascending.
-pub fn for_each_cell(points: &[Vector], mut visit: impl FnMut(&mut [u32])) {
-    let all: Vec<u32> = (0..points.len() as u32).collect();
+pub fn for_each_cell(points: &[Vector], mut visit: impl FnMut(&mut [u32])) -> Result<()> {
+    let all = collected(0..points.len() as u32)?;
     let mut inside = Vec::new();
-    for cell in cells(&all, points).chunk_by(|a, b| a.0 == b.0) {
+    for cell in cells(&all, points)?.chunk_by(|a, b| a.0 == b.0) {
         if cell.len() > 1 {
             inside.clear();
-            inside.extend(cell.iter().map(|(_, i)| *i));
+            extend(&mut inside, cell.iter().map(|(_, i)| *i))?;
             visit(&mut inside);
         }
     }
+    Ok(())
 }
 
 /// The number of each point's cell along the curve, with its index; in order.
-fn cells(indices: &[u32], points: &[Vector]) -> Vec<(u64, u32)> {
+fn cells(indices: &[u32], points: &[Vector]) -> Result<Vec<(u64, u32)>> {
     let mut low = Vector::repeat(f64::INFINITY);
     let mut high = Vector::repeat(f64::NEG_INFINITY);
     for &i in indices {
@@ -52,10 +56,9 @@ fn cells(indices: &[u32], points: &[Vector]) -> Vec<(u64, u32)> {
         let p = &points[i as usize];
         spread(cell(p.x, low.x)) | spread(cell(p.y, low.y)) << 1 | spread(cell(p.z, low.z)) << 2
     };
-    let mut coded: Vec<(u64, u32)> = indices.iter().map(|i| (code(*i), *i)).collect();
-    // Stable only because that is fast where long parts are in order, as points that come from a polyhedron are.
-    coded.sort();
-    coded
+    let mut coded = collected(indices.iter().map(|i| (code(*i), *i)))?;
+    coded.sort_unstable();
+    Ok(coded)
 }
 
 /// Whether an order of 0..n changes nothing.
@@ -64,12 +67,12 @@ pub fn is_identity(order: &[u32]) -> bool {
 }
 
 /// Where each index of 0..n is in an order of them.
-pub fn places_of(order: &[u32]) -> Vec<u32> {
-    let mut places = vec![0; order.len()];
+pub fn places_of(order: &[u32]) -> Result<Vec<u32>> {
+    let mut places = filled(0, order.len())?;
     for (place, i) in (0..).zip(order) {
         places[*i as usize] = place;
     }
-    places
+    Ok(places)
 }
 
 /// The low 21 bits of x, two zeros after each.
@@ -83,9 +86,9 @@ fn spread(x: u64) -> u64 {
 }
 
 /// Turns each triangle so that it begins at its lowest corner, all below `vertex_count`, and sorts the triangles.
-pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) {
+pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) -> Result<()> {
     // Counting sort by the lowest corner, then a sort of the few of each: in time linear where a comparison sort is not.
-    let mut starts = vec![0_u32; vertex_count + 1];
+    let mut starts = filled(0_u32, vertex_count + 1)?;
     for t in triangles.iter_mut() {
         let lowest = (0..3).min_by_key(|k| t[*k]).unwrap_or(0);
         t.rotate_left(lowest);
@@ -94,8 +97,8 @@ pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) {
     for v in 0..vertex_count {
         starts[v + 1] += starts[v];
     }
-    let mut sorted = vec![[0; 3]; triangles.len()];
-    let mut fill = starts.clone();
+    let mut sorted = filled([0; 3], triangles.len())?;
+    let mut fill = copied(&starts)?;
     for t in triangles.iter() {
         let place = &mut fill[t[0] as usize];
         sorted[*place as usize] = *t;
@@ -105,6 +108,7 @@ pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize) {
         sorted[range[0] as usize..range[1] as usize].sort_unstable();
     }
     *triangles = sorted;
+    Ok(())
 }
 
 #[cfg(test)]
@@ -120,25 +124,26 @@ mod tests {
         points.extend_from_within(..100);
         points[FEWEST + 7].x = -0.0;
         points.swap(FEWEST, FEWEST + 50);
-        let order = along_curve(&points);
-        let places = places_of(&order);
+        let order = along_curve(&points).unwrap();
+        let places = places_of(&order).unwrap();
         assert!((0..).zip(&order).all(|(place, i)| places[*i as usize] == place) && !is_identity(&order));
         let twin = |i: usize| (0..i).find(|j| points[*j] == points[i]).unwrap();
         assert!((FEWEST..points.len()).all(|i| places[twin(i)] < places[i]));
         // All in one cell.
-        assert!(is_identity(&along_curve(&vec![Vector::new(1e308, -1e308, 0.0); FEWEST])));
+        assert!(is_identity(&along_curve(&vec![Vector::new(1e308, -1e308, 0.0); FEWEST]).unwrap()));
         let mut cells = 0;
         for_each_cell(&points, |cell| {
             assert!(cell.is_sorted());
             cells += 1;
-        });
+        })
+        .unwrap();
         assert!((100..120).contains(&cells), "{cells}");
     }
 
     #[test]
     fn triangles_begin_at_their_lowest_corner_and_are_in_order() {
         let mut triangles = vec![[3, 4, 1], [2, 0, 3], [0, 1, 2], [1, 2, 4]];
-        sort_triangles(&mut triangles, 5);
+        sort_triangles(&mut triangles, 5).unwrap();
         assert_eq!(triangles, [[0, 1, 2], [0, 3, 2], [1, 2, 4], [1, 3, 4]]);
     }
 }

@@ -3,7 +3,8 @@
 //! Rust ends the program where memory is not there. A vector that grows with the input, or with a scene, therefore gets its room
 //! here: a refusal is [`Error::Memory`]. What is small whatever the input is need not ask; `docs/conventions.md` lists that.
 
-use std::collections::TryReserveError;
+use std::collections::{BinaryHeap, TryReserveError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
 
 use crate::error::{Error, Result};
 
@@ -33,7 +34,7 @@ pub(crate) fn collected<T>(items: impl IntoIterator<Item = T>) -> Result<Vec<T>>
 
 /// A copy of a slice.
 #[inline]
-pub(crate) fn copied<T: Copy>(items: &[T]) -> Result<Vec<T>> {
+pub(crate) fn copied<T: Clone>(items: &[T]) -> Result<Vec<T>> {
     let mut list = with_capacity(items.len())?;
     list.extend_from_slice(items);
     Ok(list)
@@ -71,6 +72,24 @@ pub(crate) fn extend<T>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) -
     Ok(())
 }
 
+/// One more in a heap.
+#[inline(always)]
+pub(crate) fn push_to_heap<T: Ord>(heap: &mut BinaryHeap<T>, item: T) -> Result<()> {
+    if heap.len() == heap.capacity() {
+        heap.try_reserve(1).map_err(|e| lacking::<T>(heap.len() + 1, &e))?;
+    }
+    heap.push(item);
+    Ok(())
+}
+
+/// What came of something, if anything did; only a lack of memory is an error here.
+pub(crate) fn found<T>(result: Result<T>) -> Result<Option<T>> {
+    match result {
+        Err(Error::Memory(message)) => Err(Error::Memory(message)),
+        other => Ok(other.ok()),
+    }
+}
+
 #[cold]
 #[inline(never)]
 fn grow<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
@@ -83,6 +102,77 @@ fn grow<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
 pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
     let bytes = count.saturating_mul(size_of::<T>());
     Error::Memory(format!("there is no memory for an array of {bytes} bytes: {error}"))
+}
+
+/// What the first who needs it makes, while others who need it wait.
+#[derive(Debug)]
+pub struct OnNeed<T> {
+    made: OnceLock<T>,
+    /// Held while it is made. True where memory was lacking: then it is done without until somebody insists, as trying again takes
+    /// long.
+    lacked: Mutex<bool>,
+}
+
+impl<T> OnNeed<T> {
+    /// Not made yet.
+    pub const fn new() -> OnNeed<T> {
+        OnNeed { made: OnceLock::new(), lacked: Mutex::new(false) }
+    }
+
+    /// What is made.
+    #[inline(always)]
+    pub fn get(&self) -> Option<&T> {
+        self.made.get()
+    }
+
+    /// Made by who can do without: `None` where memory is or was lacking.
+    #[cold]
+    #[inline(never)]
+    pub fn make(&self, make: impl FnOnce() -> Result<T>) -> Option<&T> {
+        let mut lacked = self.lock();
+        if !*lacked && self.get().is_none() {
+            match make() {
+                Ok(made) => drop(self.made.set(made)),
+                Err(_) => *lacked = true,
+            }
+        }
+        self.get()
+    }
+
+    /// Made by who insists.
+    ///
+    /// # Errors
+    /// What `make` says, usually [`Error::Memory`]; it is not made then.
+    pub fn insist(&self, make: impl FnOnce() -> Result<T>) -> Result<()> {
+        let mut lacked = self.lock();
+        if self.get().is_none() {
+            let _ = self.made.set(make()?);
+            *lacked = false;
+        }
+        Ok(())
+    }
+
+    /// Made elsewhere; dropped if another was first.
+    pub fn set(&self, made: T) {
+        let _ = self.made.set(made);
+    }
+
+    /// Nothing is left half done behind this lock.
+    fn lock(&self) -> MutexGuard<'_, bool> {
+        self.lacked.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T> From<T> for OnNeed<T> {
+    fn from(made: T) -> Self {
+        OnNeed { made: OnceLock::from(made), lacked: Mutex::new(false) }
+    }
+}
+
+impl<T: Clone> Clone for OnNeed<T> {
+    fn clone(&self) -> Self {
+        self.get().cloned().map_or_else(OnNeed::new, OnNeed::from)
+    }
 }
 
 #[cfg(test)]
@@ -101,7 +191,7 @@ mod tests {
         let refused = [
             with_capacity::<u64>(1 << 60).map(drop),
             filled(0_u64, 1 << 60).map(drop),
-            collected((0..1_u64 << 60).map(|i| i)).map(drop),
+            collected(0..1_u64 << 60).map(drop),
             reserve(&mut list, usize::MAX),
         ];
         for result in refused {

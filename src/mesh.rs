@@ -4,6 +4,7 @@
 use crate::error::{Error, Result};
 use crate::locality::places_of;
 use crate::math::Vector;
+use crate::memory::{collected, extend, filled, push, reserve, with_capacity};
 
 /// A polygon mesh in the caller's own numbering.
 #[derive(Debug, Clone, PartialEq)]
@@ -48,7 +49,7 @@ impl PolygonMesh {
         }
         let starts = match valences {
             Some(valences) => starts_from_valences(valences, index_count)?,
-            None if index_count.is_multiple_of(3) => (0..=index_count).step_by(3).collect(),
+            None if index_count.is_multiple_of(3) => collected((0..=index_count).step_by(3))?,
             None => {
                 return Err(Error::Argument(format!(
                     "{index_count} vertex indices are not a whole number of triangles"
@@ -69,8 +70,7 @@ impl PolygonMesh {
     pub fn push_vertex(&mut self, position: Vector) -> Result<()> {
         check_vertex(self.vertices.len(), &position)?;
         count_u32(self.vertices.len() + 1, "vertices")?;
-        self.vertices.push(position);
-        Ok(())
+        push(&mut self.vertices, position)
     }
 
     /// Appends a face over the vertices that are there already.
@@ -81,7 +81,8 @@ impl PolygonMesh {
         check_face(self.face_count(), corners, self.vertices.len())?;
         count_u32(self.face_count() + 1, "faces")?;
         let end = count_u32(self.indices.len() + corners.len(), "vertex indices of faces")?;
-        self.indices.extend_from_slice(corners);
+        reserve(&mut self.starts, 1)?;
+        extend(&mut self.indices, corners.iter().copied())?;
         self.starts.push(end);
         Ok(())
     }
@@ -99,29 +100,29 @@ impl PolygonMesh {
 
     /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near each
     /// other. With it what the numbers were before. `None` if the faces are no faces over the vertices.
-    pub(crate) fn in_order(&self, order: Vec<u32>) -> Option<(PolygonMesh, Numbers)> {
+    pub(crate) fn in_order(&self, order: Vec<u32>) -> Result<Option<(PolygonMesh, Numbers)>> {
         let count = self.vertices.len();
         if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= count) {
-            return None;
+            return Ok(None);
         }
-        let places = places_of(&order);
+        let places = places_of(&order)?;
         let lowest = |f: usize| self.face(f).iter().map(|v| places[*v as usize]).min().unwrap_or(0) as usize;
         // Counting sort; it keeps the order of faces with the same lowest vertex.
-        let lowest: Vec<usize> = (0..self.face_count()).map(lowest).collect();
-        let mut fill = vec![0_u32; count + 1];
+        let lowest: Vec<usize> = collected((0..self.face_count()).map(lowest))?;
+        let mut fill = filled(0_u32, count + 1)?;
         lowest.iter().for_each(|v| fill[v + 1] += 1);
         for v in 0..count {
             fill[v + 1] += fill[v];
         }
-        let mut faces = vec![0; lowest.len()];
+        let mut faces = filled(0, lowest.len())?;
         for (f, v) in (0..).zip(lowest) {
             faces[fill[v] as usize] = f;
             fill[v] += 1;
         }
         let mut mesh = PolygonMesh {
-            vertices: order.iter().map(|v| self.vertices[*v as usize]).collect(),
-            indices: Vec::with_capacity(self.indices.len()),
-            starts: Vec::with_capacity(self.starts.len()),
+            vertices: collected(order.iter().map(|v| self.vertices[*v as usize]))?,
+            indices: with_capacity(self.indices.len())?,
+            starts: with_capacity(self.starts.len())?,
             single_precision: self.single_precision,
         };
         mesh.starts.push(0);
@@ -129,7 +130,7 @@ impl PolygonMesh {
             mesh.indices.extend(self.face(f as usize).iter().map(|v| places[*v as usize]));
             mesh.starts.push(mesh.indices.len() as u32);
         }
-        Some((mesh, Numbers { vertices: order, faces }))
+        Ok(Some((mesh, Numbers { vertices: order, faces })))
     }
 
     /// The vertex indices of face `f`.
@@ -146,7 +147,7 @@ fn count_u32(count: usize, of: &str) -> Result<u32> {
 /// Running sums of the valences, which must add up to the number of indices.
 fn starts_from_valences(valences: &[u32], index_count: u32) -> Result<Vec<u32>> {
     count_u32(valences.len(), "faces")?;
-    let mut starts = Vec::with_capacity(valences.len() + 1);
+    let mut starts = with_capacity(valences.len() + 1)?;
     let mut end = 0_u32;
     starts.push(end);
     for (f, &valence) in valences.iter().enumerate() {

@@ -21,7 +21,9 @@ use dashu_int::IBig;
 use robust::{Coord, Coord3D, orient2d, orient3d};
 
 use crate::double_double::{two_sum, wide_cross, wide_dot};
+use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector, power_of_two};
+use crate::memory::{collected, push};
 
 /// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
 /// of this file. 2⁻³⁰⁰.
@@ -68,42 +70,51 @@ pub struct FilteredPlane {
 
 impl ExactPoints {
     /// Prepares finite points; fewer than 2³² of them.
-    pub fn new(points: &[Vector]) -> ExactPoints {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub fn new(points: &[Vector]) -> Result<ExactPoints> {
         let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
         let scale = -exponent_above(largest);
-        let scaled: Vec<[f64; 3]> = points
-            .iter()
-            .map(|p| [times_power_of_two(p.x, scale), times_power_of_two(p.y, scale), times_power_of_two(p.z, scale)])
-            .collect();
+        let times = |p: &Vector| [p.x, p.y, p.z].map(|x| times_power_of_two(x, scale));
+        let scaled: Vec<[f64; 3]> = collected(points.iter().map(times))?;
         let expansions_are_exact = points
             .iter()
             .zip(&scaled)
             .all(|(p, s)| (0..3).all(|k| p[k] == 0.0 || s[k].abs() >= SMALLEST_FOR_EXPANSIONS));
-        let as_given = || points.iter().map(|p| (*p).into()).collect::<Vec<_>>();
-        let integers = (!expansions_are_exact).then(|| to_integers(&as_given()));
+        let as_given = || collected(points.iter().map(|p| (*p).into()));
+        let integers = if expansions_are_exact { None } else { Some(to_integers(&as_given()?)?) };
         let mut extent = [0.0; 3];
         for (k, size) in extent.iter_mut().enumerate() {
             let low = scaled.iter().fold(f64::INFINITY, |m, s| m.min(s[k]));
             let high = scaled.iter().fold(f64::NEG_INFINITY, |m, s| m.max(s[k]));
             *size = (high - low).max(0.0).next_up();
         }
-        ExactPoints { scaled, integers, extent, scale, guard: UNDERFLOW_GUARD }
+        Ok(ExactPoints { scaled, integers, extent, scale, guard: UNDERFLOW_GUARD })
     }
 
     /// Appends the exact average of four points (a point may be named more than once). It need not
     /// be a point of doubles, so all signs come from integers from now on: slow.
-    pub fn push_average(&mut self, corners: [u32; 4]) {
-        let integers = self.integers.get_or_insert_with(|| to_integers(&self.scaled));
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub fn push_average(&mut self, corners: [u32; 4]) -> Result<()> {
+        let integers = match &mut self.integers {
+            Some(integers) => integers,
+            none => none.insert(to_integers(&self.scaled)?),
+        };
         let average = [0, 1, 2].map(|k| corners.iter().map(|&i| &integers[i as usize][k]).sum());
         // Four times as many units to the length: the sum itself is the average then.
         for x in integers.iter_mut().flatten() {
             *x <<= 2;
         }
-        integers.push(average);
+        push(integers, average)?;
         let rounded = |k: usize| corners.iter().map(|&i| 0.25 * self.scaled[i as usize][k]).sum();
-        self.scaled.push([0, 1, 2].map(rounded));
+        let rounded = [0, 1, 2].map(rounded);
+        push(&mut self.scaled, rounded)?;
         // The rounded copy is good for nothing but steering.
         self.guard = f64::INFINITY;
+        Ok(())
     }
 
     /// The number of points.
@@ -270,7 +281,7 @@ fn integer_sign(value: &IBig) -> f64 {
 }
 
 /// All points times the same power of two, chosen so that they become integers.
-fn to_integers(points: &[[f64; 3]]) -> Vec<[IBig; 3]> {
+fn to_integers(points: &[[f64; 3]]) -> Result<Vec<[IBig; 3]>> {
     let nonzero = points.iter().flatten().filter(|x| **x != 0.0);
     let lowest = nonzero.map(|x| mantissa_and_exponent(*x).1).min().unwrap_or(0);
     let integer = |x: f64| {
@@ -280,7 +291,7 @@ fn to_integers(points: &[[f64; 3]]) -> Vec<[IBig; 3]> {
         let (mantissa, exponent) = mantissa_and_exponent(x);
         IBig::from(mantissa) << ((exponent - lowest) as usize)
     };
-    points.iter().map(|p| p.map(integer)).collect()
+    collected(points.iter().map(|p| p.map(integer)))
 }
 
 /// x = mantissa·2^exponent, exactly.
@@ -358,7 +369,7 @@ mod tests {
     #[test]
     fn positive_means_seen_counter_clockwise() {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 1.0], [5.0, 5.0, 0.0]];
-        let exact = ExactPoints::new(&points.map(Vector::from));
+        let exact = ExactPoints::new(&points.map(Vector::from)).unwrap();
         assert!(exact.orientation([0, 1, 2], 3) > 0.0);
         assert!(exact.orientation([0, 2, 1], 3) < 0.0);
         assert_eq!(exact.orientation([0, 1, 2], 4), 0.0);
@@ -383,7 +394,7 @@ mod tests {
             let frame = Vector::from(frames[round % frames.len()]);
             let points = nearly_coplanar(&mut random).map(|p| p.component_mul(&frame));
             let truth = sign(&exact_determinant(&points));
-            let exact = ExactPoints::new(&points);
+            let exact = ExactPoints::new(&points).unwrap();
             assert_eq!(sign_of(exact.orientation([0, 1, 2], 3)), truth, "{points:?}");
             assert_eq!(sign_of(exact.height(&exact.plane([0, 1, 2]), 3)), truth, "{points:?}");
         }
@@ -398,7 +409,7 @@ mod tests {
             let factor = [1.0, 3.7e-5, 1e-305][round % 3];
             let points = [(); 4].map(|()| random.vector().map(|x| (3.0 * x).round() * 8.0 * factor));
             let truth = sign(&exact_determinant(&points));
-            assert_eq!(sign_of(ExactPoints::new(&points).orientation([0, 1, 2], 3)), truth);
+            assert_eq!(sign_of(ExactPoints::new(&points).unwrap().orientation([0, 1, 2], 3)), truth);
             zeros += usize::from(truth == 0.0);
         }
         assert!(zeros >= if cfg!(miri) { 1 } else { 1000 }, "{zeros}");
@@ -412,7 +423,7 @@ mod tests {
             let (a, b) = (random.vector(), random.vector());
             let c = a + (b - a) * random.signed();
             let points = [a, b, c].map(|p| Vector::new(p.x, p.y * scale, p.z));
-            let exact = ExactPoints::new(&points);
+            let exact = ExactPoints::new(&points).unwrap();
             for axis in 0..3 {
                 // Flattened along the axis and seen from above.
                 let [a, b, c] = points.map(|mut p| {
@@ -452,9 +463,9 @@ mod tests {
     fn averages_are_exact() {
         let d = 5e-324;
         let points = [[0.0, 0.0, 0.0], [d, 0.0, 0.0], [0.0, d, 0.0], [0.0, 0.0, d]].map(Vector::from);
-        let mut exact = ExactPoints::new(&points);
-        exact.push_average([0, 1, 2, 3]);
-        exact.push_average([0, 0, 1, 2]);
+        let mut exact = ExactPoints::new(&points).unwrap();
+        exact.push_average([0, 1, 2, 3]).unwrap();
+        exact.push_average([0, 0, 1, 2]).unwrap();
         for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
             assert!(exact.orientation(face, 4) < 0.0, "{face:?}");
             assert!(exact.height(&exact.plane(face), 4) < 0.0, "{face:?}");

@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::memory::{copied, filled};
 
 /// A closed triangulated surface and the half-edges out of each vertex.
 #[derive(Debug, Clone)]
@@ -37,15 +38,15 @@ impl Triangulation {
     /// [`Error::Bug`] when the triangles are no closed surface or leave a vertex out.
     pub fn new(triangles: Vec<[u32; 3]>, normals: &[Vector], vertex_count: usize) -> Result<Triangulation> {
         let half_edge_count = 3 * triangles.len();
-        let mut outgoing_starts = vec![0_u32; vertex_count + 1];
+        let mut outgoing_starts = filled(0_u32, vertex_count + 1)?;
         for &corner in triangles.iter().flatten() {
             outgoing_starts[corner as usize + 1] += 1;
         }
         for v in 0..vertex_count {
             outgoing_starts[v + 1] += outgoing_starts[v];
         }
-        let mut outgoing = vec![0_u32; half_edge_count];
-        let mut fill = outgoing_starts.clone();
+        let mut outgoing = filled(0_u32, half_edge_count)?;
+        let mut fill = copied(&outgoing_starts)?;
         for (h, &corner) in triangles.iter().flatten().enumerate() {
             let slot = &mut fill[corner as usize];
             outgoing[*slot as usize] = h as u32;
@@ -53,7 +54,7 @@ impl Triangulation {
         }
 
         let mut surface =
-            Triangulation { triangles, twins: vec![u32::MAX; half_edge_count], outgoing, outgoing_starts };
+            Triangulation { triangles, twins: filled(u32::MAX, half_edge_count)?, outgoing, outgoing_starts };
         for h in 0..half_edge_count as u32 {
             if surface.twins[h as usize] == u32::MAX {
                 let twin = surface.find_twin(h, normals).ok_or_else(|| open_surface(&surface, h))?;

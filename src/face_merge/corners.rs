@@ -1,39 +1,46 @@
 //! Which vertices of the merged faces are corners, and which lie inside a straight edge up to rounding.
 
 use super::MergedFaces;
+use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, copied, filled, push};
 use crate::triangulation::Triangulation;
 
 /// Decides which vertices are corners: those where three or more faces meet, and as many of those where two meet as it takes to
 /// stay within the bound of the boundary (U. Ramer, "An Iterative Procedure for the Polygonal Approximation of Plane
 /// Curves", 1972).
-pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &mut MergedFaces, bound: f64) {
+pub fn straighten_edges(
+    surface: &Triangulation,
+    positions: &[Vector],
+    faces: &mut MergedFaces,
+    bound: f64,
+) -> Result<()> {
     let degree = |v: u32| surface.around(v).iter().filter(|h| faces.is_boundary(surface, **h)).count();
-    let degrees: Vec<usize> = (0..positions.len() as u32).map(degree).collect();
-    let mut corners: Vec<bool> = degrees.iter().map(|d| *d > 2).collect();
-    let mut on_chain = vec![false; positions.len()];
-    let chain_from = |first: u32, corners: &[bool]| {
+    let degrees: Vec<usize> = collected((0..positions.len() as u32).map(degree))?;
+    let mut corners: Vec<bool> = collected(degrees.iter().map(|d| *d > 2))?;
+    let mut on_chain = filled(false, positions.len())?;
+    let chain_from = |first: u32, corners: &[bool]| -> Result<Vec<u32>> {
         let mut chain = vec![surface.tail(first), surface.head(first)];
         let mut h = first;
         while !corners[surface.head(h) as usize] && surface.head(h) != chain[0] {
             h = faces.next_on_boundary(surface, h);
-            chain.push(surface.head(h));
+            push(&mut chain, surface.head(h))?;
         }
-        chain
+        Ok(chain)
     };
     let mut chains = Vec::new();
     for v in 0..positions.len() as u32 {
         for &h in surface.around(v) {
             let middle = surface.head(h) as usize;
             if degrees[v as usize] > 2 && degrees[middle] == 2 && !on_chain[middle] && faces.is_boundary(surface, h) {
-                let chain = chain_from(h, &corners);
+                let chain = chain_from(h, &corners)?;
                 chain[1..chain.len() - 1].iter().for_each(|w| on_chain[*w as usize] = true);
-                chains.push(chain);
+                push(&mut chains, chain)?;
             }
         }
     }
     for chain in &chains {
-        keep_bends(positions, chain, bound, &mut corners);
+        keep_bends(positions, chain, bound, &mut corners)?;
     }
     // What is left are two faces that share their whole boundary: a flat body.
     for v in 0..positions.len() as u32 {
@@ -41,16 +48,16 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
             let Some(&h) = surface.around(v).iter().find(|h| faces.is_boundary(surface, **h)) else {
                 continue;
             };
-            let closed = chain_from(h, &corners);
+            let closed = chain_from(h, &corners)?;
             closed.iter().for_each(|w| on_chain[*w as usize] = true);
-            keep_bends_of_polygon(positions, &closed, bound, &mut corners);
-            chains.push(closed);
+            keep_bends_of_polygon(positions, &closed, bound, &mut corners)?;
+            push(&mut chains, closed)?;
         }
     }
     faces.corners = corners;
 
     // A face that is thinner than the bound keeps its corners all the same: a polygon has three.
-    let mut side_counts = vec![0_u32; faces.normals.len()];
+    let mut side_counts = filled(0_u32, faces.normals.len())?;
     for h in 0..surface.twins.len() as u32 {
         if faces.is_boundary(surface, h) && faces.corners[surface.tail(h) as usize] {
             side_counts[faces.left(h) as usize] += 1;
@@ -62,10 +69,11 @@ pub fn straighten_edges(surface: &Triangulation, positions: &[Vector], faces: &m
             chain.iter().for_each(|v| faces.corners[*v as usize] = true);
         }
     }
+    Ok(())
 }
 
 /// Marks the inner vertices of a chain that are needed to stay within the bound of it; its ends are corners.
-fn keep_bends(positions: &[Vector], chain: &[u32], bound: f64, corners: &mut [bool]) {
+fn keep_bends(positions: &[Vector], chain: &[u32], bound: f64, corners: &mut [bool]) -> Result<()> {
     let mut parts = vec![(0, chain.len() - 1)];
     while let Some((first, last)) = parts.pop() {
         let a = &positions[chain[first] as usize];
@@ -88,16 +96,17 @@ fn keep_bends(positions: &[Vector], chain: &[u32], bound: f64, corners: &mut [bo
             && (distance > bound || distance.is_nan())
         {
             corners[chain[i] as usize] = true;
-            parts.push((first, i));
-            parts.push((i, last));
+            push(&mut parts, (first, i))?;
+            push(&mut parts, (i, last))?;
         }
     }
+    Ok(())
 }
 
 /// The same for a closed chain, whose first vertex comes again as its last. The lexicographically first vertex and the one
 /// farthest from it are corners of the convex polygon.
-fn keep_bends_of_polygon(positions: &[Vector], closed: &[u32], bound: f64, corners: &mut [bool]) {
-    let mut ring = closed[1..].to_vec();
+fn keep_bends_of_polygon(positions: &[Vector], closed: &[u32], bound: f64, corners: &mut [bool]) -> Result<()> {
+    let mut ring = copied(&closed[1..])?;
     let key = |v: &u32| positions[*v as usize];
     let first = (0..ring.len())
         .min_by(|i, j| {
@@ -110,7 +119,8 @@ fn keep_bends_of_polygon(positions: &[Vector], closed: &[u32], bound: f64, corne
     let far = (1..ring.len()).max_by(|i, j| distance(&ring[*i]).total_cmp(&distance(&ring[*j]))).unwrap_or(0);
     corners[ring[0] as usize] = true;
     corners[ring[far] as usize] = true;
-    ring.push(ring[0]);
-    keep_bends(positions, &ring[..=far], bound, corners);
-    keep_bends(positions, &ring[far..], bound, corners);
+    let again = ring[0];
+    push(&mut ring, again)?;
+    keep_bends(positions, &ring[..=far], bound, corners)?;
+    keep_bends(positions, &ring[far..], bound, corners)
 }

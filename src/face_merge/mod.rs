@@ -10,7 +10,9 @@ mod regions;
 
 use std::f64::consts::PI;
 
+use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, filled, push, with_capacity};
 use crate::triangulation::{Triangulation, next};
 use corners::straighten_edges;
 use regions::coplanar_regions;
@@ -77,30 +79,32 @@ impl MergedFaces {
 
 /// Merges the triangles of a hull. `normals` are the triangles' unit normals, `areas` sizes to order them by, `bound` is
 /// [`merge_bound`].
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
 pub fn merge_faces(
     surface: &Triangulation,
     positions: &[Vector],
     normals: &[Vector],
     areas: &[f64],
     bound: f64,
-) -> MergedFaces {
-    let (mut region_of, mut region_normals) = coplanar_regions(surface, positions, normals, areas, bound);
+) -> Result<MergedFaces> {
+    let (mut region_of, mut region_normals) = coplanar_regions(surface, positions, normals, areas, bound)?;
     loop {
-        let mut faces = number_faces(surface, positions.len(), &region_of, &region_normals);
-        straighten_edges(surface, positions, &mut faces, bound);
-        start_at_corners(surface, &mut faces);
-        let mut sizes = vec![0_u32; faces.normals.len()];
+        let mut faces = number_faces(surface, positions.len(), &region_of, &region_normals)?;
+        straighten_edges(surface, positions, &mut faces, bound)?;
+        start_at_corners(surface, &mut faces)?;
+        let mut sizes = filled(0_u32, faces.normals.len())?;
         faces.face_of.iter().for_each(|f| sizes[*f as usize] += 1);
-        let dented: Vec<bool> = (0..faces.normals.len())
-            .map(|face| sizes[face] > 1 && !is_convex(surface, positions, &faces, face))
-            .collect();
+        let is_dented = |face: usize| sizes[face] > 1 && !is_convex(surface, positions, &faces, face);
+        let dented: Vec<bool> = collected((0..faces.normals.len()).map(is_dented))?;
         if !dented.contains(&true) {
-            return faces;
+            return Ok(faces);
         }
         // Back to triangles, which are convex; each round leaves fewer merged faces.
         for (t, region) in region_of.iter_mut().enumerate().filter(|(t, _)| dented[faces.face_of[*t] as usize]) {
             *region = region_normals.len() as u32;
-            region_normals.push(normals[t]);
+            push(&mut region_normals, normals[t])?;
         }
     }
 }
@@ -146,9 +150,9 @@ fn number_faces(
     vertex_count: usize,
     region_of: &[u32],
     region_normals: &[Vector],
-) -> MergedFaces {
-    let mut number = vec![NONE; region_normals.len()];
-    let mut normals = Vec::with_capacity(region_normals.len());
+) -> Result<MergedFaces> {
+    let mut number = filled(NONE, region_normals.len())?;
+    let mut normals = with_capacity(region_normals.len())?;
     for v in 0..vertex_count as u32 {
         for &h in surface.around(v) {
             let region = region_of[h as usize / 3] as usize;
@@ -158,13 +162,13 @@ fn number_faces(
             }
         }
     }
-    let face_of = region_of.iter().map(|&r| number[r as usize]).collect();
-    MergedFaces { face_of, normals, first_half_edges: Vec::new(), corners: Vec::new() }
+    let face_of = collected(region_of.iter().map(|&r| number[r as usize]))?;
+    Ok(MergedFaces { face_of, normals, first_half_edges: Vec::new(), corners: Vec::new() })
 }
 
 /// Chooses each face's first half-edge: the first one at a corner, in order of vertices.
-fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) {
-    let mut first = vec![NONE; faces.normals.len()];
+fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) -> Result<()> {
+    let mut first = filled(NONE, faces.normals.len())?;
     for v in (0..faces.corners.len() as u32).filter(|v| faces.corners[*v as usize]) {
         for &h in surface.around(v) {
             if faces.is_boundary(surface, h) && first[faces.left(h) as usize] == NONE {
@@ -173,4 +177,5 @@ fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) {
         }
     }
     faces.first_half_edges = first;
+    Ok(())
 }

@@ -1,7 +1,9 @@
 //! Which triangles lie in one plane up to rounding.
 
 use super::NONE;
+use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, filled, push, with_capacity};
 use crate::normal::{area_vector, normal_of};
 use crate::triangulation::{Triangulation, previous};
 
@@ -13,23 +15,23 @@ pub fn coplanar_regions(
     normals: &[Vector],
     areas: &[f64],
     bound: f64,
-) -> (Vec<u32>, Vec<Vector>) {
+) -> Result<(Vec<u32>, Vec<Vector>)> {
     let mut regions = Regions {
         surface,
         positions,
         triangle_normals: normals,
         bound,
-        region_of: vec![NONE; surface.triangles.len()],
-        normals: Vec::with_capacity(surface.triangles.len()),
-        out: vec![NONE; positions.len()],
+        region_of: filled(NONE, surface.triangles.len())?,
+        normals: with_capacity(surface.triangles.len())?,
+        out: filled(NONE, positions.len())?,
     };
     // Largest first, and most meshes have few triangles that can begin anything.
-    let mut seeds: Vec<u32> =
-        (0..surface.triangles.len() as u32).filter(|t| regions.has_coplanar_neighbour(*t)).collect();
-    seeds.sort_by(|s, t| areas[*t as usize].total_cmp(&areas[*s as usize]));
+    let all = 0..surface.triangles.len() as u32;
+    let mut seeds: Vec<u32> = collected(all.filter(|t| regions.has_coplanar_neighbour(*t)))?;
+    seeds.sort_unstable_by(|s, t| areas[*t as usize].total_cmp(&areas[*s as usize]).then(s.cmp(t)));
     for seed in seeds {
         if regions.region_of[seed as usize] == NONE {
-            regions.add(seed);
+            regions.add(seed)?;
         }
     }
     for (region, normal) in regions.region_of.iter_mut().zip(normals) {
@@ -38,7 +40,7 @@ pub fn coplanar_regions(
             regions.normals.push(*normal);
         }
     }
-    (regions.region_of, regions.normals)
+    Ok((regions.region_of, regions.normals))
 }
 
 /// Regions of triangles while they grow.
@@ -48,6 +50,7 @@ struct Regions<'a> {
     triangle_normals: &'a [Vector],
     bound: f64,
     region_of: Vec<u32>,
+    /// No more than triangles.
     normals: Vec<Vector>,
     /// Scratch: a region's boundary half-edge out of each vertex, NONE elsewhere.
     out: Vec<u32>,
@@ -67,17 +70,18 @@ impl Regions<'_> {
 
     /// Makes a region from a triangle that has none: everything coplanar around it, or single triangles if that
     /// is no disk.
-    fn add(&mut self, seed: u32) {
+    fn add(&mut self, seed: u32) -> Result<()> {
         let region = self.normals.len() as u32;
-        let (triangles, normal) = self.grow(seed, region);
-        if triangles.len() == 1 || self.is_disk(&triangles) {
+        let (triangles, normal) = self.grow(seed, region)?;
+        if triangles.len() == 1 || self.is_disk(&triangles)? {
             self.normals.push(normal);
-            return;
+            return Ok(());
         }
         for t in triangles {
             self.region_of[t as usize] = self.normals.len() as u32;
             self.normals.push(self.triangle_normals[t as usize]);
         }
+        Ok(())
     }
 
     /// Marks the triangles around `seed` that lie within the bound of one plane as `region`; returns them and the plane's normal.
@@ -85,7 +89,7 @@ impl Regions<'_> {
     /// The plane is that of a reference triangle among the region's vertices: the seed first, later one at least twice as large
     /// whenever there is one. So a cap of thin triangles is measured by a large one and not by the extrapolation of a sliver.
     /// If the last plane does not hold all of the region (it crept around a smooth body), the seed stays alone.
-    fn grow(&mut self, seed: u32, region: u32) -> (Vec<u32>, Vector) {
+    fn grow(&mut self, seed: u32, region: u32) -> Result<(Vec<u32>, Vector)> {
         let surface = self.surface;
         let position = |v: u32| &self.positions[v as usize];
         let mut reference = surface.triangles[seed as usize];
@@ -110,7 +114,7 @@ impl Regions<'_> {
                     continue;
                 }
                 self.region_of[neighbour as usize] = region;
-                triangles.push(neighbour);
+                push(&mut triangles, neighbour)?;
                 let area = |[a, b, c]: [u32; 3]| (position(b) - position(a)).cross(&(position(c) - position(a))).norm();
                 if size == 0.0 {
                     size = area(reference);
@@ -142,11 +146,11 @@ impl Regions<'_> {
             triangles.truncate(1);
             normal = self.triangle_normals[seed as usize];
         }
-        (triangles, normal)
+        Ok((triangles, normal))
     }
 
     /// Whether the region is bounded by one simple loop. On a sphere, that makes it a disk.
-    fn is_disk(&mut self, triangles: &[u32]) -> bool {
+    fn is_disk(&mut self, triangles: &[u32]) -> Result<bool> {
         let region = self.region_of[triangles[0] as usize];
         let mut boundary = Vec::new();
         let mut simple = true;
@@ -155,7 +159,7 @@ impl Regions<'_> {
                 let out = &mut self.out[self.surface.tail(h) as usize];
                 simple &= *out == NONE;
                 *out = h;
-                boundary.push(h);
+                push(&mut boundary, h)?;
             }
         }
         let mut length = 0;
@@ -173,6 +177,6 @@ impl Regions<'_> {
         for h in &boundary {
             self.out[self.surface.tail(*h) as usize] = NONE;
         }
-        length > 0 && length == boundary.len()
+        Ok(length > 0 && length == boundary.len())
     }
 }

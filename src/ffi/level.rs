@@ -3,6 +3,7 @@
 use super::shape::{copy_triangles, copy_vertices, create, read_arrays};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
+use crate::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
@@ -73,6 +74,7 @@ impl LevelInfo {
 ///
 /// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
 /// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+/// SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_levels(
@@ -85,7 +87,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
     create(shape, || unsafe {
         let making = read_options(options)?;
         let levels = array(levels, level_count, "levels")?;
-        let mut meshes = Vec::with_capacity(levels.len());
+        let mut meshes = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
             let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
             let read = match i {

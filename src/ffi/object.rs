@@ -8,6 +8,7 @@ use super::shape::{read_arrays, read_path};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, output, read_struct, write_struct};
 use crate::math::{Matrix, Pose, Vector};
+use crate::memory::{collected, with_capacity};
 use crate::object::{ObjectId, ObjectOptions};
 use crate::scene::Scene;
 use crate::shape::Shape;
@@ -90,7 +91,8 @@ pub unsafe extern "C" fn swift_object_options_init(options: *mut CObjectOptions)
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
-/// than a scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+/// than a scene holds. SWIFT_ERROR_MEMORY. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_add_object(
     scene: *mut SceneHandle,
@@ -111,7 +113,11 @@ pub unsafe extern "C" fn swift_scene_add_object(
                 Arc::increment_strong_count(piece);
                 Ok(Arc::from_raw(piece))
             };
-            pieces.iter().enumerate().map(share).collect()
+            let mut shares = with_capacity(pieces.len())?;
+            for piece in pieces.iter().enumerate() {
+                shares.push(share(piece)?);
+            }
+            Ok(shares)
         })
     }
 }
@@ -166,6 +172,7 @@ pub unsafe extern "C" fn swift_scene_add_file(
 /// whatever those of its original are. On failure nothing is added and `*id` is 0.
 ///
 /// SWIFT_ERROR_HANDLE: original names no object of this scene. SWIFT_ERROR_LIMIT: more objects than a scene holds.
+/// SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER: the message names the argument. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_copy_object(
@@ -309,7 +316,7 @@ pub unsafe extern "C" fn swift_scene_set_all_poses(
     }
 }
 
-/// As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+/// As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFT_ERROR_MEMORY, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_set_all_transforms(
     scene: *mut SceneHandle,
@@ -323,8 +330,8 @@ pub unsafe extern "C" fn swift_scene_set_all_transforms(
             check_pose_count(scene, count)?;
             let rotations = array(rotations.cast::<[f64; 9]>(), count, "rotations")?;
             let translations = array(translations.cast::<[f64; 3]>(), count, "translations")?;
-            let poses: Vec<Pose> =
-                rotations.iter().zip(translations).map(|(rotation, translation)| pose(rotation, translation)).collect();
+            let pose_of = |(rotation, translation)| pose(rotation, translation);
+            let poses: Vec<Pose> = collected(rotations.iter().zip(translations).map(pose_of))?;
             Ok(scene.set_all_poses(&poses)?)
         })
     }

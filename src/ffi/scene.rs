@@ -12,7 +12,8 @@ use crate::shape::Shape;
 /// Objects, their poses and the pairs that queries test. Make one with swift_scene_create.
 #[derive(Debug)]
 pub struct SceneHandle {
-    /// How many calls read the scene, or [`CHANGING`]. Every call enters here before it makes a reference to what follows.
+    /// How many calls read the scene, and [`CHANGING`] while one changes it. Every call enters here before it makes a reference to
+    /// what follows.
     users: AtomicU32,
     content: UnsafeCell<Content>,
 }
@@ -24,8 +25,8 @@ struct Content {
     poisoned: bool,
 }
 
-/// One call changes the scene, or ends it. No more than that many calls can read it at once.
-const CHANGING: u32 = u32::MAX;
+/// One call changes the scene, or ends it.
+const CHANGING: u32 = 1 << 31;
 
 // SAFETY: whoever uses `content` has entered by `users`: alone to change it, with other readers to read it. A scene may be sent to
 // and shared between threads, as is checked below.
@@ -51,7 +52,8 @@ impl Changing<'_> {
 
 impl Drop for Changing<'_> {
     fn drop(&mut self) {
-        self.0.users.store(0, Ordering::Release);
+        // Readers that are being refused may be counted, too.
+        self.0.users.fetch_sub(CHANGING, Ordering::Release);
     }
 }
 
@@ -61,11 +63,9 @@ struct Reading<'a>(&'a SceneHandle);
 impl Reading<'_> {
     /// Enters a scene that no call changes.
     fn enter(handle: &SceneHandle) -> Checked<Reading<'_>> {
-        let one_more = |users: u32| (users < CHANGING - 1).then_some(users + 1);
-        match handle.users.fetch_update(Ordering::Acquire, Ordering::Relaxed, one_more) {
-            Ok(_) => Ok(Reading(handle)),
-            Err(_) => Err(busy()),
-        }
+        let before = handle.users.fetch_add(1, Ordering::Acquire);
+        let reading = Reading(handle);
+        if before >= CHANGING { Err(busy()) } else { Ok(reading) }
     }
 
     fn content(&self) -> &Content {
@@ -162,7 +162,7 @@ pub unsafe extern "C" fn swift_scene_destroy(scene: *mut SceneHandle) -> StatusC
 /// Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
 /// same.
 ///
-/// SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
+/// SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice. SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_activate_pair(
@@ -293,4 +293,89 @@ pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scen
         content.poisoned = false;
         result
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ffi::query::{CSceneAnswer, swift_scene_query_intersection};
+    use std::ptr::{null, null_mut};
+
+    /// What a thread is handed of a scene.
+    #[derive(Clone, Copy)]
+    struct Shared(*mut SceneHandle);
+
+    // SAFETY: a handle may be used by any thread; what must not be done at once, the test does to see it refused.
+    unsafe impl Send for Shared {}
+
+    fn new_scene() -> *mut SceneHandle {
+        let mut scene = null_mut();
+        // SAFETY: null options, and room for a pointer.
+        assert_eq!(unsafe { swift_scene_create(null(), &mut scene) }, StatusCode::Ok);
+        scene
+    }
+
+    #[test]
+    fn calls_of_several_threads_at_once_are_done_one_by_one_or_refused() {
+        let shared = Shared(new_scene());
+        let rounds = if cfg!(miri) { 20 } else { 20_000 };
+        let work = move |number: u32| {
+            let Shared(scene) = { shared };
+            (0..rounds).fold(0, |done, round| {
+                // SAFETY: a living scene, and ids that it refuses.
+                let status = unsafe {
+                    match (round + number) % 3 {
+                        0 => swift_scene_activate_all(scene),
+                        1 => swift_scene_deactivate_all(scene),
+                        _ => guard(|| {
+                            look(scene, |scene| {
+                                std::hint::black_box(scene.objects().count());
+                                Ok(())
+                            })
+                        }),
+                    }
+                };
+                assert!(matches!(status, StatusCode::Ok | StatusCode::ErrorBusy), "{status:?}");
+                done + u32::from(status == StatusCode::Ok)
+            })
+        };
+        let done: u32 = std::thread::scope(|threads| {
+            let threads = [0, 1, 2].map(|number| threads.spawn(move || work(number)));
+            threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+        });
+        assert!(done > 0);
+        // SAFETY: a living scene, used by this thread only.
+        unsafe {
+            assert_eq!(swift_scene_activate_all(shared.0), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(shared.0), StatusCode::Ok);
+        }
+    }
+
+    #[test]
+    fn a_call_inside_a_call_is_refused() {
+        let scene = new_scene();
+        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7, found: null() };
+        // SAFETY: a living scene, used by this thread only, and room for every output.
+        unsafe {
+            let status = change(scene, |_| {
+                assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::ErrorBusy);
+                assert_eq!((answer.count, answer.intersecting), (0, 0));
+                assert_eq!(guard(|| look(scene, |_| Ok(()))), StatusCode::ErrorBusy);
+                assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                Ok(())
+            });
+            assert_eq!(status, StatusCode::Ok);
+            let status = guard(|| {
+                look(scene, |_| {
+                    assert_eq!(swift_scene_activate_all(scene), StatusCode::ErrorBusy);
+                    assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                    // Those that change nothing may be many.
+                    look(scene, |_| Ok(()))
+                })
+            });
+            assert_eq!(status, StatusCode::Ok);
+            assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+        }
+    }
 }

@@ -13,6 +13,7 @@ use crate::locality::{sort_along_curve, sort_triangles};
 use crate::lookup::Lookup;
 use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, copied, filled, reserve};
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::normal::{area_vector, normal_of};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
@@ -46,26 +47,26 @@ pub fn build_in_steps(
 ) -> Result<Polyhedron> {
     let centre = centre_of(points);
     // The sum with +0 turns −0 into 0.
-    let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
-    sort_along_curve(&mut hull.vertices, &centred);
+    let centred: Vec<Vector> = collected(points.iter().map(|p| (p - centre).add_scalar(0.0)))?;
+    sort_along_curve(&mut hull.vertices, &centred)?;
 
     let factor = factor_to_middle_scale(&centred);
-    let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
+    let scaled: Vec<Vector> = collected(centred.iter().map(|p| p * factor))?;
     // At another scale the centre may be beyond the doubles.
     let about = if factor == 1.0 { centre } else { Vector::zeros() };
-    let mut polyhedron = HullSurface::new(&scaled, hull).lay_out(about, &mut progress.part(0.1, 0.9))?;
+    let mut polyhedron = HullSurface::new(&scaled, hull)?.lay_out(about, &mut progress.part(0.1, 0.9))?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
-            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers.map(|numbers| &numbers.faces[..]));
+            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers.map(|numbers| &numbers.faces[..]))?;
         }
-        _ => label_by_index(&mut polyhedron),
+        _ => label_by_index(&mut polyhedron)?,
     }
     if let Some(Numbers { vertices, .. }) = numbers {
         polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
     }
     copy_labels(&mut polyhedron);
     if factor != 1.0 {
-        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
+        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor)?;
     }
     let is_usual = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.ordinary = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_usual;
@@ -88,19 +89,11 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// The labels of a polyhedron.
-    pub fn of(polyhedron: &Polyhedron) -> Labels {
-        Labels {
-            vertex_labels: polyhedron.vertex_labels.clone(),
-            face_labels: polyhedron.face_labels.clone(),
-            face_label_starts: polyhedron.face_label_starts.clone(),
-            polygon_corners: polyhedron.polygon_corners.clone(),
-            polygon_starts: polyhedron.polygon_starts.clone(),
-        }
-    }
-
     /// Gives a polyhedron other labels. `false`, and nothing is changed, if they are not labels of such a polyhedron.
-    pub fn give_to(self, polyhedron: &mut Polyhedron) -> bool {
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`].
+    pub fn give_to(self, polyhedron: &mut Polyhedron) -> Result<bool> {
         let divide = |starts: &[u32], parts: usize, whole: usize| {
             starts.len() == parts + 1 && starts[0] == 0 && starts[parts] as usize == whole && starts.is_sorted()
         };
@@ -112,7 +105,7 @@ impl Labels {
             _ => divide(&polygon_starts, face_labels.len(), polygon_corners.len()),
         };
         let fit = vertex_labels.len() == polyhedron.vertices.len()
-            && are_distinct(&vertex_labels)
+            && are_distinct(&vertex_labels)?
             && divide(&face_label_starts, polyhedron.faces.len(), face_labels.len())
             && every_face_has_one
             && polygons
@@ -125,14 +118,14 @@ impl Labels {
             polyhedron.polygon_starts = polygon_starts;
             copy_labels(polyhedron);
         }
-        fit
+        Ok(fit)
     }
 }
 
-fn are_distinct(numbers: &[u32]) -> bool {
-    let mut sorted = numbers.to_vec();
+fn are_distinct(numbers: &[u32]) -> Result<bool> {
+    let mut sorted = copied(numbers)?;
     sorted.sort_unstable();
-    sorted.windows(2).all(|pair| pair[0] != pair[1])
+    Ok(sorted.windows(2).all(|pair| pair[0] != pair[1]))
 }
 
 /// Puts the labels where an answer reads them together with the feature; to be called when they have changed.
@@ -175,32 +168,26 @@ struct HullSurface {
 }
 
 impl HullSurface {
-    fn new(points: &[Vector], hull: Hull) -> HullSurface {
-        let positions: Vec<Vector> = hull.vertices.iter().map(|v| points[*v as usize]).collect();
-        let mut index = vec![NONE; points.len()];
+    fn new(points: &[Vector], hull: Hull) -> Result<HullSurface> {
+        let positions: Vec<Vector> = collected(hull.vertices.iter().map(|v| points[*v as usize]))?;
+        let mut index = filled(NONE, points.len())?;
         for (new, &old) in hull.vertices.iter().enumerate() {
             index[old as usize] = new as u32;
         }
         // Like the vertices in order of place, each triangle from its lowest vertex.
-        let mut triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(|v| index[v as usize])).collect();
-        sort_triangles(&mut triangles, positions.len());
+        let renumbered = |t: &[u32; 3]| t.map(|v| index[v as usize]);
+        let mut triangles: Vec<[u32; 3]> = collected(hull.triangles.iter().map(renumbered))?;
+        sort_triangles(&mut triangles, positions.len())?;
         let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
-        let areas: Vec<WideVector> = triangles
-            .iter()
-            .map(|t| {
-                let [a, b, c] = corners(t);
-                area_vector(&a, &b, &c)
-            })
-            .collect();
-        let normals = triangles
-            .iter()
-            .zip(&areas)
-            .map(|(t, area)| {
-                let [a, b, c] = corners(t);
-                normal_of(area, &a, &b, &c)
-            })
-            .collect();
-        HullSurface { dimension: hull.dimension, positions, labels: hull.vertices, triangles, areas, normals }
+        let areas: Vec<WideVector> = collected(triangles.iter().map(|t| {
+            let [a, b, c] = corners(t);
+            area_vector(&a, &b, &c)
+        }))?;
+        let normals = collected(triangles.iter().zip(&areas).map(|(t, area)| {
+            let [a, b, c] = corners(t);
+            normal_of(area, &a, &b, &c)
+        }))?;
+        Ok(HullSurface { dimension: hull.dimension, positions, labels: hull.vertices, triangles, areas, normals })
     }
 
     fn lay_out(self, centre: Vector, progress: &mut Progress) -> Result<Polyhedron> {
@@ -236,29 +223,29 @@ impl HullSurface {
             // A segment's ends are each other's neighbours, a point is its own.
             for v in 0..self.positions.len() {
                 let other = self.positions.len() - 1 - v;
-                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)]);
+                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)])?;
             }
             return Ok(polyhedron);
         }
 
-        let sizes: Vec<f64> = self.areas.iter().map(|a| narrow(a).norm()).collect();
+        let sizes: Vec<f64> = collected(self.areas.iter().map(|a| narrow(a).norm()))?;
         let surface = Triangulation::new(self.triangles, &self.normals, self.positions.len())?;
-        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius));
+        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, merge_bound(radius))?;
         progress.report(0.3)?;
-        let mut flood = Flood::new(&surface, &self.positions, radius);
-        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood);
+        let mut flood = Flood::new(&surface, &self.positions, radius)?;
+        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood)?;
         progress.report(0.5)?;
-        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood);
+        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood)?;
         progress.report(0.7)?;
         polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of)?;
         progress.report(0.8)?;
-        polyhedron.vertices.reserve_exact(self.positions.len());
+        reserve(&mut polyhedron.vertices, self.positions.len())?;
         for v in 0..self.positions.len() as u32 {
-            polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
+            polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2)?)?;
         }
         polyhedron.triangles = surface.triangles;
         polyhedron.face_of_triangle = merged.face_of;
-        polyhedron.find_flat_vertices();
+        polyhedron.find_flat_vertices()?;
         Ok(polyhedron)
     }
 }
@@ -268,19 +255,20 @@ const FLOOD_EFFORT: usize = 128;
 
 /// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below. `normals` are the
 /// triangles'.
-fn face_slacks(surface: &Triangulation, normals: &[Vector], merged: &MergedFaces, flood: &mut Flood) -> Vec<f64> {
+fn face_slacks(
+    surface: &Triangulation,
+    normals: &[Vector],
+    merged: &MergedFaces,
+    flood: &mut Flood,
+) -> Result<Vec<f64>> {
     let start = |face: usize| surface.tail(merged.first_half_edges[face]);
-    let mut triangle_counts = vec![0_usize; merged.normals.len()];
+    let mut triangle_counts = filled(0_usize, merged.normals.len())?;
     merged.face_of.iter().for_each(|face| triangle_counts[*face as usize] += 1);
-    let flooded: Vec<Option<f64>> = merged
-        .normals
-        .iter()
-        .zip(&triangle_counts)
-        .enumerate()
-        .map(|(face, (normal, count))| flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count))
-        .collect();
-    let mut slacks: Vec<f64> = flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)).collect();
-    let mut falls = vec![0.0_f64; slacks.len()];
+    let faces = merged.normals.iter().zip(&triangle_counts).enumerate();
+    let rises = faces.map(|(face, (normal, count))| flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
+    let flooded: Vec<Option<f64>> = collected(rises)?;
+    let mut slacks: Vec<f64> = collected(flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)))?;
+    let mut falls = filled(0.0_f64, slacks.len())?;
     for (t, (triangle, &face)) in surface.triangles.iter().zip(&merged.face_of).enumerate() {
         let face = face as usize;
         let normal = &merged.normals[face];
@@ -295,5 +283,5 @@ fn face_slacks(surface: &Triangulation, normals: &[Vector], merged: &MergedFaces
     for (slack, fall) in slacks.iter_mut().zip(falls) {
         *slack = (*slack + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF);
     }
-    slacks
+    Ok(slacks)
 }
