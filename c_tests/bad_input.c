@@ -386,7 +386,7 @@ static void scenes(void)
     /* No scene. */
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_query_intersection(NULL, NULL, &answer));
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_set_pose(NULL, here, HERE));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_get_statistics(NULL, NULL));
+    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "statistics", swift_scene_get_statistics(NULL, NULL));
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "statistics", swift_scene_get_statistics(scene, NULL));
     CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "info", swift_scene_get_object_info(scene, here, NULL));
     info.struct_size = 1;

@@ -9,7 +9,13 @@
  * swift_library_last_error_message says what was wrong and where, for each thread. A call that fails changes nothing but the
  * outputs it names. Nothing is printed, nothing unwinds into the caller. A bug of the library, when it is caught, comes back as
  * SWIFT_ERROR_BUG; a scene that was being changed answers SWIFT_ERROR_POISONED from then on and can only be destroyed. What a
- * shape holds never changes once made, so no bug can spoil it.
+ * shape holds never changes once made, so no bug can spoil it. What a failed call does not say is NaN where it is a real number,
+ * else 0 or null.
+ *
+ * Memory. Arrays in proportion to what the caller gives, to a file or to a scene may be refused: the call then ends in
+ * SWIFT_ERROR_MEMORY, as each that allocates may, and nothing has changed. What else is allocated is small, in blocks of less than
+ * 128 kB that do not grow with the input: a handle's own record, integers of the exact tier, messages with the path of a file. Where
+ * that is refused the program ends with a message.
  *
  * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
  * pointer is SWIFT_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
@@ -19,7 +25,8 @@
  * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
  * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, the
  * allocator, the mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the
- * processor has; and a last message for each thread.
+ * processor has; and a last message for each thread. Every call on a scene that another call uses answers SWIFT_ERROR_BUSY and does
+ * nothing, where the rules are broken and where a callback calls the scene that it was called from.
  *
  * Strings. They end in a zero byte. Messages and all other strings that the library gives are UTF-8. Paths are UTF-8 on Windows
  * (others are SWIFT_ERROR_INVALID_ARGUMENT), elsewhere bytes that go to the system as they are, UTF-8 as a rule; what of a path, of
@@ -99,7 +106,17 @@ enum {
   /** The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not. */
   SWIFT_ERROR_UNVERIFIED = 13,
   /** The library was built without what the call is about. */
-  SWIFT_ERROR_UNSUPPORTED = 14
+  SWIFT_ERROR_UNSUPPORTED = 14,
+  /**
+   * There is no memory for an array in proportion to what the caller gave or to a scene: the message says how much was asked
+   * for. Nothing has changed, and the same call may succeed when there is more.
+   */
+  SWIFT_ERROR_MEMORY = 15,
+  /**
+   * The scene is in use: by another thread, which the rules for threads forbid, or by a call that this one was made in. Nothing
+   * has changed.
+   */
+  SWIFT_ERROR_BUSY = 16
 };
 typedef int32_t swift_status;
 
@@ -285,9 +302,10 @@ typedef void (*swift_log_callback)(int32_t status, const char *message, void *us
 
 /**
  * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
- * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory: a call that can say so
- * then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program
- * with a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
+ * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
+ * runs out: for what grows with the caller's input or a scene the call then ends in SWIFT_ERROR_MEMORY; for what is small the
+ * program ends with a message (the head of this file says what that is). `user` is the pointer given to
+ * swift_library_set_allocator.
  */
 typedef void *(*swift_allocate_callback)(void *user, size_t size, size_t alignment);
 
@@ -781,8 +799,8 @@ swift_status swift_library_set_allocator(swift_allocate_callback allocate,
  * and no other thread is still reading a file by it.
  *
  * SWIFT_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or it
- * begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_NULL_POINTER: magic is
- * null.
+ * begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_MEMORY.
+ * SWIFT_ERROR_NULL_POINTER: magic is null.
  */
 swift_status swift_library_register_mesh_reader(const char *magic,
                                                 swift_mesh_reader_callback callback,
@@ -793,6 +811,7 @@ swift_status swift_library_register_mesh_reader(const char *magic,
  * which they are added. The array is copied.
  *
  * SWIFT_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFT_ERROR_LIMIT: too many vertices.
+ * SWIFT_ERROR_MEMORY, which is then the status of what reads the file, too.
  * SWIFT_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
  */
 swift_status swift_mesh_sink_add_vertices(struct swift_mesh_sink *sink,
@@ -805,8 +824,8 @@ swift_status swift_mesh_sink_add_vertices(struct swift_mesh_sink *sink,
  * They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
  * checked when the callback returns. The arrays are copied.
  *
- * SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is
- * added, and the file is refused.
+ * SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_MEMORY: as of swift_mesh_sink_add_vertices. SWIFT_ERROR_NULL_POINTER:
+ * sink is null, or indices while there are any. Nothing is added, and the file is refused.
  */
 swift_status swift_mesh_sink_add_faces(struct swift_mesh_sink *sink,
                                        const uint32_t *indices,
@@ -823,9 +842,9 @@ swift_status swift_mesh_sink_add_faces(struct swift_mesh_sink *sink,
 swift_status swift_mesh_sink_set_single_precision(struct swift_mesh_sink *sink);
 
 /**
- * Refuses the file that a callback reads, whatever the callback returns. `message`, a string that is copied, says what is wrong,
- * best with the line; the library adds which file and which reader. The first message holds, also where a call to the sink was
- * refused before.
+ * Refuses the file that a callback reads, whatever the callback returns. `message`, a string of which up to 4,096 bytes are
+ * copied, says what is wrong, best with the line; the library adds which file and which reader. The first message holds, also
+ * where a call to the sink was refused before, unless that was for memory.
  *
  * SWIFT_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
  */
@@ -851,8 +870,8 @@ swift_status swift_shape_options_init(struct swift_shape_options *options);
  * `options` may be null for the defaults.
  *
  * SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
- * bits. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
- * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * bits. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER,
+ * SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_mesh(const double *vertices,
                                           size_t vertex_count,
@@ -871,8 +890,8 @@ swift_status swift_shape_create_from_mesh(const double *vertices,
  * `options` may be null for the defaults, which refuse a hull without interior.
  *
  * SWIFT_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
- * SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
- * options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_MEMORY.
+ * SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_points(const double *points,
                                             size_t point_count,
@@ -888,8 +907,9 @@ swift_status swift_shape_create_from_points(const double *points,
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  * `options` may be null for the defaults.
  *
- * SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line, or the registered reader and what
- * it says. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
+ * SWIFT_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger than
+ * 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
+ * SWIFT_ERROR_MEMORY. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
  * SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
  * SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
@@ -903,8 +923,9 @@ swift_status swift_shape_create_from_file(const char *path,
  * machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
  * file refuses it.
  *
- * SWIFT_ERROR_FILE: the file cannot be written; the message names it and says why. SWIFT_ERROR_NULL_POINTER,
- * SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+ * SWIFT_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message names it
+ * and says why. SWIFT_ERROR_MEMORY: the file is as it was.
+ * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
  */
 swift_status swift_shape_save(const struct swift_shape *shape,
                               const char *path);
@@ -917,8 +938,8 @@ swift_status swift_shape_save(const struct swift_shape *shape,
  *
  * On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
  *
- * SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged; the message names it and says what
- * is wrong. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
+ * SWIFT_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file, of
+ * another version or damaged; the message names it and says what is wrong. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
  * the argument.
  */
 swift_status swift_shape_load(const char *path,
@@ -949,15 +970,15 @@ swift_status swift_shape_release(const struct swift_shape *shape);
  * the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
  * meanwhile, or another swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
  *
- * SWIFT_ERROR_CANCELLED: progress said so; no levels are made, and the shape can be used as before. SWIFT_ERROR_NULL_POINTER:
- * shape is null.
+ * SWIFT_ERROR_CANCELLED: progress said so; SWIFT_ERROR_MEMORY: in both cases no levels are made, a table that was made stays, and
+ * the shape can be used as before. SWIFT_ERROR_NULL_POINTER: shape is null.
  */
 swift_status swift_shape_prepare(const struct swift_shape *shape,
                                  swift_progress_callback progress,
                                  void *progress_user);
 
 /**
- * Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
+ * Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first. On failure real numbers are NaN, all else 0.
  *
  * SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
  */
@@ -1000,6 +1021,7 @@ swift_status swift_shape_copy_triangles(const struct swift_shape *shape,
  *
  * SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
  * names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+ * SWIFT_ERROR_MEMORY.
  * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
  */
 swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
@@ -1009,7 +1031,7 @@ swift_status swift_shape_create_from_levels(const struct swift_mesh *levels,
 
 /**
  * Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
- * info->struct_size to sizeof(swift_level_info) first.
+ * info->struct_size to sizeof(swift_level_info) first. On failure the deviation is NaN, all else 0.
  *
  * SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
  * SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
@@ -1162,7 +1184,8 @@ swift_status swift_scene_create(const struct swift_scene_options *options,
 /**
  * Ends a scene, a poisoned one too; its shares of shapes are given back, its ids and results end with it. Null is ignored.
  *
- * SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its memory.
+ * SWIFT_ERROR_BUSY: another call uses the scene, which lives on. SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its
+ * memory.
  */
 swift_status swift_scene_destroy(struct swift_scene *scene);
 
@@ -1170,7 +1193,7 @@ swift_status swift_scene_destroy(struct swift_scene *scene);
  * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
  * same.
  *
- * SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
+ * SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice. SWIFT_ERROR_MEMORY.
  * SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_activate_pair(struct swift_scene *scene,
@@ -1224,7 +1247,8 @@ swift_status swift_object_options_init(struct swift_object_options *options);
  * `options` may be null for the defaults.
  *
  * SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
- * than a scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+ * than a scene holds. SWIFT_ERROR_MEMORY. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_add_object(struct swift_scene *scene,
                                     const struct swift_shape *const *pieces,
@@ -1261,6 +1285,7 @@ swift_status swift_scene_add_file(struct swift_scene *scene,
  * whatever those of its original are. On failure nothing is added and `*id` is 0.
  *
  * SWIFT_ERROR_HANDLE: original names no object of this scene. SWIFT_ERROR_LIMIT: more objects than a scene holds.
+ * SWIFT_ERROR_MEMORY.
  * SWIFT_ERROR_NULL_POINTER: the message names the argument. SWIFT_ERROR_POISONED.
  */
 swift_status swift_scene_copy_object(struct swift_scene *scene,
@@ -1285,7 +1310,7 @@ swift_status swift_scene_set_user_data(struct swift_scene *scene,
                                        uint64_t user_data);
 
 /**
- * Says what an object is: set info->struct_size to sizeof(swift_object_info) first.
+ * Says what an object is: set info->struct_size to sizeof(swift_object_info) first. On failure the pose is NaN, all else 0.
  *
  * SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene or info is null.
  * SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFT_ERROR_POISONED.
@@ -1333,7 +1358,7 @@ swift_status swift_scene_set_all_poses(struct swift_scene *scene,
                                        const double *poses,
                                        size_t count);
 
-/** As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object. */
+/** As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFT_ERROR_MEMORY, too. */
 swift_status swift_scene_set_all_transforms(struct swift_scene *scene,
                                             const double *rotations,
                                             const double *translations,
@@ -1350,8 +1375,8 @@ swift_status swift_scene_query_init(struct swift_scene_query *query);
  * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
  * and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
  *
- * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_LIMIT: no
- * memory for the list of pairs.
+ * SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_MEMORY: none
+ * for a changed list of pairs; the next query tries again.
  * SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
  * then. What a scene has accepted it answers: no pair makes a query fail.
  */
@@ -1394,7 +1419,8 @@ swift_status swift_scene_query_contacts(struct swift_scene *scene,
                                         struct swift_scene_answer *answer);
 
 /**
- * What the queries of a scene did since it was made or swift_scene_reset_statistics was called.
+ * What the queries of a scene did since it was made or swift_scene_reset_statistics was called. On failure error_spent is NaN, all
+ * else 0.
  *
  * SWIFT_ERROR_NULL_POINTER: scene or statistics is null. SWIFT_ERROR_POISONED.
  */

@@ -6,6 +6,8 @@
 
 use std::collections::HashMap;
 
+use crate::error::Result;
+use crate::memory::lacking;
 use crate::object::{Object, ObjectId, Stamp};
 
 /// So many words on pairs are kept without a look at whether their objects are still there.
@@ -42,14 +44,24 @@ impl Activation {
     }
 
     /// Of one pair, the earlier created object first. `is_there` tells the objects that have not been removed.
-    pub(crate) fn set_pair(&mut self, pair: [ObjectId; 2], active: bool, is_there: impl Fn(ObjectId) -> bool) {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory); nothing is said then.
+    pub(crate) fn set_pair(
+        &mut self,
+        pair: [ObjectId; 2],
+        active: bool,
+        is_there: impl Fn(ObjectId) -> bool,
+    ) -> Result<()> {
         // Looking through all words each time there may be twice as many as were kept costs no more than saying them did.
         if self.pairs.len() >= self.crowded {
             self.pairs.retain(|pair, _| pair.iter().all(|id| is_there(*id)));
             self.crowded = 2 * self.pairs.len() + LEAST_CROWD;
         }
+        self.pairs.try_reserve(1).map_err(|e| lacking::<([ObjectId; 2], Stamp)>(self.pairs.len() + 1, &e))?;
         let stamp = self.say(active);
         self.pairs.insert(pair, stamp);
+        Ok(())
     }
 
     /// Whether a pair is active, the earlier created object first.
@@ -100,7 +112,7 @@ mod tests {
                 8.. if ids.len() > 1 => {
                     let second = 1 + random.below(ids.len() - 1);
                     let pair = [ids[random.below(second)], ids[second]];
-                    activation.set_pair(pair, active, |id| table.get(id).is_ok());
+                    activation.set_pair(pair, active, |id| table.get(id).is_ok()).unwrap();
                     model.insert(pair, active);
                 }
                 _ => {}

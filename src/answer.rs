@@ -84,7 +84,7 @@ pub struct Statistics {
 
 /// The answer to a pair query. Numbers that it does not say are NaN, features [`FeatureKind::None`]; a separated answer always
 /// has a normal.
-#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PairAnswer {
     /// Disjoint, beyond the tolerance, or intersecting.
@@ -117,4 +117,28 @@ pub struct PairAnswer {
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,
+}
+
+/// Says nothing: no number of it reads as a contact.
+impl Default for PairAnswer {
+    fn default() -> Self {
+        const UNSAID: [f64; 3] = [f64::NAN; 3];
+        PairAnswer {
+            outcome: Outcome::None,
+            status: Status::None,
+            distance: f64::NAN,
+            lower: f64::NAN,
+            upper: f64::NAN,
+            local1: UNSAID,
+            local2: UNSAID,
+            world1: UNSAID,
+            world2: UNSAID,
+            normal: UNSAID,
+            feature1: Feature::default(),
+            feature2: Feature::default(),
+            proof: [[0; 2]; 4],
+            proof_count: 0,
+            statistics: Statistics::default(),
+        }
+    }
 }

@@ -1,7 +1,9 @@
 //! Whether one convex polyhedron contains another, exactly.
 
 use crate::double_double::narrow;
+use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{copied, filled, with_capacity};
 use crate::normal::area_vector;
 use crate::polyhedron::Polyhedron;
 use crate::predicates::ExactPoints;
@@ -16,34 +18,37 @@ use crate::predicates::ExactPoints;
 ///
 /// Time in proportion to the triangles of `outer` and the vertices of `inner` as long as neighbouring triangles have
 /// neighbouring extreme vertices, as those of a level of detail have.
-pub fn contains(outer: &Polyhedron, inner: &Polyhedron) -> bool {
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
+pub fn contains(outer: &Polyhedron, inner: &Polyhedron) -> Result<bool> {
     debug_assert!(outer.centre == inner.centre);
     if outer.dimension < 3 {
-        return false;
+        return Ok(false);
     }
-    let positions = |p: &Polyhedron| p.vertices.iter().map(|v| v.position).collect::<Vec<_>>();
-    let mut points = positions(outer);
-    let first_inner = points.len() as u32;
-    points.extend(positions(inner));
-    let exact = ExactPoints::new(&points);
-    let mut flood = Flood { inner, exact: &exact, first_inner, seen_in: vec![0; inner.vertices.len()], round: 0 };
+    let (first_inner, count) = (outer.vertices.len() as u32, inner.vertices.len());
+    let mut points = with_capacity(outer.vertices.len() + count)?;
+    points.extend(outer.vertices.iter().chain(&inner.vertices).map(|v| v.position));
+    let exact = ExactPoints::new(&points)?;
+    let (seen_in, stack) = (filled(0, count)?, with_capacity(count)?);
+    let mut flood = Flood { inner, exact: &exact, first_inner, seen_in, round: 0, stack };
 
     // The vertices are in an order that keeps neighbours together, the triangles are not.
-    let mut order: Vec<[u32; 3]> = outer.triangles.clone();
+    let mut order: Vec<[u32; 3]> = copied(&outer.triangles)?;
     order.sort_unstable_by_key(|corners| corners.iter().copied().min());
-    let mut extreme = vec![None; outer.vertices.len()];
+    let mut extreme = filled(None, outer.vertices.len())?;
     let mut last = 0;
     for corners in order {
         let start = corners.iter().find_map(|&v| extreme[v as usize]).unwrap_or(last);
         match flood.extreme_vertex_below(corners, start) {
             Some(vertex) => last = vertex,
-            None => return false,
+            None => return Ok(false),
         }
         for v in corners {
             extreme[v as usize] = Some(last);
         }
     }
-    true
+    Ok(true)
 }
 
 /// Scratch for one containment test.
@@ -55,6 +60,8 @@ struct Flood<'a> {
     /// Marks that need no clearing between floods.
     seen_in: Vec<u32>,
     round: u32,
+    /// A flood puts each vertex there at most once: there is room for all.
+    stack: Vec<u32>,
 }
 
 impl Flood<'_> {
@@ -71,8 +78,9 @@ impl Flood<'_> {
 
         self.round += 1;
         self.seen_in[top as usize] = self.round;
-        let mut stack = vec![top];
-        while let Some(v) = stack.pop() {
+        self.stack.clear();
+        self.stack.push(top);
+        while let Some(v) = self.stack.pop() {
             if self.exact.height(&plane, self.first_inner + v) > 0.0 {
                 return None;
             }
@@ -87,7 +95,7 @@ impl Flood<'_> {
                 let terms = normal.component_mul(&d).map(f64::abs);
                 let error = 6.0 * UNIT_ROUNDOFF * (terms.x + terms.y + terms.z) + area * d.norm() + GUARD;
                 if normal.dot(&d) >= -error {
-                    stack.push(head);
+                    self.stack.push(head);
                 }
             }
         }

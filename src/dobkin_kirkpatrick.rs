@@ -17,6 +17,7 @@
 
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, copied, extend, filled, push, with_capacity};
 use crate::normal::{area_vector, normal_of};
 use crate::polyhedron::{NONE, Polyhedron};
 use crate::predicates::ExactPoints;
@@ -110,14 +111,15 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// Begins with a body of dimension 3.
     ///
     /// # Errors
-    /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface.
+    /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface, [`crate::error::Error::Memory`].
     pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
-        let positions: Vec<Vector> = base.vertices.iter().map(|v| v.position).collect();
+        let positions: Vec<Vector> = collected(base.vertices.iter().map(|v| v.position))?;
         let centre = base.mass.centre_of_mass - base.centre;
-        let normals: Vec<Vector> = base.triangles.iter().map(|corners| normal(&positions, *corners)).collect();
-        let surface = Triangulation::new(base.triangles.clone(), &normals, positions.len())?;
-        let mut triangle_at = vec![NONE; positions.len()];
-        let mut triangles = Vec::with_capacity(base.triangles.len());
+        let normal_of = |corners: &[u32; 3]| normal(&positions, *corners);
+        let normals: Vec<Vector> = collected(base.triangles.iter().map(normal_of))?;
+        let surface = Triangulation::new(copied(&base.triangles)?, &normals, positions.len())?;
+        let mut triangle_at = filled(NONE, positions.len())?;
+        let mut triangles = with_capacity(base.triangles.len())?;
         for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
             let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
             triangles.push(Triangle { corners, neighbours, normal, region: NONE, is_free: false });
@@ -127,14 +129,14 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         Ok(DobkinKirkpatrick {
             base,
-            exact: ExactPoints::new(&positions),
-            rays: positions.iter().map(|p| p - centre).collect(),
+            exact: ExactPoints::new(&positions)?,
+            rays: collected(positions.iter().map(|p| p - centre))?,
             triangle_count: triangles.len(),
-            left: (0..positions.len() as u32).collect(),
+            left: collected(0..positions.len() as u32)?,
             triangles,
             free: Vec::new(),
             triangle_at,
-            next_in_region: vec![NONE; positions.len()],
+            next_in_region: filled(NONE, positions.len())?,
         })
     }
 
@@ -147,24 +149,24 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// reached, hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
     ///
     /// # Errors
-    /// [`crate::error::Error::Cancelled`].
+    /// [`crate::error::Error::Cancelled`], [`crate::error::Error::Memory`].
     pub fn next(&mut self, minimum: usize, progress: &mut Progress) -> Result<Option<Removal>> {
-        let set = self.independent_set(minimum.max(4));
+        let set = self.independent_set(minimum.max(4))?;
         if set.is_empty() || 2 * LEAST_SAVING * set.len() < self.triangle_count {
             return Ok(None);
         }
         progress.report(0.1)?;
         let mut filled = Vec::new();
         for &v in &set {
-            if !self.remove(v, &mut filled) {
+            if !self.remove(v, &mut filled)? {
                 return Ok(None);
             }
         }
         filled.sort_unstable();
         progress.report(0.3)?;
         self.left.retain(|v| self.triangle_at[*v as usize] != NONE);
-        self.pack_triangles();
-        let x = self.relaxed(&self.conditions());
+        self.pack_triangles()?;
+        let x = self.relaxed(&self.conditions()?)?;
         progress.report(0.9)?;
 
         // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
@@ -176,9 +178,9 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         let centre = self.base.mass.centre_of_mass - self.base.centre;
         let place = |v: &u32| centre + self.rays[*v as usize] * (grown / x[*v as usize]);
-        let points = self.left.iter().map(place).collect();
+        let points = collected(self.left.iter().map(place))?;
         progress.report(1.0)?;
-        Ok(Some(Removal { vertices: self.left.clone(), points, filled }))
+        Ok(Some(Removal { vertices: copied(&self.left)?, points, filled }))
     }
 
     /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ
@@ -193,12 +195,12 @@ impl<'a> DobkinKirkpatrick<'a> {
     ///
     /// Such a vertex is taken unless a less important neighbour is. So they need not be visited in order of importance, which
     /// jumps about in memory: whoever asks for one decides its less important neighbours before.
-    fn independent_set(&self, minimum: usize) -> Vec<u32> {
+    fn independent_set(&self, minimum: usize) -> Result<Vec<u32>> {
         let mut star = Vec::new();
         // Infinite for a vertex that stays in any case.
-        let mut importances = vec![f64::INFINITY; self.rays.len()];
+        let mut importances = filled(f64::INFINITY, self.rays.len())?;
         for &v in &self.left {
-            self.star(v, &mut star);
+            self.star(v, &mut star)?;
             let importance = self.importance(v, &star);
             if importance <= MOST_IMPORTANT && star.len() <= LARGEST_VALENCE {
                 importances[v as usize] = importance;
@@ -206,23 +208,23 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         let by_importance =
             |v: &u32, w: &u32| importances[*v as usize].total_cmp(&importances[*w as usize]).then(v.cmp(w));
-        let mut is_decided: Vec<bool> = importances.iter().map(|importance| importance.is_infinite()).collect();
+        let mut is_decided: Vec<bool> = collected(importances.iter().map(|importance| importance.is_infinite()))?;
         let mut set = Vec::new();
         let mut waiting = Vec::new();
         for &v in &self.left {
-            waiting.push(v);
+            push(&mut waiting, v)?;
             while let Some(&v) = waiting.last() {
                 if is_decided[v as usize] {
                     waiting.pop();
                     continue;
                 }
-                self.star(v, &mut star);
+                self.star(v, &mut star)?;
                 let ring = || star.iter().map(|t| self.following(*t, v));
                 match ring().find(|w| !is_decided[*w as usize] && by_importance(w, &v).is_lt()) {
-                    Some(w) => waiting.push(w),
+                    Some(w) => push(&mut waiting, w)?,
                     None => {
                         // None of its neighbours is taken: that would have decided this vertex.
-                        set.push(v);
+                        push(&mut set, v)?;
                         is_decided[v as usize] = true;
                         ring().for_each(|w| is_decided[w as usize] = true);
                     }
@@ -236,31 +238,32 @@ impl<'a> DobkinKirkpatrick<'a> {
             set.truncate(most);
         }
         set.sort_unstable();
-        set
+        Ok(set)
     }
 
     /// The triangles around a vertex, counter-clockwise.
-    fn star(&self, v: u32, star: &mut Vec<u32>) {
+    fn star(&self, v: u32, star: &mut Vec<u32>) -> Result<()> {
         star.clear();
         let first = self.triangle_at[v as usize];
         let mut t = first;
         loop {
-            star.push(t);
+            push(star, t)?;
             let triangle = &self.triangles[t as usize];
             t = triangle.neighbours[(place_of(triangle, v) + 2) % 3];
             if t == first {
                 break;
             }
         }
+        Ok(())
     }
 
     /// Removes a vertex and fills the hole by the outer hull of the vertices around it. `false` if the centre of mass is not inside
     /// of all of the filling.
-    fn remove(&mut self, v: u32, filled: &mut Vec<([u32; 3], u32)>) -> bool {
+    fn remove(&mut self, v: u32, filled: &mut Vec<([u32; 3], u32)>) -> Result<bool> {
         let mut star = Vec::new();
-        self.star(v, &mut star);
-        let mut ring = Vec::with_capacity(star.len());
-        let mut outer = Vec::with_capacity(star.len());
+        self.star(v, &mut star)?;
+        let mut ring = with_capacity(star.len())?;
+        let mut outer = with_capacity(star.len())?;
         let mut region = vec![v];
         for &t in &star {
             let triangle = &mut self.triangles[t as usize];
@@ -269,19 +272,19 @@ impl<'a> DobkinKirkpatrick<'a> {
             outer.push(triangle.neighbours[next]);
             triangle.is_free = true;
             let first = triangle.region;
-            region.extend(self.region(first));
+            extend(&mut region, self.region(first))?;
         }
-        self.free.extend_from_slice(&star);
+        extend(&mut self.free, star.iter().copied())?;
         self.triangle_at[v as usize] = NONE;
         self.triangle_count -= 2;
-        let filling = self.fill(&ring, &outer);
+        let filling = self.fill(&ring, &outer)?;
         let is_inside = filling.iter().all(|t| self.height(*t) > 64.0 * UNIT_ROUNDOFF * self.base.mass.radius);
         for &t in &filling {
             let mut corners = self.triangles[t as usize].corners;
             corners.sort_unstable();
-            filled.push((corners, v));
+            push(filled, (corners, v))?;
         }
-        let cones: Vec<Cone> = filling.iter().map(|t| self.cone(*t)).collect();
+        let cones: Vec<Cone> = collected(filling.iter().map(|t| self.cone(*t)))?;
         for q in region {
             // The cones of the filling are those of the hole: q is in one of them, up to rounding.
             let ray = &self.rays[q as usize];
@@ -292,18 +295,16 @@ impl<'a> DobkinKirkpatrick<'a> {
                 self.next_in_region[q as usize] = std::mem::replace(first, q);
             }
         }
-        is_inside
+        Ok(is_inside)
     }
 
     /// Drops free triangles; the others keep their order, in which neighbours are near each other.
-    fn pack_triangles(&mut self) {
+    fn pack_triangles(&mut self) -> Result<()> {
         let mut number = 0;
-        let numbers: Vec<u32> = (self.triangles.iter())
-            .map(|triangle| {
-                number += u32::from(!triangle.is_free);
-                number.wrapping_sub(1)
-            })
-            .collect();
+        let numbers: Vec<u32> = collected(self.triangles.iter().map(|triangle| {
+            number += u32::from(!triangle.is_free);
+            number.wrapping_sub(1)
+        }))?;
         self.triangles.retain(|triangle| !triangle.is_free);
         for triangle in &mut self.triangles {
             triangle.neighbours = triangle.neighbours.map(|t| numbers[t as usize]);
@@ -313,6 +314,7 @@ impl<'a> DobkinKirkpatrick<'a> {
             *t = numbers[*t as usize];
         }
         self.free.clear();
+        Ok(())
     }
 
     /// The removed vertices in a region, from its first.
@@ -324,8 +326,8 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from
     /// `ring[k]`), wrapping each part of the ring like a gift: over the chord from its first to its last vertex the one above
     /// which no other lies. Returns the new triangles. Time in proportion to the square of the ring at worst.
-    fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Vec<u32> {
-        let mut filling = Vec::with_capacity(ring.len() - 2);
+    fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Result<Vec<u32>> {
+        let mut filling = with_capacity(ring.len() - 2)?;
         // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is
         // outer.
         let last = ring.len() - 1;
@@ -346,17 +348,17 @@ impl<'a> DobkinKirkpatrick<'a> {
                     plane = self.exact.plane([tail, ring[apex], head]);
                 }
             }
-            let t = self.add([tail, ring[apex], head], beyond);
+            let t = self.add([tail, ring[apex], head], beyond)?;
             if side == NONE {
                 self.join(beyond, tail, t);
             } else {
                 self.triangles[beyond as usize].neighbours[side as usize] = t;
             }
             filling.push(t);
-            parts.push((i, apex, t, 0));
-            parts.push((apex, j, t, 1));
+            push(&mut parts, (i, apex, t, 0))?;
+            push(&mut parts, (apex, j, t, 1))?;
         }
-        filling
+        Ok(filling)
     }
 
     /// Makes `other` the neighbour of a triangle across the edge that begins at `from`, seen from that triangle.
@@ -367,7 +369,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     }
 
     /// A new triangle; `across` is beyond the edge from its last corner to its first.
-    fn add(&mut self, corners: [u32; 3], across: u32) -> u32 {
+    fn add(&mut self, corners: [u32; 3], across: u32) -> Result<u32> {
         let normal = normal(&self.rays, corners);
         let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: NONE, is_free: false };
         let t = match self.free.pop() {
@@ -376,14 +378,14 @@ impl<'a> DobkinKirkpatrick<'a> {
                 t
             }
             None => {
-                self.triangles.push(new);
+                push(&mut self.triangles, new)?;
                 self.triangles.len() as u32 - 1
             }
         };
         for v in corners {
             self.triangle_at[v as usize] = t;
         }
-        t
+        Ok(t)
     }
 
     /// How far the plane of a triangle is from the centre of mass.
@@ -400,25 +402,25 @@ impl<'a> DobkinKirkpatrick<'a> {
     }
 
     /// The linear conditions of a level; see the head of this file.
-    fn conditions(&self) -> Conditions {
+    fn conditions(&self) -> Result<Conditions> {
         let count = self.triangles.len();
         let mut conditions = Conditions {
-            bounds: Vec::with_capacity(self.rays.len()),
-            starts: Vec::with_capacity(count + 1),
-            beyond: Vec::with_capacity(count),
+            bounds: with_capacity(self.rays.len())?,
+            starts: with_capacity(count + 1)?,
+            beyond: with_capacity(count)?,
         };
         for (t, triangle) in (0..).zip(&self.triangles) {
             conditions.starts.push(conditions.bounds.len() as u32);
             let cone = self.cone(t);
             let coefficients = |q: u32| cone.coefficients(&self.rays[q as usize]);
-            conditions.bounds.extend(self.region(triangle.region).map(coefficients));
+            extend(&mut conditions.bounds, self.region(triangle.region).map(coefficients))?;
             conditions.beyond.push([0, 1, 2].map(|k| {
                 let opposite = self.opposite(triangle.neighbours[k], triangle.corners[(k + 1) % 3]);
                 (opposite, coefficients(opposite))
             }));
         }
         conditions.starts.push(conditions.bounds.len() as u32);
-        conditions
+        Ok(conditions)
     }
 
     /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertices slide
@@ -426,28 +428,28 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// sixteenth, and so on. They do so in sweeps along the curve that vertices are in order of: to let always the one slide that
     /// can slide farthest brings the level no nearer to the body, and jumps about in memory. The factor is the one about the centre
     /// of mass that makes the hull of the vertices that are left bound the body.
-    fn relaxed(&self, conditions: &Conditions) -> Vec<f64> {
+    fn relaxed(&self, conditions: &Conditions) -> Result<Vec<f64>> {
         let sums = conditions.bounds.iter().map(|cone| cone.iter().sum());
         let factor = sums.fold(1.0, f64::max);
-        let mut x = vec![1.0 / factor; self.rays.len()];
+        let mut x = filled(1.0 / factor, self.rays.len())?;
         let farthest = (factor - 1.0) * self.base.mass.radius;
         let least = LEAST_SLIDE * farthest;
         // For each vertex how far it can slide, and to which x; NaN where that has to be found out anew.
-        let mut slides = vec![(f64::NAN, 0.0); self.rays.len()];
+        let mut slides = filled((f64::NAN, 0.0), self.rays.len())?;
         let mut star = Vec::new();
         let mut slides_left = MOST_SLIDES * self.triangle_count;
         let mut threshold = farthest;
         let (mut round, mut dirty) = (Vec::new(), Vec::new());
         while threshold > least {
             threshold = (0.25 * threshold).max(least);
-            round.extend(self.left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)));
+            extend(&mut round, self.left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)))?;
             while !round.is_empty() {
                 for &v in &round {
                     let (mut slide, mut limit) = slides[v as usize];
                     if slide <= threshold {
                         continue;
                     }
-                    self.star(v, &mut star);
+                    self.star(v, &mut star)?;
                     if slide.is_nan() {
                         limit = self.limit(&x, v, &star, conditions);
                         slide = self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit);
@@ -457,7 +459,7 @@ impl<'a> DobkinKirkpatrick<'a> {
                         continue;
                     }
                     if slides_left == 0 {
-                        return x;
+                        return Ok(x);
                     }
                     slides_left -= 1;
                     x[v as usize] = limit;
@@ -468,7 +470,7 @@ impl<'a> DobkinKirkpatrick<'a> {
                             // One that is to be looked at anew already has its turn later in this sweep or in the next.
                             if !slides[w as usize].0.is_nan() {
                                 slides[w as usize].0 = f64::NAN;
-                                dirty.push(w);
+                                push(&mut dirty, w)?;
                             }
                         }
                     }
@@ -478,7 +480,7 @@ impl<'a> DobkinKirkpatrick<'a> {
                 round.sort_unstable();
             }
         }
-        x
+        Ok(x)
     }
 
     /// The largest x of a vertex that the others allow, at least its own.

@@ -17,8 +17,10 @@ pub enum Error {
     File(String),
     /// An object id is null, stale or of another scene.
     Handle(String),
-    /// A limit of the library was reached (counts that overflow 32 bits, no memory).
+    /// A limit of the library was reached: a count that does not fit.
     Limit(String),
+    /// The memory for an array is not there; the message says how much was asked for. Nothing has changed.
+    Memory(String),
     /// The caller's callback asked to stop.
     Cancelled(String),
     /// An answer that was to be verified does not hold; the message says what does not.
@@ -39,6 +41,14 @@ pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -
 }
 
 impl Error {
+    /// Another error in place of this one; a lack of memory stays one.
+    pub(crate) fn unless_memory(self, other: impl FnOnce(&Error) -> Error) -> Error {
+        match self {
+            Error::Memory(_) => self,
+            _ => other(&self),
+        }
+    }
+
     /// The message without the kind.
     pub fn message(&self) -> &str {
         match self {
@@ -48,6 +58,7 @@ impl Error {
             | Error::File(m)
             | Error::Handle(m)
             | Error::Limit(m)
+            | Error::Memory(m)
             | Error::Cancelled(m)
             | Error::Unverified(m)
             | Error::Bug(m) => m,

@@ -7,6 +7,7 @@ use crate::error::Result;
 use crate::face_merge::merge_bound;
 use crate::locality::places_of;
 use crate::math::{Matrix, Vector};
+use crate::memory::{collected, copied, extend, filled, lacking, push, reserve, with_capacity};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::{Face, Polyhedron};
 use crate::progress::Progress;
@@ -18,10 +19,14 @@ const MOST_CORNERS_TRIED: usize = 8;
 const MOST_FACES_TRIED: usize = 32;
 
 /// Labels every face by its own index: for a hull of bare points.
-pub fn label_by_index(polyhedron: &mut Polyhedron) {
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
+pub fn label_by_index(polyhedron: &mut Polyhedron) -> Result<()> {
     let face_count = polyhedron.faces.len() as u32;
-    polyhedron.face_labels = (0..face_count).collect();
-    polyhedron.face_label_starts = (0..=face_count).collect();
+    polyhedron.face_labels = collected(0..face_count)?;
+    polyhedron.face_label_starts = collected(0..face_count + 1)?;
+    Ok(())
 }
 
 /// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour. `points` are the mesh's
@@ -33,7 +38,7 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) {
 /// best, the one with the closest normal wins.
 ///
 /// # Errors
-/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on; [`crate::error::Error::Memory`].
 pub fn label_by_polygons(
     polyhedron: &mut Polyhedron,
     points: &[Vector],
@@ -44,32 +49,33 @@ pub fn label_by_polygons(
     let face_count = polyhedron.faces.len();
     let found = faces_of_polygons(polyhedron, points, mesh, &mut progress.part(0.0, 0.9))?;
     // From here on in the order of labels.
-    let polygons = numbers.map(places_of);
+    let polygons = numbers.map(places_of).transpose()?;
     let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
-    let mut holders: Vec<u32> = (0..found.len() as u32).map(|label| found[polygon(label)]).collect();
+    let mut holders: Vec<u32> = collected((0..found.len() as u32).map(|label| found[polygon(label)]))?;
     let borrowed = borrowed_labels(polyhedron, &holders, &mut progress.part(0.9, 1.0))?;
-    holders.extend(borrowed.iter().map(|(face, _)| *face));
+    extend(&mut holders, borrowed.iter().map(|(face, _)| *face))?;
     let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
 
     // Counting sort by face; it keeps the order within a face.
-    let mut starts = vec![0_u32; face_count + 1];
+    let mut starts = filled(0_u32, face_count + 1)?;
     holders.iter().for_each(|face| starts[*face as usize + 1] += 1);
     for face in 0..face_count {
         starts[face + 1] += starts[face];
     }
-    let mut sorted = vec![0; holders.len()];
-    let mut fill = starts.clone();
+    let mut sorted = filled(0, holders.len())?;
+    let mut fill = copied(&starts)?;
     for (face, label) in holders.iter().zip(labels) {
         sorted[fill[*face as usize] as usize] = label;
         fill[*face as usize] += 1;
     }
 
-    polyhedron.polygon_starts = vec![0];
+    polyhedron.polygon_starts = with_capacity(sorted.len() + 1)?;
+    polyhedron.polygon_starts.push(0);
     for of_face in starts.windows(2) {
         let labels = &sorted[of_face[0] as usize..of_face[1] as usize];
         for &label in labels {
             if labels.len() > 1 {
-                polyhedron.polygon_corners.extend(mesh.face(polygon(label)).iter().map(|c| points[*c as usize]));
+                extend(&mut polyhedron.polygon_corners, mesh.face(polygon(label)).iter().map(|c| points[*c as usize]))?;
             }
             polyhedron.polygon_starts.push(polyhedron.polygon_corners.len() as u32);
         }
@@ -88,9 +94,9 @@ fn faces_of_polygons(
 ) -> Result<Vec<u32>> {
     let around = FacesAround::new(polyhedron, &mut progress.part(0.0, 0.4))?;
     let progress = &mut progress.part(0.4, 1.0);
-    let hull_vertices = hull_vertices_of(polyhedron, points);
+    let hull_vertices = hull_vertices_of(polyhedron, points)?;
     let bound = 2.0 * merge_bound(polyhedron.radius);
-    let mut faces = Vec::with_capacity(mesh.face_count());
+    let mut faces = with_capacity(mesh.face_count())?;
     let mut vertices = Vec::new();
     let mut start = 0;
     for polygon in 0..mesh.face_count() {
@@ -144,15 +150,15 @@ struct FacesAround<'a> {
 impl FacesAround<'_> {
     fn new<'a>(polyhedron: &'a Polyhedron, progress: &mut Progress) -> Result<FacesAround<'a>> {
         let count = polyhedron.vertices.len();
-        let mut starts = vec![0_u32; count + 1];
+        let mut starts = filled(0_u32, count + 1)?;
         for v in polyhedron.triangles.iter().flatten() {
             starts[*v as usize + 1] += 1;
         }
         for v in 0..count {
             starts[v + 1] += starts[v];
         }
-        let mut triangles = vec![0; 3 * polyhedron.triangles.len()];
-        let mut fill = starts.clone();
+        let mut triangles = filled(0, 3 * polyhedron.triangles.len())?;
+        let mut fill = copied(&starts)?;
         let all = 2 * polyhedron.triangles.len();
         for (t, corners) in (0..).zip(&polyhedron.triangles) {
             progress.steps(3, t as usize, all)?;
@@ -161,36 +167,42 @@ impl FacesAround<'_> {
                 fill[*v as usize] += 1;
             }
         }
-        let mut around = FacesAround { polyhedron, faces: Vec::new(), starts: vec![0], angles: Vec::new() };
+        let mut around =
+            FacesAround { polyhedron, faces: Vec::new(), starts: with_capacity(count + 1)?, angles: Vec::new() };
+        around.starts.push(0);
         let mut distinct = Vec::new();
         for v in 0..count {
             let [first, last] = [starts[v], starts[v + 1]].map(|start| start as usize);
             progress.steps(last - first, all / 2 + first / 3, all)?;
-            around.add(v as u32, &triangles[starts[v] as usize..starts[v + 1] as usize], &mut distinct);
+            around.add(v as u32, &triangles[starts[v] as usize..starts[v + 1] as usize], &mut distinct)?;
         }
         Ok(around)
     }
 
     /// Adds the next vertex; `distinct` is scratch.
-    fn add(&mut self, vertex: u32, triangles: &[u32], distinct: &mut Vec<u32>) {
+    fn add(&mut self, vertex: u32, triangles: &[u32], distinct: &mut Vec<u32>) -> Result<()> {
         let face = |t: &u32| self.polyhedron.face_of_triangle[*t as usize];
         distinct.clear();
-        distinct.extend(triangles.iter().map(face));
+        extend(distinct, triangles.iter().map(face))?;
         distinct.sort_unstable();
         distinct.dedup();
         if distinct.len() <= MOST_FACES_TRIED {
-            self.faces.append(distinct);
+            extend(&mut self.faces, distinct.iter().copied())?;
         } else {
             let position = |v: u32| self.polyhedron.vertices[v as usize].position;
             let centre = |t: &u32| self.polyhedron.triangles[*t as usize].map(position).iter().sum::<Vector>() / 3.0;
-            let mut sorted: Vec<(f64, u32)> =
-                triangles.iter().map(|t| (self.angle(vertex, &centre(t)), face(t))).collect();
-            sorted.sort_by(|a, b| a.0.total_cmp(&b.0));
+            let with_angle = |t: &u32| (self.angle(vertex, &centre(t)), *t);
+            let mut sorted: Vec<(f64, u32)> = collected(triangles.iter().map(with_angle))?;
+            sorted.sort_unstable_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+            let missing = self.faces.len() + sorted.len() - self.angles.len();
+            reserve(&mut self.angles, missing)?;
+            reserve(&mut self.faces, sorted.len())?;
             self.angles.resize(self.faces.len(), 0.0);
             self.angles.extend(sorted.iter().map(|(angle, _)| *angle));
-            self.faces.extend(sorted.iter().map(|(_, face)| *face));
+            let polyhedron = self.polyhedron;
+            self.faces.extend(sorted.iter().map(|(_, t)| polyhedron.face_of_triangle[*t as usize]));
         }
-        self.starts.push(self.faces.len() as u32);
+        push(&mut self.starts, self.faces.len() as u32)
     }
 
     fn range(&self, vertex: u32) -> Range<usize> {
@@ -224,21 +236,23 @@ impl FacesAround<'_> {
 }
 
 /// The hull vertex at each point, if there is one; exact duplicates share it.
-fn hull_vertices_of(polyhedron: &Polyhedron, points: &[Vector]) -> Vec<Option<u32>> {
+fn hull_vertices_of(polyhedron: &Polyhedron, points: &[Vector]) -> Result<Vec<Option<u32>>> {
     // The points are free of −0, so equal coordinates have equal bits.
     let key = |p: &Vector| [p.x.to_bits(), p.y.to_bits(), p.z.to_bits()];
-    let mut found = vec![None; points.len()];
+    let mut found = filled(None, points.len())?;
     for (v, &label) in polyhedron.vertex_labels.iter().enumerate() {
         found[label as usize] = Some(v as u32);
     }
     if found.iter().any(Option::is_none) {
-        let by_position: HashMap<[u64; 3], u32> =
-            polyhedron.vertices.iter().enumerate().map(|(v, x)| (key(&x.position), v as u32)).collect();
+        let count = polyhedron.vertices.len();
+        let mut by_position: HashMap<[u64; 3], u32> = HashMap::new();
+        by_position.try_reserve(count).map_err(|e| lacking::<([u64; 3], u32)>(count, &e))?;
+        by_position.extend(polyhedron.vertices.iter().enumerate().map(|(v, x)| (key(&x.position), v as u32)));
         for (vertex, point) in found.iter_mut().zip(points) {
             *vertex = vertex.or_else(|| by_position.get(&key(point)).copied());
         }
     }
-    found
+    Ok(found)
 }
 
 /// The area-weighted normal of a polygon (M. E. Newell), not of unit length.
@@ -251,17 +265,17 @@ fn polygon_normal(points: &[Vector], corners: &[u32]) -> Vector {
 /// Labels for the faces that hold no polygon, with those faces: each the lowest label of the neighbour with the closest normal,
 /// spreading from faces that have one.
 fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32], progress: &mut Progress) -> Result<Vec<(u32, u32)>> {
-    let mut lowest = vec![None; polyhedron.faces.len()];
+    let mut lowest = filled(None, polyhedron.faces.len())?;
     for (label, face) in holders.iter().enumerate().rev() {
         lowest[*face as usize] = Some(label as u32);
     }
-    let mut waiting: Vec<u32> = (0..lowest.len() as u32).filter(|f| lowest[*f as usize].is_none()).collect();
+    let mut waiting: Vec<u32> = collected((0..lowest.len() as u32).filter(|f| lowest[*f as usize].is_none()))?;
     let mut borrowed = Vec::new();
     // The faces are connected across edges and one has a label, so each round labels some.
     while !waiting.is_empty() {
         progress.steps(waiting.len(), borrowed.len(), lowest.len())?;
-        let round: Vec<(u32, u32)> =
-            waiting.iter().filter_map(|&face| Some((face, label_beside(polyhedron, &lowest, face)?))).collect();
+        let labelled = |&face: &u32| Some((face, label_beside(polyhedron, &lowest, face)?));
+        let round: Vec<(u32, u32)> = collected(waiting.iter().filter_map(labelled))?;
         if round.is_empty() {
             break;
         }
@@ -269,7 +283,7 @@ fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32], progress: &mut Prog
             lowest[face as usize] = Some(label);
         }
         waiting.retain(|f| lowest[*f as usize].is_none());
-        borrowed.extend(round);
+        extend(&mut borrowed, round)?;
     }
     Ok(borrowed)
 }

@@ -34,6 +34,7 @@
 use crate::error::{Error, Result};
 use crate::locality::{along_curve, in_order, is_identity, sort_triangles};
 use crate::math::Vector;
+use crate::memory::{collected, extend, filled, push, with_capacity};
 use crate::mesh::check_vertex;
 use crate::predicates::{ExactPoints, FilteredPlane};
 use crate::progress::Progress;
@@ -55,6 +56,15 @@ pub struct Hull {
     pub vertices: Vec<u32>,
     /// Corners as indices into the input points.
     pub triangles: Vec<[u32; 3]>,
+}
+
+impl Hull {
+    /// The directed edges of the triangles, three each.
+    pub(crate) fn edges(&self) -> Result<Vec<(u32, u32)>> {
+        let mut edges = with_capacity(3 * self.triangles.len())?;
+        edges.extend(self.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]));
+        Ok(edges)
+    }
 }
 
 /// The largest number of points that a hull is made of.
@@ -126,7 +136,7 @@ fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
         AffineBasis::Space(corners) => {
             let hull = Quickhull::run(&exact, corners, &mut progress.part(0.1, 0.85))?;
             let vertices = hull.extreme_vertices(&mut progress.part(0.85, 0.9))?;
-            let mut triangles = hull.triangles();
+            let mut triangles = hull.triangles()?;
             // Euler's formula: a triangulated sphere has half as many vertices as triangles, and two.
             if vertices.len() == triangles.len() / 2 + 2 {
                 sort_triangles(&mut triangles, points.len(), &mut progress.part(0.9, 1.0))?;
@@ -140,7 +150,7 @@ fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
 
 /// The hull of the points named in `some`, ascending and without duplicates.
 fn hull_of_some(points: &[Vector], some: &[u32], progress: &mut Progress) -> Result<Hull> {
-    let chosen: Vec<Vector> = some.iter().map(|&v| points[v as usize]).collect();
+    let chosen: Vec<Vector> = collected(some.iter().map(|&v| points[v as usize]))?;
     let mut hull = hull_in_order(&chosen, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {
         *v = some[*v as usize];
@@ -247,14 +257,14 @@ fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3], progress: &m
     let axis = (0..3).find(|k| exact.projected_orientation(*k, basis) != 0.0).unwrap_or(2);
     let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
     let key = |i: &u32| (points[*i as usize][first], points[*i as usize][second]);
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let mut order: Vec<u32> = collected(0..points.len() as u32)?;
     // The coordinates are finite, and 0.0 equals -0.0 here as everywhere.
     let before = |i: &u32, j: &u32| key(i).partial_cmp(&key(j)).expect("coordinates are finite").then(i.cmp(j));
     sort_in_steps(&mut order, before, &mut progress.part(0.0, 0.5))?;
     order.dedup_by(|later, kept| key(later) == key(kept));
 
     let mut corners: Vec<u32> = Vec::new();
-    let mut extend = |sequence: &mut dyn Iterator<Item = u32>, progress: &mut Progress| {
+    let mut extend = |sequence: &mut dyn Iterator<Item = u32>, progress: &mut Progress| -> Result<()> {
         let start = corners.len();
         for (done, p) in sequence.enumerate() {
             // As many corners are taken back as were added.
@@ -265,7 +275,7 @@ fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3], progress: &m
                 }
                 corners.pop();
             }
-            corners.push(p);
+            push(&mut corners, p)?;
         }
         // The last point begins the other chain.
         corners.pop();
@@ -275,7 +285,7 @@ fn polygon(points: &[Vector], exact: &ExactPoints, basis: [u32; 3], progress: &m
     extend(&mut order.iter().rev().copied(), &mut progress.part(0.75, 1.0))?;
 
     let fan = corners[1..].windows(2).map(|pair| [corners[0], pair[0], pair[1]]);
-    let triangles = fan.clone().chain(fan.map(|[a, b, c]| [a, c, b])).collect();
+    let triangles = collected(fan.clone().chain(fan.map(|[a, b, c]| [a, c, b])))?;
     corners.sort_unstable();
     Ok(Hull { dimension: 2, vertices: corners, triangles })
 }
@@ -356,18 +366,18 @@ impl<'a> Quickhull<'a> {
             facets: Vec::new(),
             free: Vec::new(),
             waiting: Vec::new(),
-            next_outside: vec![NONE; points.len()],
-            new_facet_from: vec![NONE; points.len()],
+            next_outside: filled(NONE, points.len())?,
+            new_facet_from: filled(NONE, points.len())?,
             choice: Choice::Farthest,
             work: 0,
             vertex_count: 4,
         };
         // d is above (a, b, c). Facet i lacks corner i of [a, b, c, d].
-        hull.add_facet([b, c, d], [3, 1, 2]);
-        hull.add_facet([c, a, d], [3, 2, 0]);
-        hull.add_facet([a, b, d], [3, 0, 1]);
-        hull.add_facet([a, c, b], [1, 0, 2]);
-        let mut outside: Vec<u32> = (0..points.len() as u32).collect();
+        hull.add_facet([b, c, d], [3, 1, 2])?;
+        hull.add_facet([c, a, d], [3, 2, 0])?;
+        hull.add_facet([a, b, d], [3, 0, 1])?;
+        hull.add_facet([a, c, b], [1, 0, 2])?;
+        let mut outside: Vec<u32> = collected(0..points.len() as u32)?;
         let mut new = vec![0, 1, 2, 3];
         hull.distribute(&outside, &new, progress)?;
         let work_of_farthest = WORK_OF_FARTHEST * points.len() * points.len().ilog2() as usize;
@@ -375,7 +385,7 @@ impl<'a> Quickhull<'a> {
         let mut round = Vec::new();
         loop {
             if round.is_empty() {
-                hull.begin_round(&mut round);
+                hull.begin_round(&mut round)?;
             }
             let Some((_, f)) = round.pop() else { break };
             let Facet { first_outside, apex, .. } = *hull.facet(f);
@@ -395,20 +405,21 @@ impl<'a> Quickhull<'a> {
 
     /// Moves all that wait into a round, last first: in rounds, so that the hull grows evenly on all sides, and each along the
     /// curve, as points are numbered.
-    fn begin_round(&mut self, round: &mut Vec<(u32, u32)>) {
-        round.extend(self.waiting.iter().map(|&f| (self.facet(f).apex, f)));
+    fn begin_round(&mut self, round: &mut Vec<(u32, u32)>) -> Result<()> {
+        extend(round, self.waiting.iter().map(|&f| (self.facet(f).apex, f)))?;
         round.sort_unstable_by(|a, b| b.cmp(a));
         self.waiting.clear();
+        Ok(())
     }
 
-    fn triangles(&self) -> Vec<[u32; 3]> {
-        self.facets.iter().filter(|f| !f.removed).map(|f| f.corners).collect()
+    fn triangles(&self) -> Result<Vec<[u32; 3]>> {
+        collected(self.facets.iter().filter(|f| !f.removed).map(|f| f.corners))
     }
 
     /// The vertices where three edges or more meet between facets that are not exactly coplanar. At a vertex inside a
     /// facet of the merged hull none do, inside an edge two.
     fn extreme_vertices(&self, progress: &mut Progress) -> Result<Vec<u32>> {
-        let mut sharp_edges = vec![0_u32; self.points.len()];
+        let mut sharp_edges = filled(0_u32, self.points.len())?;
         for (done, facet) in self.facets.iter().enumerate().filter(|(_, f)| !f.removed) {
             progress.steps(2, done, self.facets.len())?;
             for side in 0..3 {
@@ -423,14 +434,14 @@ impl<'a> Quickhull<'a> {
                 }
             }
         }
-        Ok((0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3).collect())
+        collected((0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3))
     }
 
     fn facet(&self, f: u32) -> &Facet {
         &self.facets[f as usize]
     }
 
-    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
+    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> Result<u32> {
         let facet = Facet {
             corners,
             neighbours,
@@ -443,10 +454,10 @@ impl<'a> Quickhull<'a> {
         };
         if let Some(f) = self.free.pop() {
             self.facets[f as usize] = facet;
-            f
+            Ok(f)
         } else {
-            self.facets.push(facet);
-            self.facets.len() as u32 - 1
+            push(&mut self.facets, facet)?;
+            Ok(self.facets.len() as u32 - 1)
         }
     }
 
@@ -459,7 +470,7 @@ impl<'a> Quickhull<'a> {
     /// Puts each point into the list of one of `facets` that it sees, of few the first; drops it if there is
     /// none. Facets with points then wait for their turn.
     fn distribute(&mut self, points: &[u32], facets: &[u32], progress: &mut Progress) -> Result<()> {
-        let fan = if facets.len() > MANY_FACETS { self.fan(facets) } else { Vec::new() };
+        let fan = if facets.len() > MANY_FACETS { self.fan(facets)? } else { Vec::new() };
         for &p in points {
             let (seen, tests) =
                 if fan.is_empty() { self.first_seen(facets, p) } else { self.first_seen_in_fan(&fan, p) };
@@ -481,7 +492,7 @@ impl<'a> Quickhull<'a> {
         }
         for &f in facets {
             if self.facet(f).first_outside != NONE {
-                self.waiting.push(f);
+                push(&mut self.waiting, f)?;
             }
         }
         Ok(())
@@ -499,8 +510,8 @@ impl<'a> Quickhull<'a> {
     }
 
     /// The facets of a cone, counter-clockwise seen from outside; the last two are not coplanar.
-    fn fan(&self, facets: &[u32]) -> Vec<u32> {
-        let mut fan = Vec::with_capacity(facets.len());
+    fn fan(&self, facets: &[u32]) -> Result<Vec<u32>> {
+        let mut fan = with_capacity(facets.len())?;
         let mut f = facets[0];
         for _ in facets {
             fan.push(f);
@@ -512,7 +523,7 @@ impl<'a> Quickhull<'a> {
         };
         let bend = (0..fan.len()).find(bends).unwrap_or(0);
         fan.rotate_left((bend + 2) % facets.len());
-        fan
+        Ok(fan)
     }
 
     /// As [`Quickhull::first_seen`], for the facets of [`Quickhull::fan`], but any that it sees.
@@ -558,7 +569,7 @@ impl<'a> Quickhull<'a> {
         visible.clear();
         horizon.clear();
         self.facets[start as usize].removed = true;
-        visible.push(start);
+        push(visible, start)?;
         let mut done = 0;
         while done < visible.len() {
             let Facet { corners, neighbours, .. } = *self.facet(visible[done]);
@@ -572,15 +583,14 @@ impl<'a> Quickhull<'a> {
                 }
                 if facet.unseen_by != apex && self.points.height(&facet.plane, apex) > 0.0 {
                     facet.removed = true;
-                    visible.push(outer);
+                    push(visible, outer)?;
                 } else {
                     facet.unseen_by = apex;
-                    horizon.push(HorizonEdge { tail: corners[side], head: corners[(side + 1) % 3], outer });
+                    push(horizon, HorizonEdge { tail: corners[side], head: corners[(side + 1) % 3], outer })?;
                 }
             }
         }
-        self.free.extend_from_slice(visible);
-        Ok(())
+        extend(&mut self.free, visible.iter().copied())
     }
 
     /// Moves the points of the lists of `removed` facets to `outside`, except the new vertex
@@ -597,7 +607,7 @@ impl<'a> Quickhull<'a> {
             let mut p = std::mem::replace(&mut self.facets[f as usize].first_outside, NONE);
             while p != NONE {
                 if p != apex {
-                    outside.push(p);
+                    push(outside, p)?;
                 }
                 p = self.next_outside[p as usize];
                 progress.step(self.vertex_count, self.points.len())?;
@@ -617,7 +627,7 @@ impl<'a> Quickhull<'a> {
         new.clear();
         for &HorizonEdge { tail, head, outer } in horizon {
             self.count(1, progress)?;
-            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE]);
+            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE])?;
             let outer = &mut self.facets[outer as usize];
             for side in 0..3 {
                 if outer.corners[side] == head {
@@ -625,7 +635,7 @@ impl<'a> Quickhull<'a> {
                 }
             }
             self.new_facet_from[tail as usize] = f;
-            new.push(f);
+            push(new, f)?;
         }
         // The horizon is a simple cycle, so one new facet begins at each of its vertices.
         for &f in new.iter() {
@@ -660,7 +670,7 @@ mod tests {
         assert!(apex as usize > MANY_FACETS);
         let mut random = Random::new(41);
         points.extend((0..2_000).map(|_| random.lattice(10)));
-        let exact = ExactPoints::new(&points);
+        let exact = ExactPoints::new(&points).unwrap();
         let mut hull = Quickhull {
             points: &exact,
             facets: Vec::new(),
@@ -673,11 +683,11 @@ mod tests {
             vertex_count: 4,
         };
         let facets: Vec<u32> =
-            (0..apex).map(|v| hull.add_facet([v, (v + 1) % apex, apex], [NONE, (v + 1) % apex, NONE])).collect();
+            (0..apex).map(|v| hull.add_facet([v, (v + 1) % apex, apex], [NONE, (v + 1) % apex, NONE]).unwrap()).collect();
         let mut seen = 0;
         for start in 0..facets.len() {
             let begun = [&facets[start..], &facets[..start]].concat();
-            let fan = hull.fan(&begun);
+            let fan = hull.fan(&begun).unwrap();
             for p in (apex + 1..points.len() as u32).skip(start).step_by(7) {
                 let (one, _) = hull.first_seen(&facets, p);
                 let (other, tests) = hull.first_seen_in_fan(&fan, p);

@@ -14,9 +14,10 @@ use crate::error::{Error, Result};
 use crate::hull_build::convex_hull_in_steps;
 use crate::locality::for_each_cell;
 use crate::math::Vector;
+use crate::memory::{collected, filled, push, with_capacity};
 use crate::mesh::{PolygonMesh, check_vertex};
 use crate::progress::Progress;
-use edges::match_edges;
+use edges::{Matching, match_edges};
 
 /// Checks a mesh in the caller's numbering against the contract of `docs/conventions.md`. `tolerance` is the
 /// largest distance that a vertex may lie outside a face's plane, in the mesh's units; `allow_flat`
@@ -74,7 +75,7 @@ fn violation<T>(message: String) -> Result<T> {
 /// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
 fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
     // Equal points are in one cell of the curve; there are few in one nearly always.
-    let mut first: Vec<u32> = (0..points.len() as u32).collect();
+    let mut first: Vec<u32> = collected(0..points.len() as u32)?;
     for_each_cell(points, progress, |cell| {
         let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
         cell.sort_unstable_by(|i, j| key(i).iter().cmp(key(j).iter()).then(i.cmp(j)));
@@ -122,11 +123,12 @@ impl Corners {
     fn new(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Corners> {
         let mut corners = Corners {
             first: first_of_equal(&mesh.vertices, &mut progress.part(0.0, 0.5))?,
-            vertex: Vec::with_capacity(mesh.indices.len()),
-            given: Vec::with_capacity(mesh.indices.len()),
-            face: Vec::with_capacity(mesh.indices.len()),
-            starts: vec![0],
+            vertex: with_capacity(mesh.indices.len())?,
+            given: with_capacity(mesh.indices.len())?,
+            face: with_capacity(mesh.indices.len())?,
+            starts: with_capacity(mesh.face_count() + 1)?,
         };
+        corners.starts.push(0);
         let progress = &mut progress.part(0.5, 1.0);
         for f in 0..mesh.face_count() {
             let polygon = mesh.face(f);
@@ -158,7 +160,7 @@ impl Corners {
     /// At least three vertices in each face, none of them twice.
     fn check_faces(&self, progress: &mut Progress) -> Result<()> {
         // The last face that each vertex was seen in.
-        let mut seen_in = vec![u32::MAX; self.first.len()];
+        let mut seen_in = filled(u32::MAX, self.first.len())?;
         for (f, range) in self.starts.windows(2).enumerate() {
             let mut distinct = 0;
             let mut repeated = None;
@@ -184,7 +186,7 @@ impl Corners {
 
     /// Every vertex, or one exactly equal to it, is used.
     fn check_use(&self) -> Result<()> {
-        let mut used = vec![false; self.first.len()];
+        let mut used = filled(false, self.first.len())?;
         for &v in &self.vertex {
             used[v as usize] = true;
         }
@@ -197,37 +199,38 @@ impl Corners {
     /// The corner across the edge of each corner.
     fn match_edges(&self, progress: &mut Progress) -> Result<Vec<u32>> {
         let head = |corner: u32| self.vertex[self.next(corner) as usize];
-        let edges: Vec<(u32, u32)> =
-            (0..self.vertex.len() as u32).map(|c| (self.vertex[c as usize], head(c))).collect();
-        match_edges(self.first.len(), &edges, progress)?.or_else(|uses| {
-            let face = self.face[uses[0] as usize];
-            let ends = [uses[0], self.next(uses[0])].map(|c| self.given[c as usize]);
-            let (tail, head) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
-            let mut faces: Vec<String> = uses.iter().map(|c| self.face[*c as usize].to_string()).collect();
-            match uses.len() {
-                1 => violation(format!("face {face}: edge {tail}-{head} belongs to no other face")),
-                2 => violation(format!(
-                    "face {face}: edge {tail}-{head} runs in the same direction in face {}: \
-                     the faces are not consistently oriented",
-                    faces[1]
-                )),
-                count => {
-                    faces.truncate(10);
-                    let more = if count > 10 { ", ..." } else { "" };
-                    violation(format!(
-                        "face {face}: edge {tail}-{head} belongs to {count} faces ({}{more})",
-                        faces.join(", ")
-                    ))
-                }
+        let edge = |c: u32| (self.vertex[c as usize], head(c));
+        let edges: Vec<(u32, u32)> = collected((0..self.vertex.len() as u32).map(edge))?;
+        let uses = match match_edges(self.first.len(), &edges, progress)? {
+            Matching::Twins(twins) => return Ok(twins),
+            Matching::Fault(uses) => uses,
+        };
+        let face = self.face[uses[0] as usize];
+        let ends = [uses[0], self.next(uses[0])].map(|c| self.given[c as usize]);
+        let (tail, head) = (ends[0].min(ends[1]), ends[0].max(ends[1]));
+        let faces: Vec<String> = uses.iter().take(10).map(|c| self.face[*c as usize].to_string()).collect();
+        match uses.len() {
+            1 => violation(format!("face {face}: edge {tail}-{head} belongs to no other face")),
+            2 => violation(format!(
+                "face {face}: edge {tail}-{head} runs in the same direction in face {}: \
+                 the faces are not consistently oriented",
+                faces[1]
+            )),
+            count => {
+                let more = if count > 10 { ", ..." } else { "" };
+                violation(format!(
+                    "face {face}: edge {tail}-{head} belongs to {count} faces ({}{more})",
+                    faces.join(", ")
+                ))
             }
-        })
+        }
     }
 
     /// The faces around every vertex follow each other across edges in one cycle.
     fn check_fans(&self, twins: &[u32], progress: &mut Progress) -> Result<()> {
-        let mut visited = vec![false; self.vertex.len()];
+        let mut visited = filled(false, self.vertex.len())?;
         // A face of the fan found at each vertex.
-        let mut fan = vec![None; self.first.len()];
+        let mut fan = filled(None, self.first.len())?;
         for start in 0..self.vertex.len() as u32 {
             if visited[start as usize] {
                 continue;
@@ -250,7 +253,7 @@ impl Corners {
 
     /// Every face can be reached from the first one across edges.
     fn check_connected(&self, twins: &[u32], progress: &mut Progress) -> Result<()> {
-        let mut reached = vec![false; self.starts.len() - 1];
+        let mut reached = filled(false, self.starts.len() - 1)?;
         reached[0] = true;
         let mut stack = vec![0_u32];
         let mut done = 0;
@@ -260,7 +263,7 @@ impl Corners {
                 done += 1;
                 let across = self.face[twins[corner as usize] as usize];
                 if !std::mem::replace(&mut reached[across as usize], true) {
-                    stack.push(across);
+                    push(&mut stack, across)?;
                 }
             }
         }
@@ -273,7 +276,7 @@ impl Corners {
     /// Euler's formula. Where it fails no single face is at fault; but somewhere such a surface bends inward or winds about itself
     /// (Gauss & Bonnet): the edge where it bends most is named.
     fn check_genus(&self, twins: &[u32], mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
-        let mut used = vec![false; self.first.len()];
+        let mut used = filled(false, self.first.len())?;
         self.vertex.iter().for_each(|v| used[*v as usize] = true);
         let vertices = used.into_iter().filter(|used| *used).count();
         let (v, e, f) = (vertices as i64, twins.len() as i64 / 2, self.starts.len() as i64 - 1);

@@ -25,6 +25,8 @@
 // changes without notice.
 
 pub mod error;
+mod memory;
+pub mod files;
 mod enumerator;
 pub mod math;
 #[doc(hidden)]

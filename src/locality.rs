@@ -3,6 +3,7 @@
 
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, copied, extend, filled, with_capacity};
 use crate::progress::Progress;
 use crate::sorting::sort_in_steps;
 
@@ -15,7 +16,7 @@ const FEWEST: usize = 4096;
 /// # Errors
 /// [`crate::error::Error::Cancelled`] when the caller does not want to go on, here and below.
 pub fn along_curve(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
-    let mut order: Vec<u32> = (0..points.len() as u32).collect();
+    let mut order: Vec<u32> = collected(0..points.len() as u32)?;
     if points.len() >= FEWEST {
         sort_along_curve(&mut order, points, progress)?;
     }
@@ -33,12 +34,12 @@ pub fn sort_along_curve(indices: &mut [u32], points: &[Vector], progress: &mut P
 
 /// Calls `visit` with the indices of the points in each cell of the curve that holds more than one, ascending.
 pub fn for_each_cell(points: &[Vector], progress: &mut Progress, mut visit: impl FnMut(&mut [u32])) -> Result<()> {
-    let all: Vec<u32> = (0..points.len() as u32).collect();
+    let all: Vec<u32> = collected(0..points.len() as u32)?;
     let mut inside = Vec::new();
     for cell in cells(&all, points, progress)?.chunk_by(|a, b| a.0 == b.0) {
         if cell.len() > 1 {
             inside.clear();
-            inside.extend(cell.iter().map(|(_, i)| *i));
+            extend(&mut inside, cell.iter().map(|(_, i)| *i))?;
             visit(&mut inside);
         }
     }
@@ -62,7 +63,7 @@ fn cells(indices: &[u32], points: &[Vector], progress: &mut Progress) -> Result<
         let p = &points[i as usize];
         spread(cell(p.x, low.x)) | spread(cell(p.y, low.y)) << 1 | spread(cell(p.z, low.z)) << 2
     };
-    let mut coded: Vec<(u64, u32)> = Vec::with_capacity(indices.len());
+    let mut coded: Vec<(u64, u32)> = with_capacity(indices.len())?;
     let of_codes = &mut progress.part(0.0, 0.2);
     for &i in indices {
         of_codes.step(coded.len(), indices.len())?;
@@ -75,7 +76,7 @@ fn cells(indices: &[u32], points: &[Vector], progress: &mut Progress) -> Result<
 
 /// The points in an order of some of them.
 pub fn in_order(points: &[Vector], order: &[u32], progress: &mut Progress) -> Result<Vec<Vector>> {
-    let mut ordered = Vec::with_capacity(order.len());
+    let mut ordered = with_capacity(order.len())?;
     for &v in order {
         progress.step(ordered.len(), order.len())?;
         ordered.push(points[v as usize]);
@@ -89,12 +90,12 @@ pub fn is_identity(order: &[u32]) -> bool {
 }
 
 /// Where each index of 0..n is in an order of them.
-pub fn places_of(order: &[u32]) -> Vec<u32> {
-    let mut places = vec![0; order.len()];
+pub fn places_of(order: &[u32]) -> Result<Vec<u32>> {
+    let mut places = filled(0, order.len())?;
     for (place, i) in (0..).zip(order) {
         places[*i as usize] = place;
     }
-    places
+    Ok(places)
 }
 
 /// The low 21 bits of x, two zeros after each.
@@ -111,7 +112,7 @@ fn spread(x: u64) -> u64 {
 pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize, progress: &mut Progress) -> Result<()> {
     let all = 3 * triangles.len();
     // Counting sort by the lowest corner, then a sort of the few of each: in time linear where a comparison sort is not.
-    let mut starts = vec![0_u32; vertex_count + 1];
+    let mut starts = filled(0_u32, vertex_count + 1)?;
     for (done, t) in triangles.iter_mut().enumerate() {
         progress.step(done, all)?;
         let lowest = (0..3).min_by_key(|k| t[*k]).unwrap_or(0);
@@ -121,8 +122,8 @@ pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize, progre
     for v in 0..vertex_count {
         starts[v + 1] += starts[v];
     }
-    let mut sorted = vec![[0; 3]; triangles.len()];
-    let mut fill = starts.clone();
+    let mut sorted = filled([0; 3], triangles.len())?;
+    let mut fill = copied(&starts)?;
     for (done, t) in triangles.iter().enumerate() {
         progress.step(all / 3 + done, all)?;
         let place = &mut fill[t[0] as usize];
@@ -153,7 +154,7 @@ mod tests {
         let mut go_on = |_| true;
         let progress = &mut Progress::new(&mut go_on);
         let order = along_curve(&points, progress).unwrap();
-        let places = places_of(&order);
+        let places = places_of(&order).unwrap();
         assert!((0..).zip(&order).all(|(place, i)| places[*i as usize] == place) && !is_identity(&order));
         let twin = |i: usize| (0..i).find(|j| points[*j] == points[i]).unwrap();
         assert!((FEWEST..points.len()).all(|i| places[twin(i)] < places[i]));

@@ -10,9 +10,10 @@
 //! poles, nearest to the points of one sphere; looked up once, in the direction of the other body's centre of mass.
 
 use std::f64::consts::PI;
-use std::sync::OnceLock;
 
+use crate::error::Result;
 use crate::math::{Vector, divisor};
+use crate::memory::{OnNeed, collected, copied};
 
 /// A vertex for each cell, as narrow as the number of vertices allows.
 #[derive(Debug, Clone, PartialEq)]
@@ -25,11 +26,14 @@ pub enum Cells {
 
 impl Cells {
     /// From vertex numbers less than `vertex_count`.
-    pub fn new(cells: &[u32], vertex_count: usize) -> Cells {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub fn new(cells: &[u32], vertex_count: usize) -> Result<Cells> {
         if vertex_count <= 1 << 16 {
-            Cells::Narrow(cells.iter().map(|v| *v as u16).collect())
+            Ok(Cells::Narrow(collected(cells.iter().map(|v| *v as u16))?))
         } else {
-            Cells::Wide(cells.to_vec())
+            Ok(Cells::Wide(copied(cells)?))
         }
     }
 
@@ -93,6 +97,9 @@ const LEAST: i32 = (127 - 8) << MANTISSA_BITS;
 
 impl Shells {
     /// From the radii (ascending), the vertices' positions, the cells' vertices, the core's radius and what turns outwards.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
     pub fn new(
         resolution: usize,
         radii: Vec<f64>,
@@ -101,7 +108,7 @@ impl Shells {
         core: f64,
         outward: [[f32; 3]; 3],
         rounds: u32,
-    ) -> Shells {
+    ) -> Result<Shells> {
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
         let mut first_cells = [0; DISTANCES];
@@ -111,8 +118,9 @@ impl Shells {
             let shell = radii.windows(2).take_while(|pair| 0.5 / pair[0] + 0.5 / pair[1] > reciprocal).count();
             *first = (shell * resolution * resolution) as u32;
         }
-        let cells = Cells::new(cells, positions.len());
-        Shells { resolution, radii, cells, positions, core, outward, rounds, grid: Grid::new(resolution), first_cells }
+        let cells = Cells::new(cells, positions.len())?;
+        let grid = Grid::new(resolution);
+        Ok(Shells { resolution, radii, cells, positions, core, outward, rounds, grid, first_cells })
     }
 
     /// Where a vertex is.
@@ -202,19 +210,22 @@ pub struct Spherical {
 
 impl Spherical {
     /// From the cells' vertices.
-    pub fn new(resolution: usize, radius_factor: f64, cells: &[u32], vertex_count: usize) -> Spherical {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub fn new(resolution: usize, radius_factor: f64, cells: &[u32], vertex_count: usize) -> Result<Spherical> {
         let halfway = |i: usize| (i as f64 + 0.5) * PI / resolution as f64;
         let altitude = |i| {
             let cosine = f64::cos(halfway(i));
             -cosine * cosine.abs()
         };
-        Spherical {
+        Ok(Spherical {
             resolution,
             radius_factor,
-            cells: Cells::new(cells, vertex_count),
-            altitudes: (0..resolution).map(altitude).collect(),
-            azimuths: (0..2 * resolution).map(|j| around(halfway(j).cos(), halfway(j).sin())).collect(),
-        }
+            cells: Cells::new(cells, vertex_count)?,
+            altitudes: collected((0..resolution).map(altitude))?,
+            azimuths: collected((0..2 * resolution).map(|j| around(halfway(j).cos(), halfway(j).sin())))?,
+        })
     }
 
     /// The vertex of the entry nearest to a direction in altitude and in azimuth.
@@ -283,7 +294,7 @@ pub struct Lookup {
     /// The same beside a body of so few vertices that it needs no table.
     pub reach_beside_few: f64,
     /// The table, once made.
-    pub made: OnceLock<Table>,
+    pub made: OnNeed<Table>,
 }
 
 /// Which table a body has.
@@ -326,7 +337,12 @@ impl Lookup {
     /// A plan that needs no table.
     pub fn without_table(plan: Plan, reach: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan, reach, reach_beside_few: f64::INFINITY, made: OnceLock::from(Table::None) }
+        Lookup { plan, reach, reach_beside_few: f64::INFINITY, made: OnNeed::from(Table::None) }
+    }
+
+    /// The same plan without the table.
+    pub(crate) fn not_made(&self) -> Lookup {
+        Lookup { made: OnNeed::new(), ..*self }
     }
 
     /// Whether marching may start where tables say: those of both, or of one if the other needs none.

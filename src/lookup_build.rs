@@ -1,13 +1,12 @@
 //! Says which look-up table a body gets, and builds it.
 
-use std::sync::OnceLock;
-
 use nalgebra::SymmetricEigen;
 
 use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup::{Lookup, Plan, Shells, Spherical, Table};
 use crate::math::{Matrix, Vector};
+use crate::memory::{OnNeed, collected, filled, found, push};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 use crate::surface_walk::{Surface, nearest_of};
 
@@ -112,7 +111,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
         Plan::Shells { .. } => REACH_OF_THIN,
         _ => REACH_OF_SPHERICAL,
     };
-    Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnceLock::new() })
+    Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnNeed::new() })
 }
 
 /// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
@@ -126,7 +125,7 @@ pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
     plan_lookup(level, &LookupOptions { kind, resolution: 0, radius_factor }).unwrap_or_else(|_| Lookup::none())
 }
 
-/// The table of a body. The first to look makes it; others who come meanwhile wait.
+/// The table of a body. The first to look makes it; others who come meanwhile wait. Where memory is lacking there is none.
 #[inline(always)]
 pub fn table(polyhedron: &Polyhedron) -> &Table {
     match polyhedron.lookup.made.get() {
@@ -149,18 +148,30 @@ pub fn tables(polyhedra: [&Polyhedron; 2]) -> Option<[&Table; 2]> {
 #[cold]
 #[inline(never)]
 fn make_table(polyhedron: &Polyhedron) -> &Table {
-    polyhedron.lookup.made.get_or_init(|| build_table(polyhedron))
+    static NO_TABLE: Table = Table::None;
+    polyhedron.lookup.made.make(|| build_table(polyhedron)).unwrap_or(&NO_TABLE)
+}
+
+/// Makes the table of a body if it is not made, also where memory was lacking before.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn insist_on_table(polyhedron: &Polyhedron) -> Result<()> {
+    polyhedron.lookup.made.insist(|| build_table(polyhedron))
 }
 
 /// The table of a body, made anew.
-pub fn build_table(polyhedron: &Polyhedron) -> Table {
-    match polyhedron.lookup.plan {
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn build_table(polyhedron: &Polyhedron) -> Result<Table> {
+    Ok(match polyhedron.lookup.plan {
         Plan::None | Plan::AllVertices { .. } => Table::None,
-        Plan::Shells { resolution } => Table::Shells(shells(polyhedron, resolution)),
+        Plan::Shells { resolution } => Table::Shells(shells(polyhedron, resolution)?),
         Plan::Spherical { resolution, radius_factor } => {
-            Table::Spherical(spherical(polyhedron, resolution, radius_factor))
+            Table::Spherical(spherical(polyhedron, resolution, radius_factor)?)
         }
-    }
+    })
 }
 
 /// Over √n, how far (as an angle) a pair of round bodies may have moved and turned before a query begins from the tables and no
@@ -193,18 +204,17 @@ fn inner_radius(polyhedron: &Polyhedron, centre: &Vector) -> f64 {
     depths.reduce(f64::min).map_or(0.0, |least| least.max(0.0))
 }
 
-fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
-    let search = Search::new(polyhedron);
+fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
+    let search = Search::new(polyhedron)?;
     let thickness = Thickness::of(polyhedron);
-    let surface = if thickness.is_needle() { Surface::new(polyhedron).ok() } else { None };
+    let surface = if thickness.is_needle() { found(Surface::new(polyhedron))? } else { None };
     let inner = inner_radius(polyhedron, &search.centre) / search.radius;
     let radii: Vec<f64> = RADII.into_iter().filter(|r| *r > 1.0 || *r > inner).collect();
-    let directions: Vec<Vector> = (0..resolution * resolution)
-        .map(|cell| Shells::direction(resolution, cell / resolution, cell % resolution))
-        .collect();
-    let mut cells = vec![0; radii.len() * directions.len()];
+    let direction = |cell: usize| Shells::direction(resolution, cell / resolution, cell % resolution);
+    let directions: Vec<Vector> = collected((0..resolution * resolution).map(direction))?;
+    let mut cells = filled(0, radii.len() * directions.len())?;
     // From the outermost shell inwards: far away nearest is farthest along a direction, which walking finds without fail.
-    let mut outer: Vec<u32> = vec![0; directions.len()];
+    let mut outer: Vec<u32> = filled(0, directions.len())?;
     for (shell, factor) in cells.chunks_exact_mut(directions.len()).zip(&radii).rev() {
         for (cell, direction) in directions.iter().enumerate() {
             let left = if cell % resolution > 0 { shell[cell - 1] } else { outer[cell] };
@@ -225,7 +235,7 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Shells {
         let p = (v - search.centre) / search.radius;
         [p.x as f32, p.y as f32, p.z as f32, 0.0]
     };
-    let positions = search.positions.iter().map(position).collect();
+    let positions = collected(search.positions.iter().map(position))?;
     let rounds = rounds(&thickness, polyhedron.corner_count());
     Shells::new(resolution, radii, positions, &cells, inner, thickness.outward(), rounds)
 }
@@ -305,9 +315,9 @@ const NEEDLE: f64 = 1.0 / 30.0;
 /// Positions are not rounder than this in single precision.
 const LEAST_SPREAD: f64 = 1e-6;
 
-fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> Spherical {
-    let search = Search::new(polyhedron);
-    let mut cells = vec![0; Spherical::cell_count(resolution)];
+fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> Result<Spherical> {
+    let search = Search::new(polyhedron)?;
+    let mut cells = filled(0, Spherical::cell_count(resolution))?;
     let mut vertex = 0;
     for (cell, entry) in cells.iter_mut().enumerate() {
         vertex = search.nearest(&search.sample(radius_factor, &Spherical::direction(resolution, cell)), vertex);
@@ -327,15 +337,15 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    fn new(polyhedron: &Polyhedron) -> Search<'_> {
-        let positions: Vec<Vector> = polyhedron.vertices.iter().map(|v| v.position).collect();
-        Search {
+    fn new(polyhedron: &Polyhedron) -> Result<Search<'_>> {
+        let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
+        Ok(Search {
             polyhedron,
             centre: polyhedron.mass.centre_of_mass - polyhedron.centre,
             radius: polyhedron.mass.radius,
-            tree: BoxTree::new(&positions),
+            tree: BoxTree::new(&positions)?,
             positions,
-        }
+        })
     }
 
     fn sample(&self, factor: f64, direction: &Vector) -> Vector {
@@ -395,20 +405,20 @@ struct BoxTree {
 }
 
 impl BoxTree {
-    fn new(positions: &[Vector]) -> BoxTree {
+    fn new(positions: &[Vector]) -> Result<BoxTree> {
         let around = |boxes: &[[Vector; 2]]| {
             let join = |a: [Vector; 2], b: &[Vector; 2]| [a[0].inf(&b[0]), a[1].sup(&b[1])];
             boxes.iter().fold([Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)], join)
         };
-        let points: Vec<[Vector; 2]> = positions.iter().map(|p| [*p, *p]).collect();
-        let mut levels: Vec<Vec<[Vector; 2]>> = vec![points.chunks(8).map(around).collect()];
+        let points: Vec<[Vector; 2]> = collected(positions.iter().map(|p| [*p, *p]))?;
+        let mut levels: Vec<Vec<[Vector; 2]>> = vec![collected(points.chunks(8).map(around))?];
         while let Some(last) = levels.last()
             && last.len() > 1
         {
-            let next = last.chunks(8).map(around).collect();
-            levels.push(next);
+            let next = collected(last.chunks(8).map(around))?;
+            push(&mut levels, next)?;
         }
-        BoxTree { levels }
+        Ok(BoxTree { levels })
     }
 
     /// Puts a vertex nearer than `best` there, if there is one, with its squared distance.

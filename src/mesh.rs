@@ -4,6 +4,7 @@
 use crate::error::{Error, Result};
 use crate::locality::places_of;
 use crate::math::Vector;
+use crate::memory::{collected, extend, filled, push, reserve, with_capacity};
 use crate::progress::Progress;
 
 /// A polygon mesh in the caller's own numbering.
@@ -49,7 +50,7 @@ impl PolygonMesh {
         }
         let starts = match valences {
             Some(valences) => starts_from_valences(valences, index_count)?,
-            None if index_count.is_multiple_of(3) => (0..=index_count).step_by(3).collect(),
+            None if index_count.is_multiple_of(3) => collected((0..=index_count).step_by(3))?,
             None => {
                 return Err(Error::Argument(format!(
                     "{index_count} vertex indices are not a whole number of triangles"
@@ -70,8 +71,7 @@ impl PolygonMesh {
     pub fn push_vertex(&mut self, position: Vector) -> Result<()> {
         check_vertex(self.vertices.len(), &position)?;
         count_u32(self.vertices.len() + 1, "vertices")?;
-        self.vertices.push(position);
-        Ok(())
+        push(&mut self.vertices, position)
     }
 
     /// Appends a face over the vertices that are there already.
@@ -82,7 +82,8 @@ impl PolygonMesh {
         check_face(self.face_count(), corners, self.vertices.len())?;
         count_u32(self.face_count() + 1, "faces")?;
         let end = count_u32(self.indices.len() + corners.len(), "vertex indices of faces")?;
-        self.indices.extend_from_slice(corners);
+        reserve(&mut self.starts, 1)?;
+        extend(&mut self.indices, corners.iter().copied())?;
         self.starts.push(end);
         Ok(())
     }
@@ -108,26 +109,29 @@ impl PolygonMesh {
         if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= count) {
             return Ok(None);
         }
-        let places = places_of(&order);
+        let places = places_of(&order)?;
         let lowest = |f: usize| self.face(f).iter().map(|v| places[*v as usize]).min().unwrap_or(0) as usize;
         // Counting sort; it keeps the order of faces with the same lowest vertex.
         let all = 2 * self.face_count();
-        let in_step = |f: usize| progress.steps(self.face(f).len(), f, all).map(|()| lowest(f));
-        let lowest: Vec<usize> = (0..self.face_count()).map(in_step).collect::<Result<_>>()?;
-        let mut fill = vec![0_u32; count + 1];
-        lowest.iter().for_each(|v| fill[v + 1] += 1);
+        let mut lowest_of: Vec<usize> = with_capacity(self.face_count())?;
+        for f in 0..self.face_count() {
+            progress.steps(self.face(f).len(), f, all)?;
+            lowest_of.push(lowest(f));
+        }
+        let mut fill = filled(0_u32, count + 1)?;
+        lowest_of.iter().for_each(|v| fill[v + 1] += 1);
         for v in 0..count {
             fill[v + 1] += fill[v];
         }
-        let mut faces = vec![0; lowest.len()];
-        for (f, v) in (0..).zip(lowest) {
+        let mut faces = filled(0, lowest_of.len())?;
+        for (f, v) in (0..).zip(lowest_of) {
             faces[fill[v] as usize] = f;
             fill[v] += 1;
         }
         let mut mesh = PolygonMesh {
-            vertices: order.iter().map(|v| self.vertices[*v as usize]).collect(),
-            indices: Vec::with_capacity(self.indices.len()),
-            starts: Vec::with_capacity(self.starts.len()),
+            vertices: collected(order.iter().map(|v| self.vertices[*v as usize]))?,
+            indices: with_capacity(self.indices.len())?,
+            starts: with_capacity(self.starts.len())?,
             single_precision: self.single_precision,
         };
         mesh.starts.push(0);
@@ -153,7 +157,7 @@ fn count_u32(count: usize, of: &str) -> Result<u32> {
 /// Running sums of the valences, which must add up to the number of indices.
 fn starts_from_valences(valences: &[u32], index_count: u32) -> Result<Vec<u32>> {
     count_u32(valences.len(), "faces")?;
-    let mut starts = Vec::with_capacity(valences.len() + 1);
+    let mut starts = with_capacity(valences.len() + 1)?;
     let mut end = 0_u32;
     starts.push(end);
     for (f, &valence) in valences.iter().enumerate() {

@@ -9,6 +9,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::error::{Error, Result};
 use crate::math::Pose;
+use crate::memory::reserve;
 use crate::shape::Shape;
 
 const SLOT_BITS: u32 = 24;
@@ -153,7 +154,7 @@ struct Slot {
 pub(crate) struct ObjectTable {
     scene: u32,
     slots: Vec<Slot>,
-    /// Slots to be used again, the last one first.
+    /// Slots to be used again, the last one first; with room for all slots, so that removing needs no memory.
     free: Vec<u32>,
     /// Slots of the living objects in order of creation.
     order: Vec<u32>,
@@ -172,11 +173,14 @@ impl ObjectTable {
     /// Adds an object; the caller has checked the pieces and the pose.
     ///
     /// # Errors
-    /// [`Error::Limit`] when there are no ids left.
+    /// [`Error::Limit`] when there are no ids left, [`Error::Memory`]; nothing is added then.
     pub(crate) fn insert(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
+        reserve(&mut self.order, 1)?;
         let slot = match self.free.pop() {
             Some(slot) => slot as usize,
             None if self.slots.len() < 1 << SLOT_BITS => {
+                reserve(&mut self.slots, 1)?;
+                reserve(&mut self.free, self.slots.len() + 1)?;
                 self.slots.push(Slot { generation: 0, object: None });
                 self.slots.len() - 1
             }

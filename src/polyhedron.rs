@@ -8,8 +8,10 @@
 //! Coordinates are *centred*: stored vertex = `centre` + `vertices[i].position`, an exact sum (Sterbenz), so that an
 //! object far from its own origin loses no digits. The centre is zero unless an axis range [m−h, m+h] has h ≤ |m|/3.
 
+use crate::error::Result;
 use crate::lookup::Lookup;
 use crate::math::{UNIT_ROUNDOFF, Vector, clamp};
+use crate::memory::copied;
 use crate::normal::unit;
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
@@ -229,6 +231,36 @@ pub struct Polyhedron {
 }
 
 impl Polyhedron {
+    /// A copy, but for the look-up table.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub(crate) fn copy(&self) -> Result<Polyhedron> {
+        Ok(Polyhedron {
+            vertices: copied(&self.vertices)?,
+            edges: copied(&self.edges)?,
+            radius: self.radius,
+            dimension: self.dimension,
+            ordinary: self.ordinary,
+            faces: copied(&self.faces)?,
+            centre: self.centre,
+            mass: self.mass,
+            lookup: self.lookup.not_made(),
+            more_neighbours: copied(&self.more_neighbours)?,
+            triangles: copied(&self.triangles)?,
+            face_of_triangle: copied(&self.face_of_triangle)?,
+            sides: copied(&self.sides)?,
+            more_sides: copied(&self.more_sides)?,
+            bevels: copied(&self.bevels)?,
+            flat_vertices: copied(&self.flat_vertices)?,
+            vertex_labels: copied(&self.vertex_labels)?,
+            face_labels: copied(&self.face_labels)?,
+            face_label_starts: copied(&self.face_label_starts)?,
+            polygon_corners: copied(&self.polygon_corners)?,
+            polygon_starts: copied(&self.polygon_starts)?,
+        })
+    }
+
     /// Moves the frame; the centred coordinates stay. The sums of centre and coordinates need not be doubles any more.
     pub fn move_frame(&mut self, by: &Vector) {
         self.centre += by;

@@ -26,6 +26,7 @@ use crate::double_double::{two_sum, wide_cross, wide_dot};
 use crate::error::Result;
 use crate::extended_range::Extended;
 use crate::math::{UNIT_ROUNDOFF, Vector, power_of_two};
+use crate::memory::{collected, copied, push, with_capacity};
 use crate::progress::Progress;
 
 /// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
@@ -75,8 +76,11 @@ pub struct FilteredPlane {
 
 impl ExactPoints {
     /// Prepares finite points; fewer than 2³² of them.
-    pub fn new(points: &[Vector]) -> ExactPoints {
-        ExactPoints::new_in_steps(points, &mut Progress::new(&mut |_| true)).expect("nobody cancels")
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`].
+    pub fn new(points: &[Vector]) -> Result<ExactPoints> {
+        ExactPoints::new_in_steps(points, &mut Progress::new(&mut |_| true))
     }
 
     /// As [`ExactPoints::new`], saying how far it is.
@@ -86,7 +90,7 @@ impl ExactPoints {
     pub fn new_in_steps(points: &[Vector], progress: &mut Progress) -> Result<ExactPoints> {
         let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
         let scale = -exponent_above(largest);
-        let mut scaled: Vec<[f64; 3]> = Vec::with_capacity(points.len());
+        let mut scaled: Vec<[f64; 3]> = with_capacity(points.len())?;
         let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
         let mut expansions_are_exact = true;
         for (done, p) in points.iter().enumerate() {
@@ -98,20 +102,30 @@ impl ExactPoints {
             }
             scaled.push(s);
         }
-        let original = (!expansions_are_exact).then(|| points.iter().map(|p| (*p).into()).collect());
+        let original = match expansions_are_exact {
+            true => None,
+            false => Some(collected(points.iter().map(|p| (*p).into()))?),
+        };
         let extent = [0, 1, 2].map(|k| (high[k] - low[k]).max(0.0).next_up());
         Ok(ExactPoints { scaled, original, averages: Vec::new(), extent, scale, guard: UNDERFLOW_GUARD })
     }
 
     /// Appends the exact average of four of the points it was made of (a point may be named more than once). It need not be a
     /// point of doubles, so all signs that it has part in come from integers: slow.
-    pub fn push_average(&mut self, corners: [u32; 4]) {
-        self.original.get_or_insert_with(|| self.scaled.clone());
-        self.averages.push(corners);
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`].
+    pub fn push_average(&mut self, corners: [u32; 4]) -> Result<()> {
+        if self.original.is_none() {
+            self.original = Some(copied(&self.scaled)?);
+        }
+        push(&mut self.averages, corners)?;
         let rounded = |k: usize| corners.iter().map(|&i| 0.25 * self.scaled[i as usize][k]).sum();
-        self.scaled.push([0, 1, 2].map(rounded));
+        let rounded = [0, 1, 2].map(rounded);
+        push(&mut self.scaled, rounded)?;
         // The rounded copy is good for nothing but steering.
         self.guard = f64::INFINITY;
+        Ok(())
     }
 
     /// The number of points.
@@ -417,7 +431,7 @@ mod tests {
     #[test]
     fn positive_means_seen_counter_clockwise() {
         let points = [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.3, 0.3, 1.0], [5.0, 5.0, 0.0]];
-        let exact = ExactPoints::new(&points.map(Vector::from));
+        let exact = ExactPoints::new(&points.map(Vector::from)).unwrap();
         assert!(exact.orientation([0, 1, 2], 3) > 0.0);
         assert!(exact.orientation([0, 2, 1], 3) < 0.0);
         assert_eq!(exact.orientation([0, 1, 2], 4), 0.0);
@@ -442,7 +456,7 @@ mod tests {
             let frame = Vector::from(frames[round % frames.len()]);
             let points = nearly_coplanar(&mut random).map(|p| p.component_mul(&frame));
             let truth = sign(&exact_determinant(&points));
-            let exact = ExactPoints::new(&points);
+            let exact = ExactPoints::new(&points).unwrap();
             assert_eq!(sign_of(exact.orientation([0, 1, 2], 3)), truth, "{points:?}");
             assert_eq!(sign_of(exact.height(&exact.plane([0, 1, 2]), 3)), truth, "{points:?}");
         }
@@ -467,7 +481,7 @@ mod tests {
                 points[4] = Vector::new(points[3].x, points[3].y.next_up(), points[3].z);
             }
             let [a, b, c, d, e] = points;
-            let exact = ExactPoints::new(&points);
+            let exact = ExactPoints::new(&points).unwrap();
             let plane = exact.plane([0, 1, 2]);
             let truths = [d, e].map(|p| exact_determinant(&[a, b, c, p]));
             let heights = [3, 4].map(|p| exact.height(&plane, p));
@@ -495,7 +509,7 @@ mod tests {
             let factor = [1.0, 3.7e-5, 1e-305][round % 3];
             let points = [(); 4].map(|()| random.vector().map(|x| (3.0 * x).round() * 8.0 * factor));
             let truth = sign(&exact_determinant(&points));
-            assert_eq!(sign_of(ExactPoints::new(&points).orientation([0, 1, 2], 3)), truth);
+            assert_eq!(sign_of(ExactPoints::new(&points).unwrap().orientation([0, 1, 2], 3)), truth);
             zeros += usize::from(truth == 0.0);
         }
         assert!(zeros >= if cfg!(miri) { 1 } else { 1000 }, "{zeros}");
@@ -509,7 +523,7 @@ mod tests {
             let (a, b) = (random.vector(), random.vector());
             let c = a + (b - a) * random.signed();
             let points = [a, b, c].map(|p| Vector::new(p.x, p.y * scale, p.z));
-            let exact = ExactPoints::new(&points);
+            let exact = ExactPoints::new(&points).unwrap();
             for axis in 0..3 {
                 // Flattened along the axis and seen from above.
                 let [a, b, c] = points.map(|mut p| {
@@ -549,9 +563,9 @@ mod tests {
     fn averages_are_exact() {
         let d = 5e-324;
         let points = [[0.0, 0.0, 0.0], [d, 0.0, 0.0], [0.0, d, 0.0], [0.0, 0.0, d]].map(Vector::from);
-        let mut exact = ExactPoints::new(&points);
-        exact.push_average([0, 1, 2, 3]);
-        exact.push_average([0, 0, 1, 2]);
+        let mut exact = ExactPoints::new(&points).unwrap();
+        exact.push_average([0, 1, 2, 3]).unwrap();
+        exact.push_average([0, 0, 1, 2]).unwrap();
         for face in [[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]] {
             assert!(exact.orientation(face, 4) < 0.0, "{face:?}");
             assert!(exact.height(&exact.plane(face), 4) < 0.0, "{face:?}");

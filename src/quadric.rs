@@ -13,6 +13,7 @@ use std::collections::BinaryHeap;
 
 use crate::error::Result;
 use crate::math::{Vector, power_of_two};
+use crate::memory::{collected, copied, filled, push, push_to_heap};
 use crate::progress::Progress;
 use crate::triangulation::{Triangulation, next, previous};
 
@@ -43,8 +44,8 @@ const REPORT_INTERVAL: usize = 1 << 14;
 /// Time O(n log n) as long as valences are bounded.
 ///
 /// # Errors
-/// [`Error::Cancelled`](crate::error::Error::Cancelled); [`Error::Bug`](crate::error::Error::Bug) if the triangles are no
-/// closed surface.
+/// [`Error::Cancelled`](crate::error::Error::Cancelled); [`Error::Memory`](crate::error::Error::Memory);
+/// [`Error::Bug`](crate::error::Error::Bug) if the triangles are no closed surface.
 pub fn simplify(
     positions: &[Vector],
     triangles: &[[u32; 3]],
@@ -54,9 +55,9 @@ pub fn simplify(
     // A power of two takes the body to size 1 and back without rounding, so that no product can overflow.
     let size = positions.iter().map(|p| p.amax()).fold(0.0, f64::max);
     let factor = if size > 0.0 { power_of_two(-(size.log2() as i32).clamp(-1000, 1000)) } else { 1.0 };
-    let mut collapse = Collapse::new(positions.iter().map(|p| p * factor).collect(), triangles)?;
+    let mut collapse = Collapse::new(collected(positions.iter().map(|p| p * factor))?, triangles)?;
     collapse.run(target.max(4), progress)?;
-    let mut simplified = collapse.finish();
+    let mut simplified = collapse.finish()?;
     for point in &mut simplified.points {
         *point /= factor;
     }
@@ -151,7 +152,7 @@ struct Waiting {
 /// of about the least key are in one.
 struct Queue {
     /// By the key's exponent and first bits of its mantissa: all keys in one are below those in the next.
-    buckets: Vec<Vec<Waiting>>,
+    buckets: Vec<Vec<Reverse<Waiting>>>,
     /// Where the next bucket is; all of those before are in the heap.
     next: usize,
     heap: BinaryHeap<Reverse<Waiting>>,
@@ -164,16 +165,16 @@ impl Queue {
     /// Keys of a body of size 1 are below 16; all from there on share the last bucket.
     const BUCKETS: usize = (16.0_f64.to_bits() >> Queue::SHIFT) as usize + 1;
 
-    fn new() -> Queue {
-        Queue { buckets: vec![Vec::new(); Queue::BUCKETS], next: 0, heap: BinaryHeap::new() }
+    fn new() -> Result<Queue> {
+        Ok(Queue { buckets: filled(Vec::new(), Queue::BUCKETS)?, next: 0, heap: BinaryHeap::new() })
     }
 
-    fn push(&mut self, waiting: Waiting) {
+    fn push(&mut self, waiting: Waiting) -> Result<()> {
         let bucket = ((waiting.key >> Queue::SHIFT) as usize).min(Queue::BUCKETS - 1);
         if bucket < self.next {
-            self.heap.push(Reverse(waiting));
+            push_to_heap(&mut self.heap, Reverse(waiting))
         } else {
-            self.buckets[bucket].push(waiting);
+            push(&mut self.buckets[bucket], Reverse(waiting))
         }
     }
 
@@ -181,7 +182,7 @@ impl Queue {
     fn pop(&mut self) -> Option<Waiting> {
         while self.heap.is_empty() && self.next < self.buckets.len() {
             let bucket = std::mem::take(&mut self.buckets[self.next]);
-            self.heap = bucket.into_iter().map(Reverse).collect();
+            self.heap = BinaryHeap::from(bucket);
             self.next += 1;
         }
         self.heap.pop().map(|Reverse(waiting)| waiting)
@@ -225,8 +226,8 @@ impl Collapse {
             (q - p).cross(&(r - p))
         };
         // Twice the triangles' area vectors.
-        let areas: Vec<Vector> = triangles.iter().map(area).collect();
-        let mut quadrics = vec![Quadric::default(); positions.len()];
+        let areas: Vec<Vector> = collected(triangles.iter().map(area))?;
+        let mut quadrics = filled(Quadric::default(), positions.len())?;
         for (triangle, area) in triangles.iter().zip(&areas) {
             let length = area.norm();
             if length > 0.0 {
@@ -235,18 +236,18 @@ impl Collapse {
                 }
             }
         }
-        let surface = Triangulation::new(triangles.to_vec(), &areas, positions.len())?;
+        let surface = Triangulation::new(copied(triangles)?, &areas, positions.len())?;
         let count = positions.len();
         Ok(Collapse {
-            outgoing: (0..count as u32).map(|v| surface.around(v)[0]).collect(),
+            outgoing: collected((0..count as u32).map(|v| surface.around(v)[0]))?,
             count: surface.triangles.len(),
             triangles: surface.triangles,
             twins: surface.twins,
             positions,
             quadrics,
-            versions: vec![0; count],
-            queue: Queue::new(),
-            marks: vec![0; count],
+            versions: filled(0, count)?,
+            queue: Queue::new()?,
+            marks: filled(0, count)?,
             mark: 0,
             looked_at: 0,
         })
@@ -259,7 +260,7 @@ impl Collapse {
         // some: all are asked again, as long as that gets on by a fixed fraction, so that the rounds are few.
         loop {
             let before = self.count;
-            self.fill_queue();
+            self.fill_queue()?;
             while self.count > target
                 && let Some(waiting) = self.queue.pop()
             {
@@ -277,9 +278,9 @@ impl Collapse {
                 match self.best_place(h) {
                     // Its better places turn triangles over; its turn comes later.
                     Some(place) if place.key.to_bits() > waiting.key => {
-                        self.queue.push(Waiting { key: place.key.to_bits(), ..waiting });
+                        self.queue.push(Waiting { key: place.key.to_bits(), ..waiting })?;
                     }
-                    Some(place) => self.collapse(h, &place.at),
+                    Some(place) => self.collapse(h, &place.at)?,
                     None => {}
                 }
             }
@@ -289,19 +290,20 @@ impl Collapse {
         }
     }
 
-    fn fill_queue(&mut self) {
-        self.queue = Queue::new();
+    fn fill_queue(&mut self) -> Result<()> {
+        self.queue = Queue::new()?;
         for h in 0..self.twins.len() as u32 {
             if self.tail(h) != GONE && h < self.twins[h as usize] {
-                self.enqueue(h);
+                self.enqueue(h)?;
             }
         }
+        Ok(())
     }
 
-    fn enqueue(&mut self, h: u32) {
+    fn enqueue(&mut self, h: u32) -> Result<()> {
         let (_, places) = self.places(h);
         let key = places.iter().map(|place| place.key).fold(f64::INFINITY, f64::min).to_bits();
-        self.queue.push(Waiting { key, half_edge: h, stamp: self.stamp(h) });
+        self.queue.push(Waiting { key, half_edge: h, stamp: self.stamp(h) })
     }
 
     fn is_current(&self, waiting: &Waiting) -> bool {
@@ -402,7 +404,7 @@ impl Collapse {
     }
 
     /// Replaces the edge by one vertex, `at` relative to its tail.
-    fn collapse(&mut self, h: u32, at: &Vector) {
+    fn collapse(&mut self, h: u32, at: &Vector) -> Result<()> {
         let (quadric, _) = self.places(h);
         let twin = self.twins[h as usize];
         let (dropped, kept) = (self.tail(h), self.head(h));
@@ -444,27 +446,29 @@ impl Collapse {
         let mut around = self.outgoing[kept as usize];
         let first = around;
         loop {
-            self.enqueue(around);
+            self.enqueue(around)?;
             self.looked_at += 1;
             around = self.twins[previous(around) as usize];
             if around == first {
                 break;
             }
         }
+        Ok(())
     }
 
-    fn finish(self) -> Simplified {
-        let mut index = vec![GONE; self.positions.len()];
+    fn finish(self) -> Result<Simplified> {
+        let mut index = filled(GONE, self.positions.len())?;
         let mut points = Vec::new();
         for (v, position) in self.positions.into_iter().enumerate() {
             if self.outgoing[v] != GONE {
                 index[v] = points.len() as u32;
-                points.push(position);
+                push(&mut points, position)?;
             }
         }
         let is_left = |t: &&[u32; 3]| t[0] != GONE;
-        let triangles = self.triangles.iter().filter(is_left).map(|t| t.map(|v| index[v as usize])).collect();
-        Simplified { points, triangles }
+        let renumbered = |t: &[u32; 3]| t.map(|v| index[v as usize]);
+        let triangles = collected(self.triangles.iter().filter(is_left).map(renumbered))?;
+        Ok(Simplified { points, triangles })
     }
 }
 
@@ -477,7 +481,7 @@ mod tests {
     #[test]
     fn the_queue_is_in_order() {
         let mut random = Random::new(8);
-        let (mut queue, mut heap) = (Queue::new(), BinaryHeap::new());
+        let (mut queue, mut heap) = (Queue::new().unwrap(), BinaryHeap::new());
         for half_edge in 0..2000 {
             let key = match half_edge % 100 {
                 0 => f64::INFINITY,
@@ -486,7 +490,7 @@ mod tests {
                 _ => random.uniform(0.0, 1.0).powi(9),
             };
             let waiting = Waiting { key: key.to_bits(), half_edge, stamp: half_edge % 7 };
-            queue.push(waiting);
+            queue.push(waiting).unwrap();
             heap.push(Reverse(waiting));
             if half_edge % 3 == 0 {
                 assert_eq!(queue.pop(), heap.pop().map(|Reverse(waiting)| waiting));

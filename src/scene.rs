@@ -11,6 +11,7 @@ use std::sync::Arc;
 use crate::activation::Activation;
 use crate::error::{Error, Result, check_range};
 use crate::math::{Pose, ROTATION_LIMIT};
+use crate::memory::{copied, reserve, with_capacity};
 use crate::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use crate::shape::Shape;
@@ -217,7 +218,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Argument`] without pieces, [`Error::Pose`] for a pose that is not accepted, [`Error::Limit`] when there are
-    /// no ids left. Nothing is added then.
+    /// no ids left, [`Error::Memory`]. Nothing is added then.
     pub fn add_object(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
         if pieces.is_empty() {
             return Err(Error::Argument("an object needs at least one piece".into()));
@@ -236,11 +237,12 @@ impl Scene {
     /// are active, whatever those of its original are.
     ///
     /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Limit`] when there are no ids left.
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Limit`] when there are no ids left,
+    /// [`Error::Memory`]. Nothing is added then.
     pub fn copy_object(&mut self, id: ObjectId) -> Result<ObjectId> {
         let original = self.objects.get(id)?;
         let options = ObjectOptions { pose: original.pose, fixed: original.fixed, user_data: original.user_data };
-        self.add_object(original.pieces.clone(), &options)
+        self.add_object(copied(&original.pieces)?, &options)
     }
 
     /// Removes an object and its pairs. Its id is stale from now on; all other ids stay as they are.
@@ -325,12 +327,13 @@ impl Scene {
     /// fixed objects.
     ///
     /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice.
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice,
+    /// [`Error::Memory`]; the pair stays as it is.
     pub fn set_pair_active(&mut self, id1: ObjectId, id2: ObjectId, active: bool) -> Result<()> {
         let (object1, object2) = self.ordered_pair(id1, id2)?;
         let pair = [object1.id(), object2.id()];
         let objects = &self.objects;
-        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok());
+        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok())?;
         self.pairs_changed = true;
         Ok(())
     }
@@ -396,8 +399,7 @@ impl Scene {
             return Ok(());
         }
         let count = self.tested_objects().map(|(o1, o2)| o1.pieces.len() * o2.pieces.len()).sum();
-        let mut pairs: Vec<TestedPair> = Vec::new();
-        reserve(&mut pairs, count)?;
+        let mut pairs: Vec<TestedPair> = with_capacity(count)?;
         // Both lists are in order of creation: the old place of a pair is found by walking along.
         let mut old = self.pairs.iter().filter_map(|pair| Some((self.order_key(pair)?, pair.cache))).peekable();
         for (object1, object2) in self.tested_objects() {
@@ -433,7 +435,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Argument`] for a tolerance, an error or a budget that is negative or NaN and a step budget of 0, also where the
-    /// query does without them; [`Error::Limit`] when the memory for a changed list of pairs is not there.
+    /// query does without them; [`Error::Memory`] when that for a changed list of pairs is not there: the next query tries again.
     pub fn query_intersection(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.run(query, None, pair::intersection)
     }
@@ -548,9 +550,4 @@ impl Scene {
         }
         Ok(SceneAnswer { intersecting, pairs: &self.results, found: None })
     }
-}
-
-/// Room for `count` elements in an empty vector.
-fn reserve<T>(vector: &mut Vec<T>, count: usize) -> Result<()> {
-    vector.try_reserve_exact(count).map_err(|e| Error::Limit(format!("no memory for {count} pairs: {e}")))
 }

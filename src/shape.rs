@@ -1,7 +1,6 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
 use std::path::Path;
-use std::sync::OnceLock;
 
 use crate::double_double::{DoubleDouble, two_product};
 use crate::error::{Error, Result, check_range};
@@ -10,8 +9,9 @@ use crate::hull_build::{check_points, convex_hull_in_steps};
 use crate::hull_check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
 use crate::locality::{along_curve, in_order};
 pub use crate::lookup_build::{LookupKind, LookupOptions};
-use crate::lookup_build::{plan_lookup, table};
+use crate::lookup_build::{insist_on_table, plan_lookup};
 use crate::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::memory::{OnNeed, copied, found, with_capacity};
 use crate::mesh::{Numbers, PolygonMesh, check_vertex};
 use crate::mesh_io::read_mesh;
 use crate::polyhedron::Polyhedron;
@@ -92,7 +92,7 @@ impl ShapeOptions {
 pub struct Shape {
     polyhedron: Polyhedron,
     /// Empty while automatic levels are not made.
-    hierarchy: OnceLock<Hierarchy>,
+    hierarchy: OnNeed<Hierarchy>,
 }
 
 /// Tables and automatic levels do not count: equal shapes make equal ones.
@@ -126,8 +126,12 @@ impl Shape {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
-        let vertices = transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?;
-        let mesh = PolygonMesh { vertices, ..mesh.clone() };
+        let mesh = PolygonMesh {
+            vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
+            indices: copied(&mesh.indices)?,
+            starts: copied(&mesh.starts)?,
+            single_precision: mesh.single_precision,
+        };
         let tolerance = match options.convexity_tolerance {
             Some(tolerance) => {
                 check_range("convexity_tolerance", tolerance, 0.0..=f64::MAX)?;
@@ -155,17 +159,17 @@ impl Shape {
         let closed = check_surface(&ordered, &mut of_body.part(0.25, 0.36));
         let checked = closed
             .and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat, &mut of_body.part(0.36, 0.45)));
-        let checked = match checked {
-            Err(error @ Error::Cancelled(_)) => return Err(error),
-            checked => checked,
-        };
+        let is_as_promised = found(checked)?.is_some();
         let polygons = match options.input {
             // A message is about the caller's numbers. A face may pass by a plane that the search meets in one order only: that is
             // good enough, as the plane is one of the hull whichever way led there.
             InputPolicy::Strict | InputPolicy::Flat => {
-                checked.or_else(|_| check_as_given(&mut of_body.part(0.45, 0.45))).map(|()| Some(&ordered))?
+                if !is_as_promised {
+                    check_as_given(&mut of_body.part(0.45, 0.45))?;
+                }
+                Some(&ordered)
             }
-            InputPolicy::Hull => checked.is_ok().then_some(&ordered),
+            InputPolicy::Hull => is_as_promised.then_some(&ordered),
         };
         let building = &mut of_body.part(0.45, 1.0);
         let polyhedron = build_in_steps(&ordered.vertices, hull, polygons, Some(&numbers), building)?;
@@ -246,13 +250,13 @@ impl Shape {
             ));
         }
         let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
-        let mut points = Vec::with_capacity(levels.len());
+        let mut points = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
             let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
             let in_level = |message: String| format!("level {}: {message}", i + 1);
             points.push(moved.map_err(|error| match error {
                 Error::Mesh(message) => Error::Mesh(in_level(message)),
-                cancelled @ Error::Cancelled(_) => cancelled,
+                Error::Cancelled(_) | Error::Memory(_) => error,
                 other => Error::Argument(in_level(other.to_string())),
             })?);
         }
@@ -263,7 +267,7 @@ impl Shape {
     /// From parts that belong together; automatic levels are left to be made.
     pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Shape {
         let made = if hierarchy.kind == HierarchyKind::Automatic { None } else { Some(hierarchy) };
-        Shape { polyhedron, hierarchy: made.map_or_else(OnceLock::new, OnceLock::from) }
+        Shape { polyhedron, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) }
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -302,7 +306,8 @@ impl Shape {
         self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES)
     }
 
-    /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait.
+    /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait. Where
+    /// memory is lacking there are none, and bodies answer themselves.
     #[inline]
     pub(crate) fn need_levels(&self) {
         if self.lacks_levels() {
@@ -312,7 +317,7 @@ impl Shape {
 
     #[cold]
     fn make_levels(&self) {
-        self.hierarchy.get_or_init(|| or_none(self.build_levels(&mut Progress::new(&mut |_| true))));
+        self.hierarchy.make(|| or_none(self.build_levels(&mut Progress::new(&mut |_| true))));
     }
 
     fn build_levels(&self, progress: &mut Progress) -> Result<Hierarchy> {
@@ -326,7 +331,8 @@ impl Shape {
     /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when the caller does not want to go on: no levels are made then, and the shape can be used as before.
+    /// [`Error::Cancelled`] when the caller does not want to go on, [`Error::Memory`]: no levels are made then, and the shape can be
+    /// used as before.
     pub fn prepare(&self, progress: &mut Progress) -> Result<()> {
         with_default(|| self.make_ready(progress))
     }
@@ -335,22 +341,19 @@ impl Shape {
         /// Of the time that both take, about, at 100,000 and 200,000 vertices.
         const SHARE_OF_TABLE: f64 = 0.06;
         progress.report(0.0)?;
-        table(&self.polyhedron);
+        insist_on_table(&self.polyhedron)?;
         if self.lacks_levels() {
             progress.report(SHARE_OF_TABLE)?;
             let levels = match self.build_levels(&mut progress.part(SHARE_OF_TABLE, 1.0)) {
                 Err(Error::Cancelled(message)) => return Err(Error::Cancelled(message)),
-                built => or_none(built),
+                built => or_none(built)?,
             };
             // Another thread may have been first.
-            let _ = self.hierarchy.set(levels);
+            self.hierarchy.set(levels);
         } else {
             progress.report(1.0)?;
         }
-        self.hierarchy().levels.iter().for_each(|level| {
-            table(&level.polyhedron);
-        });
-        Ok(())
+        self.hierarchy().levels.iter().try_for_each(|level| insist_on_table(&level.polyhedron))
     }
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
@@ -380,9 +383,12 @@ impl Shape {
 }
 
 /// Automatic levels that were built: without them the bodies answer themselves.
-fn or_none(built: Result<Hierarchy>) -> Hierarchy {
-    debug_assert!(built.is_ok(), "{built:?}");
-    built.unwrap_or(Hierarchy::AUTOMATIC)
+///
+/// # Errors
+/// [`Error::Memory`].
+fn or_none(built: Result<Hierarchy>) -> Result<Hierarchy> {
+    debug_assert!(matches!(built, Ok(_) | Err(Error::Memory(_))), "{built:?}");
+    Ok(found(built)?.unwrap_or(Hierarchy::AUTOMATIC))
 }
 
 /// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
@@ -396,7 +402,7 @@ fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progres
         .check(ROTATION_LIMIT)
         .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
     if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
-        return Ok(points.to_vec());
+        return copied(points);
     }
     let coordinate = |p: &Vector, row: usize| {
         let mut rotated = DoubleDouble::default();
@@ -405,7 +411,7 @@ fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progres
         }
         (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
     };
-    let transform = |(v, p): (usize, &Vector)| {
+    let mut transform = |(v, p): (usize, &Vector)| {
         progress.step(v, points.len())?;
         check_vertex(v, p)?;
         let image = Vector::from_fn(|row, _| coordinate(p, row));
@@ -415,7 +421,11 @@ fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progres
             Err(Error::Argument(format!("the input transform moves vertex {v} out of the range of doubles")))
         }
     };
-    points.iter().enumerate().map(transform).collect()
+    let mut images = with_capacity(points.len())?;
+    for point in points.iter().enumerate() {
+        images.push(transform(point)?);
+    }
+    Ok(images)
 }
 
 /// Half the diagonal of the bounding box, which cannot overflow where the whole one would; 0 without points.

@@ -6,17 +6,18 @@
 //! hulls are proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and
 //! measured. A file of any content gives a sound shape or an error.
 
-use std::fs;
 use std::path::Path;
 
 use crate::enumerator::Enumerator;
 use crate::error::{Error, Result};
+use crate::files::{read_whole, write_whole};
 use crate::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::hull_build::{Hull, convex_hull_in_steps};
 use crate::hull_check::check_hull_in_steps;
 use crate::lookup::Plan;
 use crate::lookup_build::{LookupKind, LookupOptions, plan_lookup};
 use crate::math::Vector;
+use crate::memory::{collected, copied, extend, push, with_capacity};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::{Labels, build_in_steps};
 use crate::progress::Progress;
@@ -33,16 +34,16 @@ const VERSION: u32 = 1;
 /// Saves a shape in a file, replacing what was there.
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be written; the message names it and says why.
+/// [`Error::File`] if the file cannot be written or is no regular one; the message names it and says why. [`Error::Memory`]: the file is as it was.
 pub fn save(shape: &Shape, path: &Path) -> Result<()> {
-    fs::write(path, to_bytes(shape)).map_err(|e| Error::File(format!("{}: cannot be written: {e}", path.display())))
+    write_whole(path, &to_bytes(shape)?)
 }
 
 /// Loads a shape that was [saved](save).
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be read, is no shape file, is of another version or damaged; the message names it and says
-/// what is wrong.
+/// [`Error::File`] if the file cannot be read, is no regular file, is larger than [`MOST_FILE_BYTES`](crate::files::MOST_FILE_BYTES),
+/// is no shape file, is of another version or damaged; the message names it and says what is wrong. [`Error::Memory`].
 pub fn load(path: &Path) -> Result<Shape> {
     load_in_steps(path, &mut Progress::new(&mut |_| true))
 }
@@ -52,47 +53,50 @@ pub fn load(path: &Path) -> Result<Shape> {
 /// # Errors
 /// As [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
-    let bytes = fs::read(path).map_err(|e| Error::File(format!("{}: cannot be read: {e}", path.display())))?;
+    let bytes = read_whole(path, &path.display().to_string())?;
     from_bytes_in_steps(&bytes, progress).map_err(|error| match error {
-        Error::Cancelled(_) => error,
+        Error::Cancelled(_) | Error::Memory(_) => error,
         _ => Error::File(format!("{}: {}", path.display(), error.message())),
     })
 }
 
 /// What [`save`] writes.
-pub fn to_bytes(shape: &Shape) -> Vec<u8> {
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
     let mut writer = Writer { bytes: Vec::new() };
-    writer.bytes.extend(MAGIC);
-    writer.number(VERSION);
+    writer.raw(MAGIC)?;
+    writer.number(VERSION)?;
     let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
-    writer.polyhedron(polyhedron);
+    writer.polyhedron(polyhedron)?;
     let (kind, resolution, factor) = match polyhedron.lookup.plan {
         Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
         Plan::AllVertices { .. } => (LookupKind::Automatic, 0, LookupOptions::DEFAULT.radius_factor),
         Plan::Shells { resolution } => (LookupKind::Shells, resolution, LookupOptions::DEFAULT.radius_factor),
         Plan::Spherical { resolution, radius_factor } => (LookupKind::Spherical, resolution, radius_factor),
     };
-    writer.number(kind as u32);
-    writer.number(resolution as u32);
-    writer.real(factor);
-    writer.number(hierarchy.kind as u32);
+    writer.number(kind as u32)?;
+    writer.number(resolution as u32)?;
+    writer.real(factor)?;
+    writer.number(hierarchy.kind as u32)?;
     // Automatic levels are made anew, whether they are made here or not.
     let levels = if hierarchy.kind == HierarchyKind::Automatic { &[] } else { &hierarchy.levels[..] };
-    writer.number(levels.len() as u32);
+    writer.number(levels.len() as u32)?;
     for level in levels {
-        writer.polyhedron(&level.polyhedron);
-        writer.links(&level.children);
-        writer.links(&level.parents);
+        writer.polyhedron(&level.polyhedron)?;
+        writer.links(&level.children)?;
+        writer.links(&level.parents)?;
     }
     let checksum = checksum(&writer.bytes);
-    writer.bytes.extend(checksum.to_le_bytes());
-    writer.bytes
+    writer.raw(checksum.to_le_bytes())?;
+    Ok(writer.bytes)
 }
 
 /// What [`load`] makes of a file's bytes.
 ///
 /// # Errors
-/// [`Error::File`] if they are no shape, of another version or damaged.
+/// [`Error::File`] if they are no shape, of another version or damaged; [`Error::Memory`].
 pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
     from_bytes_in_steps(bytes, &mut Progress::new(&mut |_| true))
 }
@@ -131,7 +135,7 @@ fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
         return damaged("an unknown kind of look-up table");
     };
     let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
-    polyhedron.lookup = plan_lookup(&polyhedron, &lookup).or_else(|e| damaged(e.message()))?;
+    polyhedron.lookup = sound(plan_lookup(&polyhedron, &lookup))?;
     let kind = reader.number()?;
     let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");
@@ -142,7 +146,8 @@ fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
     }
     let mut levels = Vec::new();
     for _ in 0..count {
-        levels.push((reader.polyhedron(Some(polyhedron.centre), &mut bodies)?, reader.links()?, reader.links()?));
+        let level = (reader.polyhedron(Some(polyhedron.centre), &mut bodies)?, reader.links()?, reader.links()?);
+        push(&mut levels, level)?;
     }
     if !reader.rest.is_empty() {
         return damaged("there is more behind its end");
@@ -159,10 +164,10 @@ fn damaged<T>(what: &str) -> Result<T> {
     Err(Error::File(format!("the shape file is damaged: {what}")))
 }
 
-/// Whatever is wrong with what was read is damage; a load that is cancelled is not.
+/// Whatever is wrong with what was read is damage; a load that is cancelled is not, nor memory that is not there.
 fn sound<T>(result: Result<T>) -> Result<T> {
     result.or_else(|error| match error {
-        Error::Cancelled(_) => Err(error),
+        Error::Cancelled(_) | Error::Memory(_) => Err(error),
         _ => damaged(error.message()),
     })
 }
@@ -177,52 +182,56 @@ struct Writer {
 }
 
 impl Writer {
-    fn number(&mut self, x: u32) {
-        self.bytes.extend(x.to_le_bytes());
+    fn raw<const N: usize>(&mut self, bytes: [u8; N]) -> Result<()> {
+        extend(&mut self.bytes, bytes)
     }
 
-    fn real(&mut self, x: f64) {
-        self.bytes.extend(x.to_le_bytes());
+    fn number(&mut self, x: u32) -> Result<()> {
+        self.raw(x.to_le_bytes())
     }
 
-    fn numbers(&mut self, list: &[u32]) {
-        self.number(list.len() as u32);
-        list.iter().for_each(|x| self.number(*x));
+    fn real(&mut self, x: f64) -> Result<()> {
+        self.raw(x.to_le_bytes())
     }
 
-    fn vectors(&mut self, list: impl ExactSizeIterator<Item = Vector>) {
-        self.number(list.len() as u32);
-        list.for_each(|v| v.iter().for_each(|x| self.real(*x)));
+    fn numbers(&mut self, list: &[u32]) -> Result<()> {
+        self.number(list.len() as u32)?;
+        list.iter().try_for_each(|x| self.number(*x))
+    }
+
+    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>) -> Result<()> {
+        self.number(list.len() as u32)?;
+        list.try_for_each(|v| v.iter().try_for_each(|x| self.real(*x)))
     }
 
     /// Centre and centred coordinates, so that a level, whose sums are not exact, comes back as it was.
-    fn polyhedron(&mut self, polyhedron: &Polyhedron) {
-        self.number(u32::from(polyhedron.dimension));
-        polyhedron.centre.iter().for_each(|x| self.real(*x));
-        self.vectors(polyhedron.vertices.iter().map(|v| v.position));
-        self.numbers(polyhedron.triangles.as_flattened());
-        let Labels { vertex_labels, face_labels, face_label_starts, polygon_corners, polygon_starts } =
-            Labels::of(polyhedron);
-        self.numbers(&vertex_labels);
-        self.numbers(&face_labels);
-        self.numbers(&face_label_starts);
-        self.vectors(polygon_corners.into_iter());
-        self.numbers(&polygon_starts);
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) -> Result<()> {
+        self.number(u32::from(polyhedron.dimension))?;
+        polyhedron.centre.iter().try_for_each(|x| self.real(*x))?;
+        self.vectors(polyhedron.vertices.iter().map(|v| v.position))?;
+        self.numbers(polyhedron.triangles.as_flattened())?;
+        // The labels, as `Labels` has them.
+        self.numbers(&polyhedron.vertex_labels)?;
+        self.numbers(&polyhedron.face_labels)?;
+        self.numbers(&polyhedron.face_label_starts)?;
+        self.vectors(polyhedron.polygon_corners.iter().copied())?;
+        self.numbers(&polyhedron.polygon_starts)
     }
 
-    fn links(&mut self, links: &Links) {
+    fn links(&mut self, links: &Links) -> Result<()> {
         for list in [&links.vertices, &links.edges, &links.faces] {
-            self.number(list.len() as u32);
+            self.number(list.len() as u32)?;
             for feature in list {
                 let (kind, index) = match *feature {
                     FeatureId::Vertex(v) => (0, v),
                     FeatureId::Edge(e) => (1, e),
                     FeatureId::Face(f) => (2, f),
                 };
-                self.bytes.push(kind);
-                self.number(index);
+                self.raw([kind])?;
+                self.number(index)?;
             }
         }
+        Ok(())
     }
 }
 
@@ -265,7 +274,11 @@ impl<'a> Reader<'a> {
         if count > self.rest.len() / size {
             return damaged("it is cut off");
         }
-        (0..count).map(|_| item(self)).collect()
+        let mut list = with_capacity(count)?;
+        for _ in 0..count {
+            list.push(item(self)?);
+        }
+        Ok(list)
     }
 
     fn numbers(&mut self) -> Result<Vec<u32>> {
@@ -301,13 +314,13 @@ impl<'a> Reader<'a> {
         progress.report(0.0)?;
         // What a body is stored as are exact sums; those of a level are not, and its hull is that of its centred coordinates.
         let points = match body {
-            None => positions.iter().map(|p| p + centre).collect(),
-            Some(_) => positions.clone(),
+            None => collected(positions.iter().map(|p| p + centre))?,
+            Some(_) => copied(&positions)?,
         };
         let hull = match dimension {
             3 => {
-                let vertices = (0..positions.len() as u32).collect();
-                let hull = Hull { dimension: 3, vertices, triangles: triangles.to_vec() };
+                let vertices = collected(0..positions.len() as u32)?;
+                let hull = Hull { dimension: 3, vertices, triangles: copied(triangles)? };
                 sound(check_hull_in_steps(&points, &hull, &mut progress.part(0.0, SHARE_OF_PROOF)))?;
                 hull
             }
@@ -324,7 +337,7 @@ impl<'a> Reader<'a> {
         if !(is_same && polyhedron.centre == expected && body.is_none_or(|body| body == centre)) {
             return damaged("vertices are not in the order or the frame in which they are saved");
         }
-        if !labels.give_to(&mut polyhedron) {
+        if !labels.give_to(&mut polyhedron)? {
             return damaged("labels that do not fit");
         }
         progress.report(1.0)?;

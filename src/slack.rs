@@ -12,7 +12,9 @@
 //! hull, hence n·(x − a) ≤ |n − c₁m₁ − c₂m₂|·|x − a| for all cᵢ ≥ 0.
 
 use crate::double_double::{wide_difference, wide_dot, widen};
+use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{filled, with_capacity};
 use crate::triangulation::Triangulation;
 
 /// How far, as an angle, a computed unit normal of a triangle ([`crate::normal::normal_of`]) may miss the exact one: what
@@ -34,14 +36,19 @@ pub struct Flood<'a> {
     /// Marks that need no clearing between floods.
     seen_in: Vec<u32>,
     round: u32,
+    /// A flood puts each vertex there at most once: there is room for all.
     stack: Vec<u32>,
 }
 
 impl<'a> Flood<'a> {
     /// For a hull within `radius` of the local origin.
-    pub fn new(surface: &'a Triangulation, positions: &'a [Vector], radius: f64) -> Flood<'a> {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::error::Error::Memory).
+    pub fn new(surface: &'a Triangulation, positions: &'a [Vector], radius: f64) -> Result<Flood<'a>> {
         let coarse = 0.25 * UNIT_ROUNDOFF * radius;
-        Flood { surface, positions, radius, coarse, seen_in: vec![0; positions.len()], round: 0, stack: Vec::new() }
+        let (seen_in, stack) = (filled(0, positions.len())?, with_capacity(positions.len())?);
+        Ok(Flood { surface, positions, radius, coarse, seen_in, round: 0, stack })
     }
 
     /// An upper bound, rounded up, of max over the hull of n·x minus n·(position of `start`); at least 0. `None` if that takes a

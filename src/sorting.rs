@@ -3,15 +3,17 @@
 use std::cmp::Ordering;
 
 use crate::error::Result;
+use crate::memory::reserve;
 use crate::progress::Progress;
 
 /// As many items are sorted in a few milliseconds.
 const BLOCK: usize = 1 << 14;
 
-/// Sorts stably: in blocks, then merged; fast where long parts are in order.
+/// Sorts items of which `compare` tells any two apart: in blocks, then merged; fast where long parts are in order.
 ///
 /// # Errors
-/// [`crate::error::Error::Cancelled`] when the caller does not want to go on; the items are in any order then.
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on; the items are in any order then;
+/// [`crate::error::Error::Memory`].
 pub fn sort_in_steps<T: Copy>(
     items: &mut Vec<T>,
     compare: impl Fn(&T, &T) -> Ordering,
@@ -21,7 +23,7 @@ pub fn sort_in_steps<T: Copy>(
     let all = count * (1 + count.div_ceil(BLOCK).next_power_of_two().ilog2() as usize);
     let mut done = 0;
     for block in items.chunks_mut(BLOCK) {
-        block.sort_by(&compare);
+        block.sort_unstable_by(&compare);
         done += block.len();
         progress.steps(block.len(), done, all)?;
     }
@@ -29,7 +31,7 @@ pub fn sort_in_steps<T: Copy>(
     let mut length = BLOCK;
     while length < count {
         merged.clear();
-        merged.reserve_exact(count);
+        reserve(&mut merged, count)?;
         for pair in items.chunks(2 * length) {
             let (left, right) = pair.split_at(length.min(pair.len()));
             merge(left, right, &compare, &mut merged, &mut |steps| {

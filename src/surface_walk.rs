@@ -9,6 +9,7 @@
 
 use crate::error::Result;
 use crate::math::{Vector, clamp};
+use crate::memory::{collected, copied};
 use crate::polyhedron::Polyhedron;
 use crate::triangulation::{Triangulation, next};
 
@@ -48,8 +49,8 @@ impl<'a> Surface<'a> {
     /// [`Error::Bug`](crate::error::Error::Bug) if its triangles are no closed surface.
     pub fn new(polyhedron: &'a Polyhedron) -> Result<Surface<'a>> {
         let normal = |face: &u32| polyhedron.faces[*face as usize].normal;
-        let normals: Vec<Vector> = polyhedron.face_of_triangle.iter().map(normal).collect();
-        let triangulation = Triangulation::new(polyhedron.triangles.clone(), &normals, polyhedron.vertices.len())?;
+        let normals: Vec<Vector> = collected(polyhedron.face_of_triangle.iter().map(normal))?;
+        let triangulation = Triangulation::new(copied(&polyhedron.triangles)?, &normals, polyhedron.vertices.len())?;
         Ok(Surface { polyhedron, triangulation })
     }
 

@@ -3,6 +3,7 @@
 
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::memory::{copied, filled};
 use crate::progress::Progress;
 
 /// A closed triangulated surface and the half-edges out of each vertex.
@@ -51,15 +52,15 @@ impl Triangulation {
         progress: &mut Progress,
     ) -> Result<Triangulation> {
         let half_edge_count = 3 * triangles.len();
-        let mut outgoing_starts = vec![0_u32; vertex_count + 1];
+        let mut outgoing_starts = filled(0_u32, vertex_count + 1)?;
         for &corner in triangles.iter().flatten() {
             outgoing_starts[corner as usize + 1] += 1;
         }
         for v in 0..vertex_count {
             outgoing_starts[v + 1] += outgoing_starts[v];
         }
-        let mut outgoing = vec![0_u32; half_edge_count];
-        let mut fill = outgoing_starts.clone();
+        let mut outgoing = filled(0_u32, half_edge_count)?;
+        let mut fill = copied(&outgoing_starts)?;
         let all = 3 * half_edge_count;
         for (h, &corner) in triangles.iter().flatten().enumerate() {
             progress.step(h, all)?;
@@ -69,7 +70,7 @@ impl Triangulation {
         }
 
         let mut surface =
-            Triangulation { triangles, twins: vec![u32::MAX; half_edge_count], outgoing, outgoing_starts };
+            Triangulation { triangles, twins: filled(u32::MAX, half_edge_count)?, outgoing, outgoing_starts };
         for h in 0..half_edge_count as u32 {
             progress.step(half_edge_count + h as usize, all)?;
             if surface.twins[h as usize] == u32::MAX {

@@ -546,7 +546,7 @@ fn levels_of_large_bodies_are_used_where_they_save_time() {
         Shape::from_mesh(&ellipsoid([1.0, 1.0, 0.1], n).unwrap(), &options).unwrap()
     };
     let (large, small) = (shape(30_002, HierarchyKind::Automatic), shape(1002, HierarchyKind::OuterCuts));
-    let (unused, bytes, file) = (large.clone(), large.bytes(), to_bytes(&large));
+    let (unused, bytes, file) = (large.clone(), large.bytes(), to_bytes(&large).unwrap());
     let mut random = Random::new(17);
     let mut by_levels = 0;
     for round in 0..300 {
@@ -585,7 +585,7 @@ fn levels_of_large_bodies_are_used_where_they_save_time() {
     let table = large.polyhedron().lookup.heap_bytes();
     assert_eq!(large.bytes(), bytes + large.hierarchy().heap_bytes() + table);
     assert_eq!(large, unused);
-    assert!(to_bytes(&large) == file && from_bytes(&file).unwrap() == large);
+    assert!(to_bytes(&large).unwrap() == file && from_bytes(&file).unwrap() == large);
 }
 
 /// A body of automatic levels between ones that have none, and all levels asked for.

@@ -26,6 +26,7 @@ use swiftprox::hierarchy::HierarchyKind;
 use swiftprox::math::Vector;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{FeatureKind, Outcome, PairAnswer, PairConfig};
+use swiftprox::scene::SceneStatistics;
 use swiftprox::shape::Shape;
 
 const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
@@ -231,7 +232,8 @@ fn levels_are_built_counted_and_read_back() {
         assert!((50..200).contains(&level.triangle_count) && level.deviation > 0.0 && level.deviation < 0.3);
         assert_eq!(level.bytes, info.level_bytes);
         assert!(info.bytes > info.level_bytes);
-        assert_eq!(swift_shape_get_level_info(shape, 2, &mut level), StatusCode::ErrorInvalidArgument);
+        let mut none = level;
+        assert_eq!(swift_shape_get_level_info(shape, 2, &mut none), StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("no level 2"), "{}", last_message());
 
         // The level holds the points and is read back as it is; given back as a level of the same body it stays as it is, nearly.
@@ -478,7 +480,7 @@ fn a_rust_program_keeps_its_allocator() {
 fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
     type InWords = extern "C" fn(i32) -> *const c_char;
     for (in_words, last, unknown) in [
-        (swift_library_status_string as InWords, StatusCode::ErrorUnsupported as i32, "not a status"),
+        (swift_library_status_string as InWords, StatusCode::ErrorBusy as i32, "not a status"),
         (swift_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
         (swift_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
     ] {
@@ -494,4 +496,83 @@ fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
             assert_eq!(words(number), unknown, "{number}");
         }
     }
+}
+
+/// A zero of a distance reads as a contact: what a failed call does not say is NaN, and counts are 0.
+#[test]
+fn what_a_failed_call_does_not_say_is_nan() {
+    let shape = tetrahedron();
+    let bad_pose = [f64::NAN; 12];
+    let (here, there) = (moved(0.0), moved(3.0));
+    let (here, there) = (here.as_ptr(), there.as_ptr());
+    let config = PairConfig { distance_tolerance: -1.0, ..PairConfig::default() };
+    let small = PairConfig { struct_size: 8, ..PairConfig::default() };
+    let queries = [swift_pair_distance, swift_pair_intersection, swift_pair_contact, swift_pair_approximate];
+    let arguments = [
+        (null(), here, shape as *const Shape, there, null()),
+        (shape, null(), shape, there, null()),
+        (shape, here, null(), there, null()),
+        (shape, here, shape, null(), null()),
+        (shape, bad_pose.as_ptr(), shape, there, null()),
+        (shape, here, shape, bad_pose.as_ptr(), null()),
+        (shape, here, shape, there, &raw const config),
+        (shape, here, shape, there, &raw const small),
+    ];
+    for query in queries {
+        for (i, &(shape1, pose1, shape2, pose2, config)) in arguments.iter().enumerate() {
+            for has_cache in [true, false] {
+                let mut answer = PairAnswer { distance: 0.0, lower: 0.0, upper: 0.0, ..PairAnswer::default() };
+                let mut cache = CPairCache::default();
+                let cache: *mut CPairCache = if has_cache { &mut cache } else { null_mut() };
+                // SAFETY: every pointer is valid or null.
+                let status = unsafe { query(shape1, pose1, shape2, pose2, cache, config, &mut answer) };
+                assert_ne!(status, StatusCode::Ok, "{i}");
+                let PairAnswer { distance, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
+                let vectors = [local1, local2, world1, world2, normal];
+                assert!(
+                    vectors.iter().flatten().chain(&[distance, lower, upper]).all(|x| x.is_nan()),
+                    "{i}: {answer:?}"
+                );
+                assert_eq!((answer.outcome, answer.proof_count), (Outcome::None, 0));
+            }
+        }
+    }
+
+    // Bytes that are no answer, but for the sizes.
+    let mut shape_info = MaybeUninit::<ShapeInfo>::zeroed();
+    let mut level_info = MaybeUninit::<LevelInfo>::zeroed();
+    let mut object_info = MaybeUninit::<ObjectInfo>::zeroed();
+    let mut statistics = SceneStatistics { queries: 7, error_spent: 0.0, ..SceneStatistics::default() };
+    let mut scene = null_mut();
+    // SAFETY: every pointer is valid or null; all bytes are zero but the sizes, which make valid structs.
+    unsafe {
+        assert_eq!(swift_scene_create(null(), &mut scene), StatusCode::Ok);
+        (*shape_info.as_mut_ptr()).struct_size = size_of::<ShapeInfo>();
+        assert_eq!(swift_shape_get_info(null(), shape_info.as_mut_ptr()), StatusCode::ErrorNullPointer);
+        let info = shape_info.assume_init();
+        let vectors = [info.centre_of_mass, info.lower, info.upper];
+        assert!(vectors.iter().flatten().chain(&[info.volume, info.radius]).all(|x| x.is_nan()), "{info:?}");
+
+        for (of, level) in [(null(), 0), (shape.cast_const(), 1), (shape, usize::MAX)] {
+            level_info.as_mut_ptr().write_bytes(0, 1);
+            (*level_info.as_mut_ptr()).struct_size = size_of::<LevelInfo>();
+            assert_ne!(swift_shape_get_level_info(of, level, level_info.as_mut_ptr()), StatusCode::Ok);
+            let info = level_info.assume_init();
+            assert!(info.deviation.is_nan() && info.vertex_count == 0, "{info:?}");
+        }
+
+        for (of, id) in [(null(), 1), (scene.cast_const(), 0), (scene, 99)] {
+            object_info.as_mut_ptr().write_bytes(0, 1);
+            (*object_info.as_mut_ptr()).struct_size = size_of::<ObjectInfo>();
+            let status = swift_scene_get_object_info(of, ObjectId::from_bits(id), object_info.as_mut_ptr());
+            assert_ne!(status, StatusCode::Ok);
+            let info = object_info.assume_init();
+            assert!(info.pose.iter().all(|x| x.is_nan()) && info.piece_count == 0, "{info:?}");
+        }
+
+        assert_eq!(swift_scene_get_statistics(null(), &mut statistics), StatusCode::ErrorNullPointer);
+        assert!(statistics.error_spent.is_nan() && statistics.queries == 0, "{statistics:?}");
+        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+    }
+    release(shape);
 }

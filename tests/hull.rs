@@ -15,7 +15,7 @@ use swiftprox::predicates::ExactPoints;
 /// The corners of the hull of a set that spans a plane or space, by definition, O(n⁴): the corners of
 /// the polygon in every supporting plane. Exact duplicates once, by their lowest index.
 fn brute_force_corners(points: &[Vector]) -> Vec<u32> {
-    let exact = ExactPoints::new(points);
+    let exact = ExactPoints::new(points).unwrap();
     let n = points.len() as u32;
     let mut corners = BTreeSet::new();
     for a in 0..n {

@@ -477,3 +477,43 @@ fn readers_may_be_replaced_while_others_read() {
         });
     });
 }
+
+/// What is no regular file is refused at once: a pipe is not waited for, a device without end not read.
+#[cfg(unix)]
+#[test]
+fn only_regular_files_are_read() {
+    let folder = std::env::temp_dir().join(format!("swiftprox-files-{}", std::process::id()));
+    std::fs::create_dir_all(&folder).unwrap();
+    let pipe = folder.join("pipe.off");
+    assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());
+    let sparse = folder.join("sparse.obj");
+    std::fs::File::create(&sparse).unwrap().set_len(swiftprox::files::MOST_FILE_BYTES + 1).unwrap();
+    let cases: [(&Path, &str); 4] = [
+        (&pipe, "a FIFO (a pipe); only regular files are read"),
+        (Path::new("/dev/zero"), "a device; only regular files are read"),
+        (&folder, "a directory; only regular files are read"),
+        (&sparse, "larger than 4294967296 bytes"),
+    ];
+    for (path, said) in cases {
+        let refused = [
+            read_mesh(path).map(drop).unwrap_err(),
+            swiftprox::shape_file::load(path).map(drop).unwrap_err(),
+            Shape::from_file(path, &ShapeOptions::default()).map(drop).unwrap_err(),
+        ];
+        for error in refused {
+            assert!(matches!(error, Error::File(_)), "{error:?}");
+            assert!(error.message().contains(said) && error.message().contains(path.to_str().unwrap()), "{error}");
+        }
+    }
+    // Nor is anything written where a reader would have to be waited for.
+    let tetrahedron = Shape::from_mesh(&tetrahedron(1.0), &ShapeOptions::default()).unwrap();
+    let error = swiftprox::shape_file::save(&tetrahedron, &pipe).unwrap_err();
+    assert!(matches!(error, Error::File(_)) && error.message().contains("cannot be written"), "{error:?}");
+    let error = swiftprox::shape_file::save(&tetrahedron, Path::new("/dev/null")).unwrap_err();
+    assert!(error.message().contains("it is a device; only regular files are written"), "{error}");
+    // A link to a file is the file.
+    let link = folder.join("cube.off");
+    std::os::unix::fs::symlink(std::fs::canonicalize(fixture("cube.off")).unwrap(), &link).unwrap();
+    assert_eq!(read_mesh(&link), Ok(cube()));
+    std::fs::remove_dir_all(&folder).unwrap();
+}

@@ -21,7 +21,7 @@ fuzz_target!(|bytes: &[u8]| {
 fn run(u: &mut Unstructured) -> Result<()> {
     let (options, points) = (hull_options(u)?, points(u, MOST_POINTS)?);
     let Ok(shape) = Shape::from_points(&points, &options) else { return Ok(()) };
-    let mut file = to_bytes(&shape);
+    let mut file = to_bytes(&shape).unwrap();
     assert!(from_bytes(&file).is_ok_and(|loaded| loaded == shape), "{options:?} of {points:?}");
     let poses = [pose(u)?, pose(u)?];
     if u.ratio(1, 16)? {
@@ -37,7 +37,7 @@ fn run(u: &mut Unstructured) -> Result<()> {
     }
     match from_bytes(&file) {
         Ok(loaded) => {
-            assert!(from_bytes(&to_bytes(&loaded)).is_ok_and(|again| again == loaded), "{file:?}");
+            assert!(from_bytes(&to_bytes(&loaded).unwrap()).is_ok_and(|again| again == loaded), "{file:?}");
             check_answers(&loaded, &shape, poses);
         }
         Err(error) => assert!(matches!(error, Error::File(_)), "{error:?}"),

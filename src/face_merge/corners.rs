@@ -3,6 +3,7 @@
 use super::MergedFaces;
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, copied, filled, push, with_capacity};
 use crate::progress::Progress;
 use crate::triangulation::Triangulation;
 
@@ -20,22 +21,22 @@ pub fn straighten_edges(
     progress: &mut Progress,
 ) -> Result<()> {
     let degree = |v: u32| surface.around(v).iter().filter(|h| faces.is_boundary(surface, **h)).count();
-    let mut degrees: Vec<usize> = Vec::with_capacity(positions.len());
+    let mut degrees: Vec<usize> = with_capacity(positions.len())?;
     let all = 2 * positions.len();
     for v in 0..positions.len() as u32 {
         progress.steps(surface.around(v).len(), v as usize, all)?;
         degrees.push(degree(v));
     }
-    let mut corners: Vec<bool> = degrees.iter().map(|d| *d > 2).collect();
-    let mut on_chain = vec![false; positions.len()];
-    let chain_from = |first: u32, corners: &[bool]| {
+    let mut corners: Vec<bool> = collected(degrees.iter().map(|d| *d > 2))?;
+    let mut on_chain = filled(false, positions.len())?;
+    let chain_from = |first: u32, corners: &[bool]| -> Result<Vec<u32>> {
         let mut chain = vec![surface.tail(first), surface.head(first)];
         let mut h = first;
         while !corners[surface.head(h) as usize] && surface.head(h) != chain[0] {
             h = faces.next_on_boundary(surface, h);
-            chain.push(surface.head(h));
+            push(&mut chain, surface.head(h))?;
         }
-        chain
+        Ok(chain)
     };
     let mut chains = Vec::new();
     for v in 0..positions.len() as u32 {
@@ -43,9 +44,9 @@ pub fn straighten_edges(
         for &h in surface.around(v) {
             let middle = surface.head(h) as usize;
             if degrees[v as usize] > 2 && degrees[middle] == 2 && !on_chain[middle] && faces.is_boundary(surface, h) {
-                let chain = chain_from(h, &corners);
+                let chain = chain_from(h, &corners)?;
                 chain[1..chain.len() - 1].iter().for_each(|w| on_chain[*w as usize] = true);
-                chains.push(chain);
+                push(&mut chains, chain)?;
             }
         }
     }
@@ -58,16 +59,16 @@ pub fn straighten_edges(
             let Some(&h) = surface.around(v).iter().find(|h| faces.is_boundary(surface, **h)) else {
                 continue;
             };
-            let closed = chain_from(h, &corners);
+            let closed = chain_from(h, &corners)?;
             closed.iter().for_each(|w| on_chain[*w as usize] = true);
             keep_bends_of_polygon(positions, &closed, bound, &mut corners, progress)?;
-            chains.push(closed);
+            push(&mut chains, closed)?;
         }
     }
     faces.corners = corners;
 
     // A face that is thinner than the bound keeps its corners all the same: a polygon has three.
-    let mut side_counts = vec![0_u32; faces.normals.len()];
+    let mut side_counts = filled(0_u32, faces.normals.len())?;
     for h in 0..surface.twins.len() as u32 {
         if faces.is_boundary(surface, h) && faces.corners[surface.tail(h) as usize] {
             side_counts[faces.left(h) as usize] += 1;
@@ -113,8 +114,8 @@ fn keep_bends(
             && (distance > bound || distance.is_nan())
         {
             corners[chain[i] as usize] = true;
-            parts.push((first, i));
-            parts.push((i, last));
+            push(&mut parts, (first, i))?;
+            push(&mut parts, (i, last))?;
         }
     }
     Ok(())
@@ -129,7 +130,7 @@ fn keep_bends_of_polygon(
     corners: &mut [bool],
     progress: &mut Progress,
 ) -> Result<()> {
-    let mut ring = closed[1..].to_vec();
+    let mut ring = copied(&closed[1..])?;
     let key = |v: &u32| positions[*v as usize];
     let first = (0..ring.len())
         .min_by(|i, j| {
@@ -142,7 +143,8 @@ fn keep_bends_of_polygon(
     let far = (1..ring.len()).max_by(|i, j| distance(&ring[*i]).total_cmp(&distance(&ring[*j]))).unwrap_or(0);
     corners[ring[0] as usize] = true;
     corners[ring[far] as usize] = true;
-    ring.push(ring[0]);
+    let again = ring[0];
+    push(&mut ring, again)?;
     keep_bends(positions, &ring[..=far], bound, corners, progress)?;
     keep_bends(positions, &ring[far..], bound, corners, progress)
 }

@@ -12,6 +12,7 @@ use std::f64::consts::PI;
 
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, filled, push, with_capacity};
 use crate::progress::Progress;
 use crate::triangulation::{Triangulation, next};
 use corners::straighten_edges;
@@ -81,7 +82,7 @@ impl MergedFaces {
 /// [`merge_bound`].
 ///
 /// # Errors
-/// [`crate::error::Error::Cancelled`] when the caller does not want to go on.
+/// [`crate::error::Error::Cancelled`] when the caller does not want to go on; [`crate::error::Error::Memory`].
 pub fn merge_faces(
     surface: &Triangulation,
     positions: &[Vector],
@@ -101,10 +102,10 @@ pub fn merge_faces(
         let of_numbers = &mut progress.part(0.0, 0.1);
         let mut faces = number_faces(surface, positions.len(), &region_of, &region_normals, of_numbers)?;
         straighten_edges(surface, positions, &mut faces, bound, &mut progress.part(0.1, 0.7))?;
-        start_at_corners(surface, &mut faces);
-        let mut sizes = vec![0_u32; faces.normals.len()];
+        start_at_corners(surface, &mut faces)?;
+        let mut sizes = filled(0_u32, faces.normals.len())?;
         faces.face_of.iter().for_each(|f| sizes[*f as usize] += 1);
-        let mut dented = Vec::with_capacity(faces.normals.len());
+        let mut dented = with_capacity(faces.normals.len())?;
         let of_convexity = &mut progress.part(0.7, 1.0);
         for (face, size) in sizes.iter().enumerate() {
             of_convexity.steps(*size as usize, face, sizes.len())?;
@@ -116,7 +117,7 @@ pub fn merge_faces(
         // Back to triangles, which are convex; each round leaves fewer merged faces.
         for (t, region) in region_of.iter_mut().enumerate().filter(|(t, _)| dented[faces.face_of[*t] as usize]) {
             *region = region_normals.len() as u32;
-            region_normals.push(normals[t]);
+            push(&mut region_normals, normals[t])?;
         }
     }
 }
@@ -164,8 +165,8 @@ fn number_faces(
     region_normals: &[Vector],
     progress: &mut Progress,
 ) -> Result<MergedFaces> {
-    let mut number = vec![NONE; region_normals.len()];
-    let mut normals = Vec::with_capacity(region_normals.len());
+    let mut number = filled(NONE, region_normals.len())?;
+    let mut normals = with_capacity(region_normals.len())?;
     for v in 0..vertex_count as u32 {
         progress.steps(surface.around(v).len(), v as usize, vertex_count)?;
         for &h in surface.around(v) {
@@ -176,13 +177,13 @@ fn number_faces(
             }
         }
     }
-    let face_of = region_of.iter().map(|&r| number[r as usize]).collect();
+    let face_of = collected(region_of.iter().map(|&r| number[r as usize]))?;
     Ok(MergedFaces { face_of, normals, first_half_edges: Vec::new(), corners: Vec::new() })
 }
 
 /// Chooses each face's first half-edge: the first one at a corner, in order of vertices.
-fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) {
-    let mut first = vec![NONE; faces.normals.len()];
+fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) -> Result<()> {
+    let mut first = filled(NONE, faces.normals.len())?;
     for v in (0..faces.corners.len() as u32).filter(|v| faces.corners[*v as usize]) {
         for &h in surface.around(v) {
             if faces.is_boundary(surface, h) && first[faces.left(h) as usize] == NONE {
@@ -191,4 +192,5 @@ fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) {
         }
     }
     faces.first_half_edges = first;
+    Ok(())
 }

@@ -3,6 +3,7 @@
 use super::NONE;
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{filled, push, with_capacity};
 use crate::normal::{area_vector, normal_of};
 use crate::progress::Progress;
 use crate::sorting::sort_in_steps;
@@ -26,10 +27,10 @@ pub fn coplanar_regions(
         positions,
         triangle_normals: normals,
         bound,
-        region_of: vec![NONE; surface.triangles.len()],
-        normals: Vec::with_capacity(surface.triangles.len()),
-        out: vec![NONE; positions.len()],
-        failures: vec![0; surface.triangles.len()],
+        region_of: filled(NONE, surface.triangles.len())?,
+        normals: with_capacity(surface.triangles.len())?,
+        out: filled(NONE, positions.len())?,
+        failures: filled(0, surface.triangles.len())?,
     };
     // Largest first, and most meshes have few triangles that can begin anything.
     let of_seeds = &mut progress.part(0.0, 0.3);
@@ -37,10 +38,10 @@ pub fn coplanar_regions(
     for t in 0..surface.triangles.len() as u32 {
         of_seeds.step(t as usize, surface.triangles.len())?;
         if regions.has_coplanar_neighbour(t) {
-            seeds.push(t);
+            push(&mut seeds, t)?;
         }
     }
-    let larger_first = |s: &u32, t: &u32| areas[*t as usize].total_cmp(&areas[*s as usize]);
+    let larger_first = |s: &u32, t: &u32| areas[*t as usize].total_cmp(&areas[*s as usize]).then(s.cmp(t));
     sort_in_steps(&mut seeds, larger_first, &mut progress.part(0.3, 0.4))?;
     let of_regions = &mut progress.part(0.4, 1.0);
     for (done, &seed) in seeds.iter().enumerate() {
@@ -68,6 +69,7 @@ struct Regions<'a> {
     triangle_normals: &'a [Vector],
     bound: f64,
     region_of: Vec<u32>,
+    /// No more than triangles.
     normals: Vec<Vector>,
     /// Scratch: a region's boundary half-edge out of each vertex, NONE elsewhere.
     out: Vec<u32>,
@@ -92,7 +94,7 @@ impl Regions<'_> {
     fn add(&mut self, seed: u32, tell: &mut impl FnMut(usize) -> Result<()>) -> Result<()> {
         let region = self.normals.len() as u32;
         let (triangles, normal) = self.grow(seed, region, tell)?;
-        if triangles.len() == 1 || self.is_disk(&triangles) {
+        if triangles.len() == 1 || self.is_disk(&triangles)? {
             self.normals.push(normal);
             return Ok(());
         }
@@ -140,7 +142,7 @@ impl Regions<'_> {
                     continue;
                 }
                 self.region_of[neighbour as usize] = region;
-                triangles.push(neighbour);
+                push(&mut triangles, neighbour)?;
                 let area = |[a, b, c]: [u32; 3]| (position(b) - position(a)).cross(&(position(c) - position(a))).norm();
                 if size == 0.0 {
                     size = area(reference);
@@ -177,7 +179,7 @@ impl Regions<'_> {
     }
 
     /// Whether the region is bounded by one simple loop. On a sphere, that makes it a disk.
-    fn is_disk(&mut self, triangles: &[u32]) -> bool {
+    fn is_disk(&mut self, triangles: &[u32]) -> Result<bool> {
         let region = self.region_of[triangles[0] as usize];
         let mut boundary = Vec::new();
         let mut simple = true;
@@ -186,7 +188,7 @@ impl Regions<'_> {
                 let out = &mut self.out[self.surface.tail(h) as usize];
                 simple &= *out == NONE;
                 *out = h;
-                boundary.push(h);
+                push(&mut boundary, h)?;
             }
         }
         let mut length = 0;
@@ -204,6 +206,6 @@ impl Regions<'_> {
         for h in &boundary {
             self.out[self.surface.tail(*h) as usize] = NONE;
         }
-        length > 0 && length == boundary.len()
+        Ok(length > 0 && length == boundary.len())
     }
 }

@@ -14,9 +14,10 @@ use super::{Failure, StatusCode, guard, must_return};
 use crate::simd::environment::with_callers;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
-/// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory: a call that can say so
-/// then fails (SWIFT_ERROR_LIMIT for a scene's list of pairs, SWIFT_ERROR_FILE for what a file holds), any other ends the program
-/// with a message, as where the system's memory runs out. `user` is the pointer given to swift_library_set_allocator.
+/// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
+/// runs out: for what grows with the caller's input or a scene the call then ends in SWIFT_ERROR_MEMORY; for what is small the
+/// program ends with a message (the head of this file says what that is). `user` is the pointer given to
+/// swift_library_set_allocator.
 pub type AllocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 

@@ -3,6 +3,7 @@
 use super::shape::{copy_triangles, copy_vertices, create, read_arrays};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
+use crate::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
@@ -49,6 +50,19 @@ unsafe impl Versioned for LevelInfo {
     const FIRST_SIZE: usize = size_of::<LevelInfo>();
 }
 
+impl LevelInfo {
+    /// What is said of no level.
+    const UNKNOWN: LevelInfo = LevelInfo {
+        struct_size: size_of::<LevelInfo>(),
+        vertex_count: 0,
+        edge_count: 0,
+        face_count: 0,
+        triangle_count: 0,
+        deviation: f64::NAN,
+        bytes: 0,
+    };
+}
+
 /// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
 /// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
 /// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
@@ -60,6 +74,7 @@ unsafe impl Versioned for LevelInfo {
 ///
 /// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
 /// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
+/// SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_levels(
@@ -72,7 +87,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
     create(shape, || unsafe {
         let making = read_options(options)?;
         let levels = array(levels, level_count, "levels")?;
-        let mut meshes = Vec::with_capacity(levels.len());
+        let mut meshes = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
             let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
             let read = match i {
@@ -87,7 +102,7 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
 }
 
 /// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swift_level_info) first.
+/// info->struct_size to sizeof(swift_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
 /// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
@@ -98,6 +113,8 @@ pub unsafe extern "C" fn swift_shape_get_level_info(
     info: *mut LevelInfo,
 ) -> StatusCode {
     guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &LevelInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let polyhedron = polyhedron_of(shape, level)?;

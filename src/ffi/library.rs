@@ -46,7 +46,7 @@ pub extern "C" fn swift_library_check_version(major: i32, minor: i32, patch: i32
 /// A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
-    const STRINGS: [(StatusCode, &CStr); 15] = [
+    const STRINGS: [(StatusCode, &CStr); 17] = [
         (StatusCode::Ok, c"ok"),
         (StatusCode::ErrorNullPointer, c"a pointer is null"),
         (StatusCode::ErrorInvalidArgument, c"an argument is invalid"),
@@ -62,6 +62,8 @@ pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
         (StatusCode::ErrorVersion, c"header and library do not go together"),
         (StatusCode::ErrorUnverified, c"the answer does not hold"),
         (StatusCode::ErrorUnsupported, c"the library was built without it"),
+        (StatusCode::ErrorMemory, c"there is no memory"),
+        (StatusCode::ErrorBusy, c"the scene is in use"),
     ];
     let known = STRINGS.iter().find(|(code, _)| *code as i32 == status);
     known.map_or(c"not a status", |(_, string)| string).as_ptr()

@@ -6,6 +6,7 @@ use std::sync::Arc;
 use super::shape::{Faces, check_count, read_faces, read_vectors};
 use super::{Checked, Failure, StatusCode, call_out, exclusive, guard, string};
 use crate::error::{Error, Result};
+use crate::memory::{extend, reserve, with_capacity};
 use crate::mesh::{PolygonMesh, check_vertex};
 use crate::mesh_io::{register_mesh_reader, unregister_mesh_reader};
 
@@ -18,8 +19,8 @@ pub struct MeshSink {
     valences: Vec<u32>,
     /// What the reader says went wrong.
     said: Option<String>,
-    /// The first of its calls that was refused.
-    refused: Option<String>,
+    /// The first of its calls that was refused, and whether that was for memory.
+    refused: Option<(StatusCode, String)>,
 }
 
 /// Reads a mesh file: calls swift_mesh_sink_add_vertices and swift_mesh_sink_add_faces as often as it likes and returns 0; or says
@@ -36,6 +37,9 @@ pub type MeshReaderCallback = Option<
     unsafe extern "C-unwind" fn(user: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32,
 >;
 
+/// No more bytes of a message of a reader are kept.
+const LONGEST_MESSAGE: usize = 4096;
+
 /// A callback and its user pointer.
 struct Reader {
     callback: unsafe extern "C-unwind" fn(*mut c_void, *const c_char, usize, *mut MeshSink) -> i32,
@@ -51,7 +55,9 @@ unsafe impl Sync for Reader {}
 impl Reader {
     /// What the callback makes of a file.
     fn read(&self, bytes: &[u8]) -> Result<PolygonMesh> {
-        let data = [bytes, &[0]].concat();
+        let mut data = with_capacity(bytes.len() + 1)?;
+        data.extend_from_slice(bytes);
+        data.push(0);
         let mut sink = MeshSink::default();
         // SAFETY: the callback takes its own user pointer, the bytes of a file, and a sink, which all outlive the call
         // (swift_library_register_mesh_reader).
@@ -63,8 +69,11 @@ impl Reader {
 impl MeshSink {
     /// The mesh, if the reader is content and nothing was refused.
     fn finish(self, returned: i32) -> Result<PolygonMesh> {
+        if let Some((StatusCode::ErrorMemory, message)) = self.refused {
+            return Err(Error::Memory(message));
+        }
         // The reader's own words come first: they know the line.
-        if let Some(message) = self.said.or(self.refused) {
+        if let Some(message) = self.said.or(self.refused.map(|(_, message)| message)) {
             return Err(Error::File(message));
         }
         if returned != 0 {
@@ -87,8 +96,8 @@ impl MeshSink {
 /// and no other thread is still reading a file by it.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or it
-/// begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_NULL_POINTER: magic is
-/// null.
+/// begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_MEMORY.
+/// SWIFT_ERROR_NULL_POINTER: magic is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_library_register_mesh_reader(
     magic: *const c_char,
@@ -111,6 +120,7 @@ pub unsafe extern "C" fn swift_library_register_mesh_reader(
 /// which they are added. The array is copied.
 ///
 /// SWIFT_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFT_ERROR_LIMIT: too many vertices.
+/// SWIFT_ERROR_MEMORY, which is then the status of what reads the file, too.
 /// SWIFT_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_mesh_sink_add_vertices(
@@ -126,8 +136,7 @@ pub unsafe extern "C" fn swift_mesh_sink_add_vertices(
         for (i, point) in points.iter().enumerate() {
             check_vertex(before + i, point)?;
         }
-        sink.mesh.vertices.extend(points);
-        Ok(())
+        Ok(extend(&mut sink.mesh.vertices, points)?)
     })
 }
 
@@ -136,8 +145,8 @@ pub unsafe extern "C" fn swift_mesh_sink_add_vertices(
 /// They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
 /// checked when the callback returns. The arrays are copied.
 ///
-/// SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is
-/// added, and the file is refused.
+/// SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_MEMORY: as of swift_mesh_sink_add_vertices. SWIFT_ERROR_NULL_POINTER:
+/// sink is null, or indices while there are any. Nothing is added, and the file is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_mesh_sink_add_faces(
     sink: *mut MeshSink,
@@ -150,6 +159,8 @@ pub unsafe extern "C" fn swift_mesh_sink_add_faces(
         // SAFETY: the header's pointer rules.
         let Faces { indices, valences } = unsafe { read_faces(indices, valences, face_count) }?;
         check_count(sink.mesh.indices.len() + indices.len(), "the number of indices")?;
+        reserve(&mut sink.mesh.indices, indices.len())?;
+        reserve(&mut sink.valences, face_count)?;
         sink.mesh.indices.extend_from_slice(indices);
         match valences {
             Some(valences) => sink.valences.extend_from_slice(valences),
@@ -172,17 +183,18 @@ pub unsafe extern "C" fn swift_mesh_sink_set_single_precision(sink: *mut MeshSin
     })
 }
 
-/// Refuses the file that a callback reads, whatever the callback returns. `message`, a string that is copied, says what is wrong,
-/// best with the line; the library adds which file and which reader. The first message holds, also where a call to the sink was
-/// refused before.
+/// Refuses the file that a callback reads, whatever the callback returns. `message`, a string of which up to 4,096 bytes are
+/// copied, says what is wrong, best with the line; the library adds which file and which reader. The first message holds, also
+/// where a call to the sink was refused before, unless that was for memory.
 ///
 /// SWIFT_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_mesh_sink_fail(sink: *mut MeshSink, message: *const c_char) -> StatusCode {
     change(sink, |sink| {
         // SAFETY: the header's pointer rules.
-        let message = unsafe { string(message, "message") }?.to_string_lossy();
-        sink.said.get_or_insert_with(|| message.into_owned());
+        let message = unsafe { string(message, "message") }?.to_bytes();
+        let shown = &message[..message.len().min(LONGEST_MESSAGE)];
+        sink.said.get_or_insert_with(|| String::from_utf8_lossy(shown).into_owned());
         Ok(())
     })
 }
@@ -193,8 +205,8 @@ fn change(sink: *mut MeshSink, body: impl FnOnce(&mut MeshSink) -> Checked<()>) 
         // SAFETY: the header's pointer rules.
         let sink = unsafe { exclusive(sink, "sink") }?;
         let done = body(sink);
-        if let Err(Failure { message, .. }) = &done {
-            sink.refused.get_or_insert_with(|| message.clone());
+        if let Err(Failure { status, message }) = &done {
+            sink.refused.get_or_insert_with(|| (*status, message.clone()));
         }
         done
     })

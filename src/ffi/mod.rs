@@ -68,6 +68,12 @@ pub enum StatusCode {
     ErrorUnverified = 13,
     /// The library was built without what the call is about.
     ErrorUnsupported = 14,
+    /// There is no memory for an array in proportion to what the caller gave or to a scene: the message says how much was asked
+    /// for. Nothing has changed, and the same call may succeed when there is more.
+    ErrorMemory = 15,
+    /// The scene is in use: by another thread, which the rules for threads forbid, or by a call that this one was made in. Nothing
+    /// has changed.
+    ErrorBusy = 16,
 }
 
 /// Why a call did not do what it says.
@@ -102,6 +108,7 @@ impl From<Error> for Failure {
             Error::File(_) => StatusCode::ErrorFile,
             Error::Handle(_) => StatusCode::ErrorHandle,
             Error::Limit(_) => StatusCode::ErrorLimit,
+            Error::Memory(_) => StatusCode::ErrorMemory,
             Error::Cancelled(_) => StatusCode::ErrorCancelled,
             Error::Unverified(_) => StatusCode::ErrorUnverified,
             Error::Bug(_) => StatusCode::ErrorBug,

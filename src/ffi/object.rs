@@ -8,6 +8,7 @@ use super::shape::{read_arrays, read_path};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, output, read_struct, write_struct};
 use crate::math::{Matrix, Pose, Vector};
+use crate::memory::{collected, with_capacity};
 use crate::object::{ObjectId, ObjectOptions};
 use crate::scene::Scene;
 use crate::shape::Shape;
@@ -63,6 +64,17 @@ unsafe impl Versioned for ObjectInfo {
     const FIRST_SIZE: usize = size_of::<ObjectInfo>();
 }
 
+impl ObjectInfo {
+    /// What is said of no object.
+    const UNKNOWN: ObjectInfo = ObjectInfo {
+        struct_size: size_of::<ObjectInfo>(),
+        user_data: 0,
+        piece_count: 0,
+        pose: [f64::NAN; 12],
+        fixed: 0,
+    };
+}
+
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
 /// Fills `options` with the defaults, struct_size included.
@@ -79,7 +91,8 @@ pub unsafe extern "C" fn swift_object_options_init(options: *mut CObjectOptions)
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
-/// than a scene holds. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED.
+/// than a scene holds. SWIFT_ERROR_MEMORY. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_add_object(
     scene: *mut SceneHandle,
@@ -100,7 +113,11 @@ pub unsafe extern "C" fn swift_scene_add_object(
                 Arc::increment_strong_count(piece);
                 Ok(Arc::from_raw(piece))
             };
-            pieces.iter().enumerate().map(share).collect()
+            let mut shares = with_capacity(pieces.len())?;
+            for piece in pieces.iter().enumerate() {
+                shares.push(share(piece)?);
+            }
+            Ok(shares)
         })
     }
 }
@@ -155,6 +172,7 @@ pub unsafe extern "C" fn swift_scene_add_file(
 /// whatever those of its original are. On failure nothing is added and `*id` is 0.
 ///
 /// SWIFT_ERROR_HANDLE: original names no object of this scene. SWIFT_ERROR_LIMIT: more objects than a scene holds.
+/// SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER: the message names the argument. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_copy_object(
@@ -194,7 +212,7 @@ pub unsafe extern "C" fn swift_scene_set_user_data(
     unsafe { change(scene, |scene| Ok(scene.set_user_data(id, user_data)?)) }
 }
 
-/// Says what an object is: set info->struct_size to sizeof(swift_object_info) first.
+/// Says what an object is: set info->struct_size to sizeof(swift_object_info) first. On failure the pose is NaN, all else 0.
 ///
 /// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene or info is null.
 /// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFT_ERROR_POISONED.
@@ -206,15 +224,18 @@ pub unsafe extern "C" fn swift_scene_get_object_info(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
-        let object = look(scene)?.object(id)?;
-        let value = ObjectInfo {
-            struct_size: size_of::<ObjectInfo>(),
-            user_data: object.user_data(),
-            piece_count: object.pieces().len(),
-            pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
-            fixed: i32::from(object.fixed()),
-        };
-        write_struct(info, "info", &value)
+        write_struct(info, "info", &ObjectInfo::UNKNOWN)?;
+        look(scene, |scene| {
+            let object = scene.object(id)?;
+            let value = ObjectInfo {
+                struct_size: size_of::<ObjectInfo>(),
+                user_data: object.user_data(),
+                piece_count: object.pieces().len(),
+                pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
+                fixed: i32::from(object.fixed()),
+            };
+            write_struct(info, "info", &value)
+        })
     })
 }
 
@@ -233,13 +254,15 @@ pub unsafe extern "C" fn swift_scene_get_piece(
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(shape, "shape", std::ptr::null())?;
-        let pieces = look(scene)?.object(id)?.pieces();
-        let found = pieces.get(piece).ok_or_else(|| {
-            let message = format!("piece {piece} of an object with {}", pieces.len());
-            Failure::new(StatusCode::ErrorInvalidArgument, message)
-        })?;
-        shape.write(Arc::as_ptr(found));
-        Ok(())
+        look(scene, |scene| {
+            let pieces = scene.object(id)?.pieces();
+            let found = pieces.get(piece).ok_or_else(|| {
+                let message = format!("piece {piece} of an object with {}", pieces.len());
+                Failure::new(StatusCode::ErrorInvalidArgument, message)
+            })?;
+            shape.write(Arc::as_ptr(found));
+            Ok(())
+        })
     })
 }
 
@@ -293,7 +316,7 @@ pub unsafe extern "C" fn swift_scene_set_all_poses(
     }
 }
 
-/// As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+/// As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFT_ERROR_MEMORY, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_set_all_transforms(
     scene: *mut SceneHandle,
@@ -307,8 +330,8 @@ pub unsafe extern "C" fn swift_scene_set_all_transforms(
             check_pose_count(scene, count)?;
             let rotations = array(rotations.cast::<[f64; 9]>(), count, "rotations")?;
             let translations = array(translations.cast::<[f64; 3]>(), count, "translations")?;
-            let poses: Vec<Pose> =
-                rotations.iter().zip(translations).map(|(rotation, translation)| pose(rotation, translation)).collect();
+            let pose_of = |(rotation, translation)| pose(rotation, translation);
+            let poses: Vec<Pose> = collected(rotations.iter().zip(translations).map(pose_of))?;
             Ok(scene.set_all_poses(&poses)?)
         })
     }

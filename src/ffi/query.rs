@@ -95,8 +95,8 @@ pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> Stat
 /// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
 /// and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_LIMIT: no
-/// memory for the list of pairs.
+/// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_MEMORY: none
+/// for a changed list of pairs; the next query tries again.
 /// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
 /// then. What a scene has accepted it answers: no pair makes a query fail.
 #[unsafe(no_mangle)]
@@ -159,7 +159,8 @@ pub unsafe extern "C" fn swift_scene_query_contacts(
     unsafe { ask(Scene::query_contacts, scene, query, answer) }
 }
 
-/// What the queries of a scene did since it was made or swift_scene_reset_statistics was called.
+/// What the queries of a scene did since it was made or swift_scene_reset_statistics was called. On failure error_spent is NaN, all
+/// else 0.
 ///
 /// SWIFT_ERROR_NULL_POINTER: scene or statistics is null. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
@@ -168,7 +169,14 @@ pub unsafe extern "C" fn swift_scene_get_statistics(
     statistics: *mut SceneStatistics,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(statistics, "statistics", *look(scene)?.statistics()) })
+    guard(|| unsafe {
+        let unknown = SceneStatistics { error_spent: f64::NAN, ..SceneStatistics::default() };
+        output(statistics, "statistics", unknown)?;
+        look(scene, |scene| {
+            statistics.write(*scene.statistics());
+            Ok(())
+        })
+    })
 }
 
 /// Sets the statistics of a scene to zero.

@@ -1,6 +1,9 @@
 //! Scenes: made, ended, and told which pairs to test.
 
-use super::{Checked, Failure, StatusCode, Versioned, exclusive, guard, input, keep_panics_quiet, output, read_struct};
+use std::cell::UnsafeCell;
+use std::sync::atomic::{AtomicU32, Ordering};
+
+use super::{Checked, Failure, StatusCode, Versioned, guard, input, keep_panics_quiet, output, read_struct};
 use crate::math::ROTATION_LIMIT;
 use crate::object::ObjectId;
 use crate::scene::{Scene, SceneOptions};
@@ -9,15 +12,78 @@ use crate::shape::Shape;
 /// Objects, their poses and the pairs that queries test. Make one with swift_scene_create.
 #[derive(Debug)]
 pub struct SceneHandle {
+    /// How many calls read the scene, and [`CHANGING`] while one changes it. Every call enters here before it makes a reference to
+    /// what follows.
+    users: AtomicU32,
+    content: UnsafeCell<Content>,
+}
+
+#[derive(Debug)]
+struct Content {
     scene: Scene,
     /// A change was begun and not ended: a panic left it, and what it left behind is unknown.
     poisoned: bool,
 }
 
+/// One call changes the scene, or ends it.
+const CHANGING: u32 = 1 << 31;
+
+// SAFETY: whoever uses `content` has entered by `users`: alone to change it, with other readers to read it. A scene may be sent to
+// and shared between threads, as is checked below.
+unsafe impl Sync for SceneHandle {}
+
+/// A call that changes a scene, until it is dropped, by a panic, too.
+struct Changing<'a>(&'a SceneHandle);
+
+impl Changing<'_> {
+    /// Enters a scene that no other call uses.
+    fn enter(handle: &SceneHandle) -> Checked<Changing<'_>> {
+        match handle.users.compare_exchange(0, CHANGING, Ordering::Acquire, Ordering::Relaxed) {
+            Ok(_) => Ok(Changing(handle)),
+            Err(_) => Err(busy()),
+        }
+    }
+
+    fn content(&mut self) -> &mut Content {
+        // SAFETY: `users` keeps all others out while this lives, and it is borrowed exclusively.
+        unsafe { &mut *self.0.content.get() }
+    }
+}
+
+impl Drop for Changing<'_> {
+    fn drop(&mut self) {
+        // Readers that are being refused may be counted, too.
+        self.0.users.fetch_sub(CHANGING, Ordering::Release);
+    }
+}
+
+/// A call that reads a scene, until it is dropped.
+struct Reading<'a>(&'a SceneHandle);
+
+impl Reading<'_> {
+    /// Enters a scene that no call changes.
+    fn enter(handle: &SceneHandle) -> Checked<Reading<'_>> {
+        let before = handle.users.fetch_add(1, Ordering::Acquire);
+        let reading = Reading(handle);
+        if before >= CHANGING { Err(busy()) } else { Ok(reading) }
+    }
+
+    fn content(&self) -> &Content {
+        // SAFETY: `users` keeps out those that change the scene while this lives.
+        unsafe { &*self.0.content.get() }
+    }
+}
+
+impl Drop for Reading<'_> {
+    fn drop(&mut self) {
+        self.0.users.fetch_sub(1, Ordering::Release);
+    }
+}
+
 // The header's rule for threads needs this of both handles.
 const _: () = {
     const fn is_shared_between_threads<T: Send + Sync>() {}
-    is_shared_between_threads::<SceneHandle>();
+    is_shared_between_threads::<Content>();
     is_shared_between_threads::<Shape>();
 };
 
@@ -66,7 +132,8 @@ pub unsafe extern "C" fn swift_scene_create(options: *const CSceneOptions, scene
         keep_panics_quiet();
         let options = read_struct(options, CSceneOptions::DEFAULT)?;
         let options = SceneOptions { rotation_limit: options.rotation_limit };
-        let handle = SceneHandle { scene: Scene::new(&options)?, poisoned: false };
+        let content = Content { scene: Scene::new(&options)?, poisoned: false };
+        let handle = SceneHandle { users: AtomicU32::new(0), content: UnsafeCell::new(content) };
         scene.write(Box::into_raw(Box::new(handle)));
         Ok(())
     })
@@ -74,11 +141,15 @@ pub unsafe extern "C" fn swift_scene_create(options: *const CSceneOptions, scene
 
 /// Ends a scene, a poisoned one too; its shares of shapes are given back, its ids and results end with it. Null is ignored.
 ///
-/// SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its memory.
+/// SWIFT_ERROR_BUSY: another call uses the scene, which lives on. SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its
+/// memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
     guard(|| {
-        if !scene.is_null() {
+        // SAFETY: a live scene by the header's pointer rules, or null.
+        if let Some(handle) = unsafe { scene.as_ref() } {
+            // Nobody enters any more: whoever tries while the scene is freed is told so as long as its memory is there.
+            std::mem::forget(Changing::enter(handle)?);
             // SAFETY: a live scene by the header's pointer rules; every one comes from Box::into_raw.
             drop(unsafe { Box::from_raw(scene) });
         }
@@ -91,7 +162,7 @@ pub unsafe extern "C" fn swift_scene_destroy(scene: *mut SceneHandle) -> StatusC
 /// Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
 /// same.
 ///
-/// SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice.
+/// SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice. SWIFT_ERROR_MEMORY.
 /// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_scene_activate_pair(
@@ -169,8 +240,10 @@ pub unsafe extern "C" fn swift_scene_is_pair_active(
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(active, "active", 0)?;
-        active.write(i32::from(look(scene)?.is_pair_active(id1, id2)?));
-        Ok(())
+        look(scene, |scene| {
+            active.write(i32::from(scene.is_pair_active(id1, id2)?));
+            Ok(())
+        })
     })
 }
 
@@ -183,30 +256,126 @@ fn poisoned() -> Failure {
     )
 }
 
-/// A scene to read.
+#[cold]
+fn busy() -> Failure {
+    Failure::new(
+        StatusCode::ErrorBusy,
+        "the scene is in use by another call: of another thread, or of the one that this call was made in; let one thread use a \
+         scene at a time, and do not call it from callbacks",
+    )
+}
+
+/// Runs `body` on a scene that nobody changes meanwhile.
 ///
 /// # Safety
 /// `scene` meets the header's pointer rules.
-pub(super) unsafe fn look<'a>(scene: *const SceneHandle) -> Checked<&'a Scene> {
+pub(super) unsafe fn look<T>(scene: *const SceneHandle, body: impl FnOnce(&Scene) -> Checked<T>) -> Checked<T> {
     // SAFETY: by the caller.
-    let handle = unsafe { input(scene, "scene") }?;
-    if handle.poisoned { Err(poisoned()) } else { Ok(&handle.scene) }
+    let reading = Reading::enter(unsafe { input(scene, "scene") }?)?;
+    let content = reading.content();
+    if content.poisoned { Err(poisoned()) } else { body(&content.scene) }
 }
 
-/// Runs `body` on a scene that nobody else uses; if a panic leaves `body`, the scene stays poisoned.
+/// Runs `body` on a scene that nobody else uses meanwhile; if a panic leaves `body`, the scene stays poisoned.
 ///
 /// # Safety
 /// `scene` meets the header's pointer rules.
 pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scene) -> Checked<()>) -> StatusCode {
     guard(|| {
         // SAFETY: by the caller.
-        let handle = unsafe { exclusive(scene, "scene") }?;
-        if handle.poisoned {
+        let mut changing = Changing::enter(unsafe { input(scene, "scene") }?)?;
+        let content = changing.content();
+        if content.poisoned {
             return Err(poisoned());
         }
-        handle.poisoned = true;
-        let result = body(&mut handle.scene);
-        handle.poisoned = false;
+        content.poisoned = true;
+        let result = body(&mut content.scene);
+        content.poisoned = false;
         result
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::ffi::query::{CSceneAnswer, swift_scene_query_intersection};
+    use std::ptr::{null, null_mut};
+
+    /// What a thread is handed of a scene.
+    #[derive(Clone, Copy)]
+    struct Shared(*mut SceneHandle);
+
+    // SAFETY: a handle may be used by any thread; what must not be done at once, the test does to see it refused.
+    unsafe impl Send for Shared {}
+
+    fn new_scene() -> *mut SceneHandle {
+        let mut scene = null_mut();
+        // SAFETY: null options, and room for a pointer.
+        assert_eq!(unsafe { swift_scene_create(null(), &mut scene) }, StatusCode::Ok);
+        scene
+    }
+
+    #[test]
+    fn calls_of_several_threads_at_once_are_done_one_by_one_or_refused() {
+        let shared = Shared(new_scene());
+        let rounds = if cfg!(miri) { 20 } else { 20_000 };
+        let work = move |number: u32| {
+            let Shared(scene) = { shared };
+            (0..rounds).fold(0, |done, round| {
+                // SAFETY: a living scene, and ids that it refuses.
+                let status = unsafe {
+                    match (round + number) % 3 {
+                        0 => swift_scene_activate_all(scene),
+                        1 => swift_scene_deactivate_all(scene),
+                        _ => guard(|| {
+                            look(scene, |scene| {
+                                std::hint::black_box(scene.objects().count());
+                                Ok(())
+                            })
+                        }),
+                    }
+                };
+                assert!(matches!(status, StatusCode::Ok | StatusCode::ErrorBusy), "{status:?}");
+                done + u32::from(status == StatusCode::Ok)
+            })
+        };
+        let done: u32 = std::thread::scope(|threads| {
+            let threads = [0, 1, 2].map(|number| threads.spawn(move || work(number)));
+            threads.into_iter().map(|thread| thread.join().unwrap()).sum()
+        });
+        assert!(done > 0);
+        // SAFETY: a living scene, used by this thread only.
+        unsafe {
+            assert_eq!(swift_scene_activate_all(shared.0), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(shared.0), StatusCode::Ok);
+        }
+    }
+
+    #[test]
+    fn a_call_inside_a_call_is_refused() {
+        let scene = new_scene();
+        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7, found: null() };
+        // SAFETY: a living scene, used by this thread only, and room for every output.
+        unsafe {
+            let status = change(scene, |_| {
+                assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::ErrorBusy);
+                assert_eq!((answer.count, answer.intersecting), (0, 0));
+                assert_eq!(guard(|| look(scene, |_| Ok(()))), StatusCode::ErrorBusy);
+                assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                Ok(())
+            });
+            assert_eq!(status, StatusCode::Ok);
+            let status = guard(|| {
+                look(scene, |_| {
+                    assert_eq!(swift_scene_activate_all(scene), StatusCode::ErrorBusy);
+                    assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                    // Those that change nothing may be many.
+                    look(scene, |_| Ok(()))
+                })
+            });
+            assert_eq!(status, StatusCode::Ok);
+            assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+        }
+    }
 }

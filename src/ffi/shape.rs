@@ -11,6 +11,7 @@ use super::{
 use crate::lookup::Plan;
 use crate::lookup_build::LookupKind;
 use crate::math::Vector;
+use crate::memory::{collected, copied};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
@@ -66,6 +67,30 @@ unsafe impl Versioned for ShapeInfo {
     const FIRST_SIZE: usize = size_of::<ShapeInfo>();
 }
 
+impl ShapeInfo {
+    /// What is said of no shape.
+    const UNKNOWN: ShapeInfo = ShapeInfo {
+        struct_size: size_of::<ShapeInfo>(),
+        dimension: 0,
+        vertex_count: 0,
+        edge_count: 0,
+        face_count: 0,
+        triangle_count: 0,
+        volume: f64::NAN,
+        centre_of_mass: [f64::NAN; 3],
+        radius: f64::NAN,
+        lower: [f64::NAN; 3],
+        upper: [f64::NAN; 3],
+        bytes: 0,
+        hierarchy: 0,
+        level_count: 0,
+        level_bytes: 0,
+        lookup: 0,
+        lookup_resolution: 0,
+        lookup_bytes: 0,
+    };
+}
+
 /// Makes a shape from a polygon mesh. The arrays are copied.
 ///
 /// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
@@ -77,8 +102,8 @@ unsafe impl Versioned for ShapeInfo {
 /// `options` may be null for the defaults.
 ///
 /// SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
-/// bits. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
-/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// bits. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER,
+/// SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_mesh(
     vertices: *const f64,
@@ -105,8 +130,8 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 /// `options` may be null for the defaults, which refuse a hull without interior.
 ///
 /// SWIFT_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
-/// SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_CANCELLED:
-/// options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_MEMORY.
+/// SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_create_from_points(
     points: *const f64,
@@ -130,8 +155,9 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be read or does not parse; the message names the line, or the registered reader and what
-/// it says. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
+/// SWIFT_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger than
+/// 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
+/// SWIFT_ERROR_MEMORY. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
 /// SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
 /// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
@@ -153,8 +179,9 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
 /// machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
 /// file refuses it.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be written; the message names it and says why. SWIFT_ERROR_NULL_POINTER,
-/// SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+/// SWIFT_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message names it
+/// and says why. SWIFT_ERROR_MEMORY: the file is as it was.
+/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
     guard(|| {
@@ -171,8 +198,8 @@ pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_ch
 ///
 /// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be read, is no shape file, of another version or damaged; the message names it and says what
-/// is wrong. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
+/// SWIFT_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file, of
+/// another version or damaged; the message names it and says what is wrong. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
 /// the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_load(
@@ -224,8 +251,8 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
 /// the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
 /// meanwhile, or another swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
 ///
-/// SWIFT_ERROR_CANCELLED: progress said so; no levels are made, and the shape can be used as before. SWIFT_ERROR_NULL_POINTER:
-/// shape is null.
+/// SWIFT_ERROR_CANCELLED: progress said so; SWIFT_ERROR_MEMORY: in both cases no levels are made, a table that was made stays, and
+/// the shape can be used as before. SWIFT_ERROR_NULL_POINTER: shape is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_prepare(
     shape: *const Shape,
@@ -239,12 +266,14 @@ pub unsafe extern "C" fn swift_shape_prepare(
     })
 }
 
-/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first.
+/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first. On failure real numbers are NaN, all else 0.
 ///
 /// SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
@@ -379,7 +408,7 @@ pub(super) unsafe fn read_arrays(
     // SAFETY: by the caller.
     let (faces, points) =
         unsafe { (read_faces(indices, valences, face_count)?, read_vectors(vertices, vertex_count, "vertices")?) };
-    Ok(PolygonMesh::new(points, faces.indices.to_vec(), faces.valences)?)
+    Ok(PolygonMesh::new(points, copied(faces.indices)?, faces.valences)?)
 }
 
 /// Faces in a caller's arrays.
@@ -421,8 +450,11 @@ pub(super) unsafe fn read_vectors(coordinates: *const f64, count: usize, name: &
     check_count(count, "the number of points")?;
     // SAFETY: by the caller; three doubles are as aligned as one.
     let points = unsafe { array(coordinates.cast::<[f64; 3]>(), count, name) }?;
-    Ok(points.iter().map(|&point| Vector::from(point)).collect())
+    Ok(collected(points.iter().map(|&point| Vector::from(point)))?)
 }
+
+/// No system takes a longer path: such a one is no path, and too long for a message.
+const LONGEST_PATH: usize = 1 << 15;
 
 /// A path from a caller's string.
 ///
@@ -431,6 +463,11 @@ pub(super) unsafe fn read_vectors(coordinates: *const f64, count: usize, name: &
 pub(super) unsafe fn read_path<'a>(path: *const c_char) -> Checked<&'a Path> {
     // SAFETY: by the caller.
     let path = unsafe { string(path, "path") }?;
+    let length = path.to_bytes().len();
+    if length > LONGEST_PATH {
+        let message = format!("the path has {length} bytes, more than {LONGEST_PATH}");
+        return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+    }
     #[cfg(unix)]
     return Ok(Path::new(<std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes())));
     #[cfg(not(unix))]

@@ -3,6 +3,7 @@
 use crate::containment::contains;
 use crate::error::Result;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, filled};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron_build::{build, copy_labels};
 
@@ -10,8 +11,11 @@ use crate::polyhedron_build::{build, copy_labels};
 const ATTEMPTS: u32 = 16;
 
 /// Moves points by a translation.
-pub fn translated(points: &[Vector], by: &Vector) -> Vec<Vector> {
-    points.iter().map(|p| p + by).collect()
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
+pub fn translated(points: &[Vector], by: &Vector) -> Result<Vec<Vector>> {
+    collected(points.iter().map(|p| p + by))
 }
 
 /// The hull of the points if it contains `base` as it is, else scaled about `centre` so that it barely does; decided exactly
@@ -30,13 +34,13 @@ pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Sc
     if hull.dimension < 3 {
         return Ok(None);
     }
-    if scale == Scaling::WhereNeeded && hull.centre == base.centre && contains(&hull, base) {
+    if scale == Scaling::WhereNeeded && hull.centre == base.centre && contains(&hull, base)? {
         return Ok(Some(hull));
     }
-    let from_centre: Vec<Vector> = hull.vertices.iter().map(|v| v.position + offset - centre).collect();
+    let from_centre: Vec<Vector> = collected(hull.vertices.iter().map(|v| v.position + offset - centre))?;
     let (mut factor, mut least) = (0.0_f64, f64::INFINITY);
     let mut start = 0;
-    for face in faces_in_order(&hull) {
+    for face in faces_in_order(&hull)? {
         let face = &hull.faces[face as usize];
         let height = face.normal.dot(&from_centre[face.vertex as usize]);
         start = base.support(&face.normal, start).0;
@@ -53,13 +57,13 @@ pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Sc
             break;
         }
         let grown = factor * (1.0 + margin);
-        let points: Vec<Vector> = from_centre.iter().map(|p| centre + p * grown).collect();
+        let points: Vec<Vector> = collected(from_centre.iter().map(|p| centre + p * grown))?;
         let mut level = build(&points, None)?;
         for label in &mut level.vertex_labels {
             *label = hull.vertex_labels[*label as usize];
         }
         copy_labels(&mut level);
-        if level.centre == base.centre && contains(&level, base) {
+        if level.centre == base.centre && contains(&level, base)? {
             return Ok(Some(level));
         }
         margin *= 4.0;
@@ -77,14 +81,17 @@ pub enum Scaling {
 }
 
 /// The faces of a polyhedron, neighbours near each other: by their lowest vertex, as the vertices are in such an order.
-pub fn faces_in_order(polyhedron: &Polyhedron) -> Vec<u32> {
-    let mut lowest = vec![u32::MAX; polyhedron.faces.len()];
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
+pub fn faces_in_order(polyhedron: &Polyhedron) -> Result<Vec<u32>> {
+    let mut lowest = filled(u32::MAX, polyhedron.faces.len())?;
     for (corners, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {
         for &v in corners {
             lowest[face as usize] = lowest[face as usize].min(v);
         }
     }
-    let mut order: Vec<u32> = (0..polyhedron.faces.len() as u32).collect();
-    order.sort_by_key(|face| lowest[*face as usize]);
-    order
+    let mut order: Vec<u32> = collected(0..polyhedron.faces.len() as u32)?;
+    order.sort_unstable_by_key(|face| (lowest[*face as usize], *face));
+    Ok(order)
 }

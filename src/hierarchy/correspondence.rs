@@ -5,6 +5,7 @@ use super::Links;
 use super::bounding::faces_in_order;
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::{collected, filled, push};
 use crate::point_distance::PointDistance;
 use crate::polyhedron::{NONE, Polyhedron};
 use crate::state::FeatureId;
@@ -25,8 +26,8 @@ pub struct Correspondence {
 /// [`Error::Bug`](crate::error::Error::Bug) if the triangles of a polyhedron are no closed surface.
 pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspondence> {
     let polyhedron = below.polyhedron();
-    let parent_of_face = extreme_vertices(polyhedron, above);
-    let mut parents = Links::new(polyhedron);
+    let parent_of_face = extreme_vertices(polyhedron, above)?;
+    let mut parents = Links::new(polyhedron)?;
     for (face, &parent) in parent_of_face.iter().enumerate() {
         parents.faces[face] = FeatureId::Vertex(parent);
         for edge in sides(polyhedron, face) {
@@ -39,8 +40,8 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
         }
     }
 
-    let hints = hints_for_children(&parents, above);
-    let mut children = Links::new(above);
+    let hints = hints_for_children(&parents, above)?;
+    let mut children = Links::new(above)?;
     for (v, vertex) in above.vertices.iter().enumerate() {
         // The nearest point lies in a triangle; the face that the triangle is a part of may have vertices that are nearer.
         let start = below.nearest(&vertex.position, hints[v]).vertex;
@@ -61,28 +62,31 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
 ///
 /// The paper says so for children; its parents "are different", no more. What is removed gets a neighbour that is kept, the
 /// faces around it the vertex that is extreme along their normals.
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
 pub fn by_identity(
     [below, above]: [&Polyhedron; 2],
     ids: [&[u32]; 2],
     filled: &[([u32; 3], u32)],
     count: usize,
-) -> Correspondence {
-    let [in_below, in_above] = ids.map(|ids| index_of(ids, count));
+) -> Result<Correspondence> {
+    let [in_below, in_above] = [index_of(ids[0], count)?, index_of(ids[1], count)?];
     let vertex_below = |id: u32| in_below[id as usize];
 
     // A vertex of the level below may have been left out there, where rounding put it into a face.
     let nearest_below = |v: u32| nearest_vertex_by_walking(below, &above.vertices[v as usize].position, 0);
-    let mut children = Links::new(above);
+    let mut children = Links::new(above)?;
     for (v, id) in (0..).zip(ids[1]) {
         let kept = vertex_below(*id);
         children.vertices[v as usize] = FeatureId::Vertex(if kept == NONE { nearest_below(v) } else { kept });
     }
-    let triangles_below = triangles_by_ids(below, ids[0]);
+    let triangles_below = triangles_by_ids(below, ids[0])?;
     let removed_at = |corners: &[u32; 3]| {
         let found = filled.binary_search_by_key(corners, |(corners, _)| *corners).ok();
         found.map(|i| vertex_below(filled[i].1)).filter(|v| *v != NONE)
     };
-    for (corners, face) in triangles_by_ids(above, ids[1]) {
+    for (corners, face) in triangles_by_ids(above, ids[1])? {
         let kept = triangles_below.binary_search_by_key(&corners, |(corners, _)| *corners).ok();
         children.faces[face as usize] = match (kept, removed_at(&corners)) {
             (Some(i), _) => FeatureId::Face(triangles_below[i].1),
@@ -102,8 +106,8 @@ pub fn by_identity(
         };
     }
 
-    let mut parents = Links::new(below);
-    for (parent, extreme) in parents.faces.iter_mut().zip(extreme_vertices(below, above)) {
+    let mut parents = Links::new(below)?;
+    for (parent, extreme) in parents.faces.iter_mut().zip(extreme_vertices(below, above)?) {
         *parent = FeatureId::Vertex(extreme);
     }
     for (edge, parent) in below.edges.iter().zip(&mut parents.edges) {
@@ -128,28 +132,28 @@ pub fn by_identity(
             parents.edges[below as usize] = FeatureId::Edge(e);
         }
     }
-    Correspondence { children, parents }
+    Ok(Correspondence { children, parents })
 }
 
 /// Where each id is in a list of some of 0..`count`; NONE for the others.
-fn index_of(ids: &[u32], count: usize) -> Vec<u32> {
-    let mut index = vec![NONE; count];
+fn index_of(ids: &[u32], count: usize) -> Result<Vec<u32>> {
+    let mut index = filled(NONE, count)?;
     for (i, id) in (0..).zip(ids) {
         index[*id as usize] = i;
     }
-    index
+    Ok(index)
 }
 
 /// The triangles of a polyhedron by the ids of their corners, ascending, and the faces that they are part of; in order.
-fn triangles_by_ids(polyhedron: &Polyhedron, ids: &[u32]) -> Vec<([u32; 3], u32)> {
+fn triangles_by_ids(polyhedron: &Polyhedron, ids: &[u32]) -> Result<Vec<([u32; 3], u32)>> {
     let by_ids = |(corners, face): (&[u32; 3], &u32)| {
         let mut corners = corners.map(|v| ids[v as usize]);
         corners.sort_unstable();
         (corners, *face)
     };
-    let mut triangles: Vec<_> = polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle).map(by_ids).collect();
+    let mut triangles = collected(polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle).map(by_ids))?;
     triangles.sort_unstable();
-    triangles
+    Ok(triangles)
 }
 
 /// The edge from one vertex to another, if there is one; they may be NONE.
@@ -162,11 +166,14 @@ fn edge_between(polyhedron: &Polyhedron, [tail, head]: [u32; 2]) -> Option<u32> 
 }
 
 /// The vertex of `above` that is extreme along the normal of each face of `below`.
-pub fn extreme_vertices(below: &Polyhedron, above: &Polyhedron) -> Vec<u32> {
-    let mut extreme = vec![NONE; below.faces.len()];
+///
+/// # Errors
+/// [`Error::Memory`](crate::error::Error::Memory).
+pub fn extreme_vertices(below: &Polyhedron, above: &Polyhedron) -> Result<Vec<u32>> {
+    let mut extreme = filled(NONE, below.faces.len())?;
     // A face next to this one tells where to begin; there is one nearly always.
     let mut last = 0;
-    for face in faces_in_order(below) {
+    for face in faces_in_order(below)? {
         let known = sides(below, face as usize).find_map(|edge| {
             let edge = &below.edges[edge as usize];
             [edge.left(), edge.right()].map(|f| extreme[f as usize]).into_iter().find(|v| *v != NONE)
@@ -174,7 +181,7 @@ pub fn extreme_vertices(below: &Polyhedron, above: &Polyhedron) -> Vec<u32> {
         last = above.support(&below.faces[face as usize].normal, known.unwrap_or(last)).0;
         extreme[face as usize] = last;
     }
-    extreme
+    Ok(extreme)
 }
 
 /// The edges of a face.
@@ -184,15 +191,15 @@ fn sides(polyhedron: &Polyhedron, face: usize) -> impl Iterator<Item = u32> {
 }
 
 /// For each vertex above a vertex below whose parent it is, or that of a neighbour: where to look for its child.
-fn hints_for_children(parents: &Links, above: &Polyhedron) -> Vec<u32> {
-    let mut hints = vec![NONE; above.vertices.len()];
+fn hints_for_children(parents: &Links, above: &Polyhedron) -> Result<Vec<u32>> {
+    let mut hints = filled(NONE, above.vertices.len())?;
     let mut queue = Vec::new();
     for (child, parent) in (0..).zip(&parents.vertices) {
         if let FeatureId::Vertex(parent) = *parent
             && hints[parent as usize] == NONE
         {
             hints[parent as usize] = child;
-            queue.push(parent);
+            push(&mut queue, parent)?;
         }
     }
     let mut done = 0;
@@ -201,11 +208,11 @@ fn hints_for_children(parents: &Links, above: &Polyhedron) -> Vec<u32> {
         for head in above.neighbour_blocks(v).flat_map(|block| block.head) {
             if hints[head as usize] == NONE {
                 hints[head as usize] = hints[v as usize];
-                queue.push(head);
+                push(&mut queue, head)?;
             }
         }
     }
-    hints
+    Ok(hints)
 }
 
 /// From vertex to nearer neighbour until none is nearer.

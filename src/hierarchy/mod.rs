@@ -15,6 +15,7 @@ use crate::enumerator::enumerator;
 use crate::error::{Error, Result};
 use crate::lookup_build::plan_for_level;
 use crate::math::Vector;
+use crate::memory::{collected, extend, filled, push, with_capacity};
 use crate::mesh::check_vertex;
 use crate::outer_cuts::outer_cuts;
 use crate::point_distance::PointDistance;
@@ -108,13 +109,13 @@ pub struct Links {
 
 impl Links {
     /// All to vertex 0.
-    fn new(polyhedron: &Polyhedron) -> Links {
-        let links = |count: usize| vec![FeatureId::Vertex(0); count];
-        Links {
-            vertices: links(polyhedron.vertices.len()),
-            edges: links(polyhedron.edges.len()),
-            faces: links(polyhedron.faces.len()),
-        }
+    fn new(polyhedron: &Polyhedron) -> Result<Links> {
+        let links = |count: usize| filled(FeatureId::Vertex(0), count);
+        Ok(Links {
+            vertices: links(polyhedron.vertices.len())?,
+            edges: links(polyhedron.edges.len())?,
+            faces: links(polyhedron.faces.len())?,
+        })
     }
 
     /// Whether there is one for each feature of a polyhedron, to a feature that the other has.
@@ -188,14 +189,14 @@ impl Hierarchy {
     /// finer one.
     ///
     /// # Errors
-    /// [`Error::Argument`] for options out of range, [`Error::Cancelled`].
+    /// [`Error::Argument`] for options out of range, [`Error::Cancelled`], [`Error::Memory`].
     pub fn build(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
         with_default(|| Hierarchy::built(base, options, progress))
     }
 
     fn built(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
         options.check()?;
-        let centred = centred(base);
+        let centred = centred(base)?;
         let mut builder = Builder::new(&centred, options.kind)?;
         if base.dimension == 3 && builder.is_of_usual_size() {
             match options.kind {
@@ -217,13 +218,13 @@ impl Hierarchy {
     ///
     /// # Errors
     /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
-    /// contain P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`].
+    /// contain P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`], [`Error::Memory`].
     pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
         with_default(|| Hierarchy::of_given(base, levels, progress))
     }
 
     fn of_given(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
-        let centred = centred(base);
+        let centred = centred(base)?;
         let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
         if !levels.is_empty() && !builder.is_of_usual_size() {
             return Err(Error::Argument("levels need a body of a size between 2^-200 and 2^200".into()));
@@ -239,7 +240,7 @@ impl Hierarchy {
             for (v, point) in points.iter().enumerate() {
                 check_vertex(v, point).map_err(|e| Error::Mesh(format!("level {number}: {e}")))?;
             }
-            let points = translated(points, &-base.centre);
+            let points = translated(points, &-base.centre)?;
             let Some(level) = builder.in_general(&points, &mut part)? else {
                 return Err(Error::Mesh(format!(
                     "level {number} has no interior, or too little to be made to bound the body"
@@ -255,7 +256,8 @@ impl Hierarchy {
     /// it stands off.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a level that does not contain the body, or links out of range; [`Error::Cancelled`].
+    /// [`Error::Argument`] for a level that does not contain the body, or links out of range; [`Error::Cancelled`],
+    /// [`Error::Memory`].
     pub fn restored(
         base: &Polyhedron,
         kind: HierarchyKind,
@@ -263,7 +265,7 @@ impl Hierarchy {
         progress: &mut Progress,
     ) -> Result<Hierarchy> {
         let count = levels.len();
-        let centred = centred(base);
+        let centred = centred(base)?;
         let mut builder = Builder::new(&centred, kind)?;
         for (i, (polyhedron, children, parents)) in levels.into_iter().enumerate() {
             progress.report(i as f64 / count as f64)?;
@@ -271,14 +273,14 @@ impl Hierarchy {
             if polyhedron.centre != centred.centre {
                 return refused("is not in the frame of the body");
             }
-            if !contains(&polyhedron, &centred) {
+            if !contains(&polyhedron, &centred)? {
                 return refused("does not contain the body");
             }
             let below = builder.below();
             if !(children.lead(&polyhedron, below) && parents.lead(below, &polyhedron)) {
                 return refused("has links to features that do not exist");
             }
-            builder.add_linked(polyhedron, Correspondence { children, parents });
+            builder.add_linked(polyhedron, Correspondence { children, parents })?;
         }
         progress.report(1.0)?;
         Ok(builder.finish(base))
@@ -291,14 +293,14 @@ impl Hierarchy {
 }
 
 /// A polyhedron in its own centred coordinates.
-fn centred(polyhedron: &Polyhedron) -> Cow<'_, Polyhedron> {
+fn centred(polyhedron: &Polyhedron) -> Result<Cow<'_, Polyhedron>> {
     if polyhedron.centre == Vector::zeros() {
-        return Cow::Borrowed(polyhedron);
+        return Ok(Cow::Borrowed(polyhedron));
     }
-    let mut centred = polyhedron.clone();
+    let mut centred = polyhedron.copy()?;
     centred.move_frame(&-polyhedron.centre);
     centred.centre = Vector::zeros();
-    Cow::Owned(centred)
+    Ok(Cow::Owned(centred))
 }
 
 /// Vertices, edges and faces.
@@ -321,7 +323,7 @@ impl<'a> Builder<'a> {
             base,
             distance: PointDistance::new(base)?,
             hierarchy: Hierarchy { kind, levels: Vec::new() },
-            near: (0..base.vertices.len() as u32).collect(),
+            near: collected(0..base.vertices.len() as u32)?,
         })
     }
 
@@ -346,7 +348,7 @@ impl<'a> Builder<'a> {
             if target < options.minimum_triangles.max(4) {
                 break;
             }
-            let positions: Vec<Vector> = below.vertices.iter().map(|v| v.position).collect();
+            let positions: Vec<Vector> = collected(below.vertices.iter().map(|v| v.position))?;
             let mut part = progress.part(1.0 - remaining, 1.0 - remaining * options.decimation);
             remaining *= options.decimation;
             let mut simplifying = part.part(0.0, 0.5);
@@ -364,7 +366,7 @@ impl<'a> Builder<'a> {
     fn add_dobkin_kirkpatrick(&mut self, options: &HierarchyOptions, progress: &mut Progress) -> Result<()> {
         let mut removing = DobkinKirkpatrick::new(self.base)?;
         let count = self.base.vertices.len();
-        let mut ids: Vec<u32> = (0..count as u32).collect();
+        let mut ids: Vec<u32> = collected(0..count as u32)?;
         // Every level costs about as much: the vertices of the body take part in all of them.
         let minimum = options.minimum_triangles.max(4);
         let levels_to = |left: usize| (left as f64 / minimum as f64).max(1.0).ln();
@@ -379,14 +381,15 @@ impl<'a> Builder<'a> {
             let Some(Removal { vertices, points, filled }) = removing.next(minimum, &mut part)? else { break };
             let centre = self.base.mass.centre_of_mass;
             let Some(level) = bounding(&points, &centre, self.base, Scaling::WhereNeeded)? else { break };
-            all_filled.extend(filled);
+            extend(&mut all_filled, filled)?;
             if !self.is_simpler(&level) {
                 continue;
             }
             all_filled.sort_unstable();
-            let ids_above: Vec<u32> = level.vertex_labels.iter().map(|label| vertices[*label as usize]).collect();
-            let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &all_filled, count);
-            self.add_linked(level, correspondence);
+            let id_of = |label: &u32| vertices[*label as usize];
+            let ids_above: Vec<u32> = collected(level.vertex_labels.iter().map(id_of))?;
+            let correspondence = by_identity([self.below(), &level], [&ids, &ids_above], &all_filled, count)?;
+            self.add_linked(level, correspondence)?;
             ids = ids_above;
             all_filled.clear();
         }
@@ -401,7 +404,7 @@ impl<'a> Builder<'a> {
             .take_while(|&target| target >= options.minimum_triangles.max(4))
             .take(options.most_levels);
         // Three planes meet at every vertex: F planes make 2F − 4 vertices, and faces that are worth 4F − 12 triangles.
-        let mut plane_counts: Vec<usize> = targets.map(|target| (target + 12) / 4).collect();
+        let mut plane_counts: Vec<usize> = collected(targets.map(|target| (target + 12) / 4))?;
         plane_counts.reverse();
         let levels = outer_cuts(self.base, &plane_counts, &mut progress.part(0.0, 0.5))?;
         let mut part = progress.part(0.5, 1.0);
@@ -420,8 +423,8 @@ impl<'a> Builder<'a> {
     fn in_general(&self, points: &[Vector], progress: &mut Progress) -> Result<Option<Polyhedron>> {
         let hull = build(points, None)?;
         let centre = self.below().mass.centre_of_mass;
-        let points: Vec<Vector> = (0..hull.vertices.len() as u32).map(|v| hull.local_position(v)).collect();
-        let points = translated(&points, &(centre - hull.mass.centre_of_mass));
+        let points: Vec<Vector> = collected((0..hull.vertices.len() as u32).map(|v| hull.local_position(v)))?;
+        let points = translated(&points, &(centre - hull.mass.centre_of_mass))?;
         progress.report(0.25)?;
         bounding(&points, &centre, self.base, Scaling::Always)
     }
@@ -438,15 +441,15 @@ impl<'a> Builder<'a> {
         let below = PointDistance::new(self.below())?;
         let correspondence = by_position(&below, &polyhedron)?;
         progress.report(0.75)?;
-        self.add_linked(polyhedron, correspondence);
+        self.add_linked(polyhedron, correspondence)?;
         progress.report(1.0)
     }
 
     /// Adds a level that contains the body.
-    fn add_linked(&mut self, polyhedron: Polyhedron, correspondence: Correspondence) {
+    fn add_linked(&mut self, polyhedron: Polyhedron, correspondence: Correspondence) -> Result<()> {
         let Correspondence { children, parents } = correspondence;
         let mut deviation = 0.0_f64;
-        let mut near = Vec::with_capacity(polyhedron.vertices.len());
+        let mut near = with_capacity(polyhedron.vertices.len())?;
         for (vertex, child) in polyhedron.vertices.iter().zip(&children.vertices) {
             let hint = match *child {
                 FeatureId::Vertex(v) => self.near[v as usize],
@@ -458,7 +461,7 @@ impl<'a> Builder<'a> {
             near.push(nearest.vertex);
         }
         self.near = near;
-        self.hierarchy.levels.push(Level { polyhedron, deviation, children, parents });
+        push(&mut self.hierarchy.levels, Level { polyhedron, deviation, children, parents })
     }
 
     /// The levels in the frame of `base`, and which tables they get.

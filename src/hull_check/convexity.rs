@@ -3,11 +3,12 @@
 use std::cell::OnceCell;
 use std::collections::HashSet;
 
-use super::edges::match_edges;
+use super::edges::{Matching, match_edges};
 use super::{FLAT_HINT, HULL_HINT, violation};
 use crate::error::{Error, Result};
 use crate::hull_build::Hull;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, copied, filled, lacking};
 use crate::mesh::PolygonMesh;
 use crate::normal::{area_vector, normal_of, unit};
 use crate::predicates::ExactPoints;
@@ -73,9 +74,9 @@ pub fn check_convexity(
     if hull.dimension < 2 {
         return Ok(());
     }
-    let exact = ExactPoints::new(&mesh.vertices);
+    let exact = ExactPoints::new(&mesh.vertices)?;
     let origin = exact.approximate(hull.vertices[0]);
-    let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v) - origin).collect();
+    let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v) - origin))?;
     let boundary = Boundary::new(hull, &position, &mut progress.part(0.0, 0.2))?;
     let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
     let surface = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.2, 0.3))?;
@@ -94,7 +95,7 @@ pub fn check_convexity(
         let Err(Outside { vertex, distance }) = polygon.check_plane(&position, &mut search, allowed) else {
             continue;
         };
-        if polygon.is_near_boundary(&position, &mut search, allowed) {
+        if polygon.is_near_boundary(&position, &mut search, allowed)? {
             continue;
         }
         if distance.is_infinite() {
@@ -158,17 +159,17 @@ impl<'a> Polygon<'a> {
     /// All corners at most `allowed` below some supporting plane of the hull. The planes of the
     /// hull's triangle over the face's centre and of those around it are tried: it alone may be as
     /// tiny as the face, and tilted likewise.
-    fn is_near_boundary(&self, position: &[Vector], search: &mut Search, allowed: f64) -> bool {
+    fn is_near_boundary(&self, position: &[Vector], search: &mut Search, allowed: f64) -> Result<bool> {
         // At a tip of the hull all planes may be those of tiny triangles; but a face as small as
         // the tolerance that has a vertex of the hull is close enough wherever it lies.
         let boundary = search.boundary;
         let distance = |v: u32, w: u32| (position[v as usize] - position[w as usize]).norm();
         let reaches_all = |v: u32| self.corners.iter().all(|&w| distance(v, w) <= allowed);
         if self.corners.iter().any(|&v| boundary.valence(v) > 0 && reaches_all(v)) {
-            return true;
+            return Ok(true);
         }
-        let triangle = search.walk_to(&self.centre);
-        search.boundary.around(triangle).into_iter().any(|t| {
+        let triangle = search.walk_to(&self.centre)?;
+        Ok(search.boundary.around(triangle)?.into_iter().any(|t| {
             let normal = search.boundary.normal(t);
             if normal == Vector::zeros() {
                 return false;
@@ -176,7 +177,7 @@ impl<'a> Polygon<'a> {
             search.begin_at(&search.boundary.hull.triangles[t]);
             let top = position[search.extreme_vertex(&normal) as usize];
             self.corners.iter().all(|&v| normal.dot(&(top - position[v as usize])) <= allowed)
-        })
+        }))
     }
 }
 
@@ -194,8 +195,8 @@ pub(super) fn most_inward(
     sides: impl Iterator<Item = Side>,
     progress: &mut Progress,
 ) -> Result<Option<Side>> {
-    let exact = ExactPoints::new(&mesh.vertices);
-    let position: Vec<Vector> = (0..exact.len() as u32).map(|v| exact.approximate(v)).collect();
+    let exact = ExactPoints::new(&mesh.vertices)?;
+    let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v)))?;
     let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
     // The faces may all run clockwise.
     let outward = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.0, 0.2))?.volume.signum();
@@ -270,7 +271,9 @@ fn check_single_cover(
     if area_fits && volume_fits {
         return Ok(());
     }
-    let mut sides = HashSet::new();
+    let mut sides: HashSet<(u32, u32)> = HashSet::new();
+    let most = mesh.indices.len();
+    sides.try_reserve(most).map_err(|e| lacking::<(u32, u32)>(most, &e))?;
     for f in 0..mesh.face_count() {
         let corners = mesh.face(f);
         for (i, &v) in corners.iter().enumerate() {
@@ -279,7 +282,7 @@ fn check_single_cover(
         }
     }
     let length = |e: &(u32, u32)| (position[e.1 as usize] - position[e.0 as usize]).norm();
-    let missing = boundary.sharp_edges().filter(|e| !sides.contains(e));
+    let missing = boundary.sharp_edges()?.filter(|e| !sides.contains(e));
     let gap = match missing.max_by(|d, e| length(d).total_cmp(&length(e))) {
         Some((v, w)) => format!("; the hull's edge {v}-{w} is no edge of the mesh"),
         None => String::new(),
@@ -288,11 +291,6 @@ fn check_single_cover(
         "the mesh is not convex: it covers {:.6} times the area of its convex hull{gap}",
         surface.area / whole.area
     ))
-}
-
-/// The directed edges of the hull's triangles, three each.
-fn edges_of(hull: &Hull) -> Vec<(u32, u32)> {
-    hull.triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect()
 }
 
 /// The hull's boundary, for floating-point searches.
@@ -312,10 +310,10 @@ struct Boundary<'a> {
 
 impl<'a> Boundary<'a> {
     fn new(hull: &'a Hull, position: &'a [Vector], progress: &mut Progress) -> Result<Boundary<'a>> {
-        let edges = edges_of(hull);
+        let edges = hull.edges()?;
         // In a hull of dimension 3 each directed edge occurs once; in a flat one twice, which does
         // no harm.
-        let mut starts = vec![0_u32; position.len() + 1];
+        let mut starts = filled(0_u32, position.len() + 1)?;
         for (done, &(tail, _)) in edges.iter().enumerate() {
             progress.step(done, 2 * edges.len())?;
             starts[tail as usize + 1] += 1;
@@ -323,8 +321,8 @@ impl<'a> Boundary<'a> {
         for v in 0..position.len() {
             starts[v + 1] += starts[v];
         }
-        let mut free = starts.clone();
-        let (mut neighbours, mut beside) = (vec![0; edges.len()], vec![0; edges.len()]);
+        let mut free = copied(&starts)?;
+        let (mut neighbours, mut beside) = (filled(0, edges.len())?, filled(0, edges.len())?);
         for (corner, &(tail, head)) in edges.iter().enumerate() {
             progress.step(edges.len() + corner, 2 * edges.len())?;
             let place = free[tail as usize] as usize;
@@ -335,24 +333,25 @@ impl<'a> Boundary<'a> {
         Ok(Boundary { hull, position, across: OnceCell::new(), neighbours, beside, starts, centre })
     }
 
-    fn across(&self) -> &[u32] {
-        self.across.get_or_init(|| {
-            if self.hull.dimension < 3 {
-                return Vec::new();
-            }
-            let edges = edges_of(self.hull);
-            // Of a hull all edges match.
-            let twins = match_edges(self.position.len(), &edges, &mut Progress::new(&mut |_| true));
-            twins.ok().and_then(|twins| twins.ok()).unwrap_or_default().iter().map(|c| c / 3).collect()
-        })
+    fn across(&self) -> Result<&[u32]> {
+        if self.across.get().is_none() && self.hull.dimension == 3 {
+            let mut across = match match_edges(self.position.len(), &self.hull.edges()?, &mut Progress::new(&mut |_| true))? {
+                Matching::Twins(twins) => twins,
+                Matching::Fault(_) => Vec::new(),
+            };
+            across.iter_mut().for_each(|corner| *corner /= 3);
+            let _ = self.across.set(across);
+        }
+        Ok(self.across.get().map_or(&[], Vec::as_slice))
     }
 
     /// Edges (lower vertex first) between triangles of clearly different planes, once each.
-    fn sharp_edges(&self) -> impl Iterator<Item = (u32, u32)> {
+    fn sharp_edges(&self) -> Result<impl Iterator<Item = (u32, u32)>> {
+        let across = self.across()?;
         let flat = self.hull.dimension == 2;
         let triangles = &self.hull.triangles;
         let rim_spokes = [0, triangles.len() / 2 - 1];
-        (0..3 * triangles.len()).filter_map(move |corner| {
+        Ok((0..3 * triangles.len()).filter_map(move |corner| {
             let (t, side) = (corner / 3, corner % 3);
             let (tail, head) = (triangles[t][side], triangles[t][(side + 1) % 3]);
             let sharp = if flat {
@@ -360,11 +359,11 @@ impl<'a> Boundary<'a> {
                 t < triangles.len() / 2
                     && (side == 1 || (side == 0 && t == rim_spokes[0]) || (side == 2 && t == rim_spokes[1]))
             } else {
-                let other = self.across()[corner] as usize;
+                let other = across[corner] as usize;
                 t < other && self.normal(t).dot(&self.normal(other)) < 0.999
             };
             sharp.then(|| (tail.min(head), tail.max(head)))
-        })
+        }))
     }
 
     /// The unit normal of a triangle; zero if its corners are collinear up to rounding. In plain doubles that of a triangle a
@@ -398,18 +397,19 @@ impl<'a> Boundary<'a> {
 
     /// Triangle `start` and those nearest to it, counted in edges crossed; of a flat hull only
     /// `start`.
-    fn around(&self, start: usize) -> Vec<usize> {
+    fn around(&self, start: usize) -> Result<Vec<usize>> {
+        let across = self.across()?;
         let mut found = vec![start];
         let mut done = 0;
-        while done < found.len() && found.len() < MOST_PLANES && !self.across().is_empty() {
-            for next in &self.across()[3 * found[done]..3 * found[done] + 3] {
+        while done < found.len() && found.len() < MOST_PLANES && !across.is_empty() {
+            for next in &across[3 * found[done]..3 * found[done] + 3] {
                 if !found.contains(&(*next as usize)) {
                     found.push(*next as usize);
                 }
             }
             done += 1;
         }
-        found
+        Ok(found)
     }
 
     fn largest_triangle(&self) -> usize {
@@ -466,19 +466,20 @@ impl Search<'_> {
 
     /// About the triangle that the ray from the centre through `p` meets, by a walk from the last one, or else from the largest. A
     /// walk that rounding leads in circles is cut short: it only steers. On a flat hull nothing happens.
-    fn walk_to(&mut self, p: &Vector) -> usize {
+    fn walk_to(&mut self, p: &Vector) -> Result<usize> {
         let b = self.boundary;
+        let across = b.across()?;
         let mut triangle = self.triangle.unwrap_or_else(|| b.largest_triangle());
         let target = p - b.centre;
-        let most_steps = if b.across().is_empty() { 0 } else { 64 + 4 * b.across().len().isqrt() };
+        let most_steps = if across.is_empty() { 0 } else { 64 + 4 * across.len().isqrt() };
         for _ in 0..most_steps {
             self.steps += 1;
             let corners = b.hull.triangles[triangle].map(|v| b.position[v as usize] - b.centre);
             let outside = |i: &usize| corners[*i].cross(&corners[(i + 1) % 3]).dot(&target) < 0.0;
             let Some(side) = (0..3).find(outside) else { break };
-            triangle = b.across()[3 * triangle + side] as usize;
+            triangle = across[3 * triangle + side] as usize;
         }
         self.triangle = Some(triangle);
-        triangle
+        Ok(triangle)
     }
 }

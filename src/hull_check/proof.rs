@@ -1,9 +1,10 @@
 //! An independent proof that a surface is the convex hull of the points it was made from.
 
-use super::edges::match_edges;
+use super::edges::{Matching, match_edges};
 use crate::error::{Error, Result};
 use crate::hull_build::Hull;
 use crate::math::Vector;
+use crate::memory::{collected, copied, filled, with_capacity};
 use crate::predicates::ExactPoints;
 use crate::progress::Progress;
 
@@ -26,7 +27,7 @@ use crate::progress::Progress;
 /// 6. Every vertex is extreme: three edges or more meet there between triangles that are not coplanar.
 ///
 /// # Errors
-/// [`Error::Bug`], naming the triangle, edge or point at fault.
+/// [`Error::Bug`], naming the triangle, edge or point at fault; [`Error::Memory`].
 pub fn check_hull(points: &[Vector], hull: &Hull) -> Result<()> {
     check_hull_in_steps(points, hull, &mut Progress::new(&mut |_| true))
 }
@@ -44,7 +45,7 @@ pub fn check_hull_in_steps(points: &[Vector], hull: &Hull, progress: &mut Progre
     if !hull.vertices.is_sorted_by(|a, b| a < b) {
         return fault("the vertices are not ascending".into());
     }
-    let mut is_vertex = vec![false; points.len()];
+    let mut is_vertex = filled(false, points.len())?;
     for &v in &hull.vertices {
         is_vertex[v as usize] = true;
     }
@@ -89,7 +90,7 @@ fn check_segment(points: &[Vector], hull: &Hull) -> Result<()> {
     if key(low) == key(high) {
         return fault("a segment's ends coincide".into());
     }
-    let exact = ExactPoints::new(points);
+    let exact = ExactPoints::new(points)?;
     for p in 0..points.len() as u32 {
         // On a line, the order by x, then y, then z is the order along the line.
         if !exact.collinear([low, high, p]) || key(p) < key(low) || key(p) > key(high) {
@@ -101,7 +102,7 @@ fn check_segment(points: &[Vector], hull: &Hull) -> Result<()> {
 
 /// A strictly convex polygon, twice, that holds all points.
 fn check_polygon(points: &[Vector], hull: &Hull) -> Result<()> {
-    let exact = ExactPoints::new(points);
+    let exact = ExactPoints::new(points)?;
     let sides = hull.triangles.len() / 2;
     let (front, back) = hull.triangles.split_at(sides);
     let (Some(&first), true) = (front.first(), hull.vertices.len() == sides + 2) else {
@@ -112,8 +113,8 @@ fn check_polygon(points: &[Vector], hull: &Hull) -> Result<()> {
     if back.len() != sides || !is_fan || !is_mirrored {
         return fault("the triangles of a flat hull are not a fan and its mirror image".into());
     }
-    let corners: Vec<u32> = first[..2].iter().copied().chain(front.iter().map(|t| t[2])).collect();
-    let mut sorted = corners.clone();
+    let corners: Vec<u32> = collected(first[..2].iter().copied().chain(front.iter().map(|t| t[2])))?;
+    let mut sorted = copied(&corners)?;
     sorted.sort_unstable();
     if sorted != hull.vertices {
         return fault("the triangles do not use the vertices".into());
@@ -153,7 +154,7 @@ fn check_polygon(points: &[Vector], hull: &Hull) -> Result<()> {
 /// The proof in three dimensions.
 fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mut Progress) -> Result<()> {
     let triangles = &hull.triangles;
-    let mut used = vec![false; points.len()];
+    let mut used = filled(false, points.len())?;
     for t in triangles {
         if t[0] == t[1] || t[1] == t[2] || t[2] == t[0] {
             return fault(format!("triangle {t:?} repeats a vertex"));
@@ -165,11 +166,14 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
     if let Some(i) = (0..points.len()).find(|&i| used[i] != is_vertex[i]) {
         return fault(format!("point {i} is listed as a vertex or used by a triangle, but not both"));
     }
-    let edges: Vec<(u32, u32)> = triangles.iter().flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)]).collect();
-    let twins = match_edges(points.len(), &edges, &mut progress.part(0.0, 0.2))?.or_else(|uses| {
-        let (tail, head) = edges[uses[0] as usize];
-        fault(format!("edge {tail}-{head} is not used twice in opposite directions"))
-    })?;
+    let edges = hull.edges()?;
+    let twins = match match_edges(points.len(), &edges, &mut progress.part(0.0, 0.2))? {
+        Matching::Twins(twins) => twins,
+        Matching::Fault(uses) => {
+            let (tail, head) = edges[uses[0] as usize];
+            return fault(format!("edge {tail}-{head} is not used twice in opposite directions"));
+        }
+    };
 
     // 2. and 3. with c and the target of the ray in doubles, or if these are not good enough, with
     //    exact averages.
@@ -178,19 +182,20 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
     };
     let centre = mean(hull.vertices.iter().map(|v| points[*v as usize]));
     let target = mean(triangles[start].iter().map(|v| points[*v as usize]));
-    let mut extended = points.to_vec();
+    let mut extended = with_capacity(points.len() + 2)?;
+    extended.extend_from_slice(points);
     extended.extend([centre, target]);
     let (c, g) = (points.len() as u32, points.len() as u32 + 1);
-    let mut exact = ExactPoints::new(&extended);
+    let mut exact = ExactPoints::new(&extended)?;
     if !is_proper_ray(&exact, triangles, start, [c, g], &mut progress.part(0.2, 0.4))? {
         let [p, q, r] = triangles[start];
-        exact = ExactPoints::new(points);
+        exact = ExactPoints::new(points)?;
         // A point off the plane of one triangle makes the average of all four strictly interior.
         let Some(s) = hull.vertices.iter().copied().find(|v| exact.orientation([p, q, r], *v) != 0.0) else {
             return fault("a solid hull is flat".into());
         };
-        exact.push_average([p, q, r, s]);
-        exact.push_average([p, p, q, r]);
+        exact.push_average([p, q, r, s])?;
+        exact.push_average([p, p, q, r])?;
         let progress = &mut progress.part(0.4, 0.5);
         for (done, t) in triangles.iter().enumerate() {
             progress.step(done, triangles.len())?;
@@ -201,7 +206,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
     }
     // Signs of (c, tail, head, g): whether g is on the inner side of the cone over the triangle at
     // that edge.
-    let mut inside = vec![0.0; edges.len()];
+    let mut inside = filled(0.0, edges.len())?;
     let of_cones = &mut progress.part(0.5, 0.7);
     for (corner, &(tail, head)) in edges.iter().enumerate() {
         of_cones.step(corner, edges.len())?;
@@ -214,7 +219,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
         }
     }
 
-    let mut sharp_edges = vec![0; points.len()];
+    let mut sharp_edges = filled(0, points.len())?;
     let of_edges = &mut progress.part(0.7, 0.9);
     for (corner, &twin) in twins.iter().enumerate() {
         of_edges.step(corner, twins.len())?;
@@ -235,7 +240,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
         return fault(format!("vertex {v} is not extreme"));
     }
 
-    let planes: Vec<_> = triangles.iter().map(|t| exact.plane(*t)).collect();
+    let planes = collected(triangles.iter().map(|t| exact.plane(*t)))?;
     let mut at = start;
     let of_others = &mut progress.part(0.9, 1.0);
     for p in (0..points.len() as u32).filter(|p| !is_vertex[*p as usize]) {

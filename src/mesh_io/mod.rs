@@ -14,6 +14,7 @@ mod tri_poly;
 use std::path::Path;
 
 use crate::error::{Error, Result};
+use crate::files::read_whole;
 use crate::mesh::PolygonMesh;
 use crate::simd::environment::with_default;
 pub use registered::{MeshReader, register_mesh_reader, unregister_mesh_reader};
@@ -65,13 +66,14 @@ impl Format {
 }
 
 /// Reads a mesh file: by the reader registered for its first bytes ([`register_mesh_reader`]) if there is one, else in the format
-/// of its extension (`tri`, `poly`, `off`, `obj`, `stl`), else in that of its content.
+/// of its extension (`tri`, `poly`, `off`, `obj`, `stl`), else in that of its content. Only regular files of at most
+/// [`MOST_FILE_BYTES`](crate::files::MOST_FILE_BYTES) are read; a pipe or a device is refused, not waited for.
 ///
 /// # Errors
 /// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and what it says.
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
     let name = path.display().to_string();
-    let bytes = std::fs::read(path).map_err(|e| Error::File(format!("{name}: cannot be read: {e}")))?;
+    let bytes = read_whole(path, &name)?;
     match registered::parse(&bytes, &name) {
         Some(mesh) => with_vertices(mesh?, &name),
         None => parse_format(&bytes, Format::from_extension(path), &name),

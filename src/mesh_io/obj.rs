@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::push;
 use crate::mesh::PolygonMesh;
 
 use super::scanner::{Scanner, shown};
@@ -24,9 +25,9 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
             b"f" => {
                 let start = corners.len();
                 while let Some(token) = scanner.token_on_line() {
-                    corners.push(vertex_index(&scanner, token, mesh.vertices.len())?);
+                    push(&mut corners, vertex_index(&scanner, token, mesh.vertices.len())?)?;
                 }
-                faces.push((scanner.line(), start..corners.len()));
+                push(&mut faces, (scanner.line(), start..corners.len()))?;
             }
             _ => while scanner.token_on_line().is_some() {},
         }
@@ -38,7 +39,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
             let number = u64::from(*v) + 1;
             return Err(scanner.error_at(line, format_args!("vertex {number} does not exist; the file has {count}")));
         }
-        mesh.push_face(face).map_err(|e| scanner.error_at(line, format_args!("{e}")))?;
+        mesh.push_face(face).map_err(|e| e.unless_memory(|e| scanner.error_at(line, format_args!("{e}"))))?;
     }
     Ok(mesh)
 }

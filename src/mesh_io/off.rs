@@ -5,6 +5,7 @@
 //! each vertex's position, which are skipped to the end of the line; so are colours behind a face.
 
 use crate::error::Result;
+use crate::memory::push;
 use crate::mesh::PolygonMesh;
 
 use super::scanner::{Scanner, shown};
@@ -47,7 +48,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
         let valence = scanner.index(of)?;
         corners.clear();
         for _ in 0..valence {
-            corners.push(scanner.index(of)?);
+            push(&mut corners, scanner.index(of)?)?;
         }
         mesh.push_face(&corners).map_err(|e| scanner.place(e))?;
         scanner.next_line();

@@ -4,6 +4,7 @@
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
 use crate::error::{Error, Result};
+use crate::memory::{copied, reserve};
 use crate::mesh::PolygonMesh;
 use crate::simd::environment::with_callers;
 
@@ -15,7 +16,7 @@ use super::{BYTE_ORDER_MARK, without_mark};
 pub type MeshReader = dyn Fn(&[u8]) -> Result<PolygonMesh> + Send + Sync;
 
 struct Registered {
-    magic: Box<[u8]>,
+    magic: Vec<u8>,
     reader: Arc<MeshReader>,
 }
 
@@ -29,7 +30,7 @@ static READERS: RwLock<Vec<Registered>> = RwLock::new(Vec::new());
 ///
 /// # Errors
 /// [`Error::Argument`] for a magic that is empty or begins with white space or a byte order mark, which are skipped, and for one
-/// that begins with that of another reader or the other way round.
+/// that begins with that of another reader or the other way round. [`Error::Memory`].
 pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()> {
     if magic.is_empty() {
         return Err(Error::Argument("the magic of a mesh reader is empty".into()));
@@ -41,7 +42,7 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
         )));
     }
     let mut readers = write();
-    let same = readers.iter_mut().find(|other| *other.magic == *magic);
+    let same = readers.iter_mut().find(|other| other.magic == magic);
     let replaced = match same {
         Some(registered) => Some(std::mem::replace(&mut registered.reader, reader)),
         None => {
@@ -54,7 +55,8 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
                     shown(other)
                 )));
             }
-            readers.push(Registered { magic: magic.into(), reader });
+            reserve(&mut readers, 1)?;
+            readers.push(Registered { magic: copied(magic)?, reader });
             None
         }
     };
@@ -67,7 +69,7 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
 /// Takes back the reader of files that begin with `magic`; false if there is none. It may still be reading in another thread.
 pub fn unregister_mesh_reader(magic: &[u8]) -> bool {
     let mut readers = write();
-    let place = readers.iter().position(|registered| *registered.magic == *magic);
+    let place = readers.iter().position(|registered| registered.magic == magic);
     let removed = place.map(|place| readers.swap_remove(place));
     drop(readers); // before what it held, as above
     removed.is_some()
@@ -82,8 +84,8 @@ pub(super) fn parse(bytes: &[u8], name: &str) -> Option<Result<PolygonMesh>> {
     let (magic, reader) = (shown(&registered.magic), Arc::clone(&registered.reader));
     // The reader may read other files and register readers.
     drop(readers);
-    let read = with_callers(|| reader(bytes));
-    Some(read.map_err(|error| Error::File(format!("{name}: the reader registered for {magic}: {error}"))))
+    let refused = |error: &Error| Error::File(format!("{name}: the reader registered for {magic}: {error}"));
+    Some(with_callers(|| reader(bytes)).map_err(|error| error.unless_memory(refused)))
 }
 
 /// A reader that panicked somewhere else has left the list as it was.

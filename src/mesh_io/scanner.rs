@@ -145,9 +145,9 @@ impl<'a> Scanner<'a> {
         Error::File(format!("{}: line {line}: {message}", self.name))
     }
 
-    /// An error of the mesh itself, placed at the last word.
+    /// An error of the mesh itself, placed at the last word; a lack of memory has no place.
     pub fn place(&self, error: Error) -> Error {
-        self.error(format_args!("{error}"))
+        error.unless_memory(|error| self.error(format_args!("{error}")))
     }
 }
 

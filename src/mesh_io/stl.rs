@@ -12,6 +12,7 @@ use std::fmt;
 
 use crate::error::{Error, Result};
 use crate::math::Vector;
+use crate::memory::lacking;
 use crate::mesh::PolygonMesh;
 
 use super::scanner::{Scanner, shown};
@@ -68,7 +69,7 @@ fn parse_binary(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
         let corner = |k: usize| Vector::new(coordinate(3 * k), coordinate(3 * k + 1), coordinate(3 * k + 2));
         welder
             .push_triangle([corner(0), corner(1), corner(2)])
-            .map_err(|e| Error::File(format!("{name}: triangle {t}: {e}")))?;
+            .map_err(|e| e.unless_memory(|e| Error::File(format!("{name}: triangle {t}: {e}"))))?;
     }
     Ok(welder.mesh)
 }
@@ -167,6 +168,7 @@ impl Welder {
         }
         // `push_vertex` refuses what does not fit 32 bits.
         let index = self.mesh.vertices.len() as u32;
+        self.indices.try_reserve(1).map_err(|e| lacking::<([u64; 3], u32)>(self.indices.len() + 1, &e))?;
         self.mesh.push_vertex(*position)?;
         self.indices.insert(key, index);
         Ok(index)

@@ -8,6 +8,7 @@
 //! Words separated by white space, any line breaks, no comments, indices from 0; what follows the last face is ignored.
 
 use crate::error::Result;
+use crate::memory::push;
 use crate::mesh::PolygonMesh;
 
 use super::scanner::{Scanner, shown};
@@ -36,7 +37,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
         let valence = if polygons { scanner.index(of)? } else { 3 };
         corners.clear();
         for _ in 0..valence {
-            corners.push(scanner.index(of)?);
+            push(&mut corners, scanner.index(of)?)?;
         }
         mesh.push_face(&corners).map_err(|e| scanner.place(e))?;
     }

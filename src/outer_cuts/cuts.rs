@@ -11,6 +11,7 @@ use crate::double_double::narrow;
 use crate::error::Result;
 use crate::hull_build::convex_hull;
 use crate::math::{Matrix, UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, push, push_to_heap};
 use crate::normal::area_vector;
 use crate::point_distance::{NearestPoint, PointDistance};
 use crate::polyhedron::Polyhedron;
@@ -106,25 +107,25 @@ impl<'a> Cuts<'a> {
             new_corner_from: Vec::new(),
         };
         for direction in directions {
-            cuts.add_half_space(block.whitening.tr_mul(direction).normalize(), 0);
+            cuts.add_half_space(block.whitening.tr_mul(direction).normalize(), 0)?;
         }
         // Some may be superfluous; they are left out.
         let hull = convex_hull(&cuts.dual)?;
         if hull.dimension < 3 {
             return Ok(None);
         }
-        cuts.dual = hull.vertices.iter().map(|&v| cuts.dual[v as usize]).collect();
+        cuts.dual = collected(hull.vertices.iter().map(|&v| cuts.dual[v as usize]))?;
         let renumbered = |v: u32| hull.vertices.partition_point(|w| *w < v) as u32;
-        let triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(renumbered)).collect();
+        let triangles: Vec<[u32; 3]> = collected(hull.triangles.iter().map(|t| t.map(renumbered)))?;
         let area = |t: &[u32; 3]| {
             let [a, b, c] = t.map(|i| cuts.dual[i as usize]);
             (b - a).cross(&(c - a))
         };
-        let areas: Vec<Vector> = triangles.iter().map(area).collect();
+        let areas: Vec<Vector> = collected(triangles.iter().map(area))?;
         let surface = Triangulation::new(triangles, &areas, cuts.dual.len())?;
         for (t, &planes) in (0..).zip(&surface.triangles) {
             let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
-            cuts.add_corner(planes, neighbours, 0);
+            cuts.add_corner(planes, neighbours, 0)?;
         }
         Ok(Some(cuts))
     }
@@ -135,7 +136,7 @@ impl<'a> Cuts<'a> {
         while self.plane_count() < count {
             // A cut may make planes superfluous; it seldom does.
             let fraction = self.dual.len() as f64 / count as f64;
-            if fraction > MOST_CUTS || !self.cut() {
+            if fraction > MOST_CUTS || !self.cut()? {
                 return Ok(false);
             }
             if self.dual.len().is_multiple_of(64) {
@@ -164,11 +165,11 @@ impl<'a> Cuts<'a> {
 
     /// Adds the supporting half-space in a direction, the search for its vertex beginning at `start`: n·(x − centre) ≤ h is
     /// (spreadᵀ·n/h)·y ≤ 1.
-    fn add_half_space(&mut self, normal: Vector, start: u32) {
+    fn add_half_space(&mut self, normal: Vector, start: u32) -> Result<()> {
         let (vertex, _) = self.block.base.support(&normal, start);
         let height = normal.dot(&(self.block.base.vertices[vertex as usize].position - self.block.centre));
-        self.dual.push(self.block.spread.tr_mul(&normal) / (height + MARGIN * self.block.base.radius));
-        self.new_corner_from.push(0);
+        push(&mut self.dual, self.block.spread.tr_mul(&normal) / (height + MARGIN * self.block.base.radius))?;
+        push(&mut self.new_corner_from, 0)
     }
 
     /// The y with q·y = 1 for the three dual points q of a corner: along the normal of their triangle.
@@ -178,32 +179,32 @@ impl<'a> Cuts<'a> {
         self.block.centre + self.block.spread * (normal / normal.dot(a))
     }
 
-    fn add_corner(&mut self, planes: [u32; 3], neighbours: [u32; 3], hint: u32) -> u32 {
+    fn add_corner(&mut self, planes: [u32; 3], neighbours: [u32; 3], hint: u32) -> Result<u32> {
         let position = self.place(planes);
         let index = self.corners.len() as u32;
         let NearestPoint { point: nearest, upper, vertex } = self.block.distance.nearest(&position, hint);
-        self.queue.push(Waiting { deviation: upper.to_bits(), corner: Reverse(index) });
-        self.corners.push(Corner { planes, neighbours, position, nearest, vertex, removed: false });
+        push_to_heap(&mut self.queue, Waiting { deviation: upper.to_bits(), corner: Reverse(index) })?;
+        push(&mut self.corners, Corner { planes, neighbours, position, nearest, vertex, removed: false })?;
         self.corner_count += 1;
-        index
+        Ok(index)
     }
 
     /// Cuts off the corner that stands off farthest; `false` if none does.
-    fn cut(&mut self) -> bool {
+    fn cut(&mut self) -> Result<bool> {
         while self.deviation() > LEAST_DEVIATION * self.block.base.radius {
             let Some(Waiting { corner: Reverse(worst), .. }) = self.queue.pop() else {
                 break;
             };
             let Corner { position, nearest, vertex, .. } = self.corners[worst as usize];
-            self.add_half_space((position - nearest).normalize(), vertex);
+            self.add_half_space((position - nearest).normalize(), vertex)?;
             let plane = self.dual.len() as u32 - 1;
             // Rounding may have the plane miss a corner that hardly stands off; then it stays.
             if self.cuts_off(plane, worst) {
-                self.insert(plane, worst, vertex);
-                return true;
+                self.insert(plane, worst, vertex)?;
+                return Ok(true);
             }
         }
-        false
+        Ok(false)
     }
 
     /// Whether a corner lies strictly beyond a plane; in the dual, whether the point lies strictly above the triangle. Exact.
@@ -218,7 +219,7 @@ impl<'a> Cuts<'a> {
     }
 
     /// Replaces the corners that a plane cuts off, `first` being one, by those where it crosses the edges to the others.
-    fn insert(&mut self, plane: u32, first: u32, hint: u32) {
+    fn insert(&mut self, plane: u32, first: u32, hint: u32) -> Result<()> {
         let mut cut_off = vec![first];
         let mut crossed = Vec::new();
         self.corners[first as usize].removed = true;
@@ -233,16 +234,16 @@ impl<'a> Cuts<'a> {
                 }
                 if self.cuts_off(plane, outer) {
                     self.corners[outer as usize].removed = true;
-                    cut_off.push(outer);
+                    push(&mut cut_off, outer)?;
                 } else {
-                    crossed.push((planes[side], planes[(side + 1) % 3], outer));
+                    push(&mut crossed, (planes[side], planes[(side + 1) % 3], outer))?;
                 }
             }
         }
         self.corner_count -= cut_off.len();
         let first_new = self.corners.len() as u32;
         for &(tail, head, outer) in &crossed {
-            let new = self.add_corner([tail, head, plane], [outer, 0, 0], hint);
+            let new = self.add_corner([tail, head, plane], [outer, 0, 0], hint)?;
             let outer = &mut self.corners[outer as usize];
             for side in 0..3 {
                 if outer.planes[side] == head && outer.planes[(side + 1) % 3] == tail {
@@ -257,17 +258,19 @@ impl<'a> Cuts<'a> {
             self.corners[new as usize].neighbours[1] = following;
             self.corners[following as usize].neighbours[2] = new;
         }
+        Ok(())
     }
 
     /// The level as it is now; `None` if no margin makes its rounded corners contain the body.
     pub fn level(&self) -> Result<Option<Polyhedron>> {
-        let corners: Vec<Vector> = self.corners.iter().filter(|c| !c.removed).map(|c| c.position).collect();
+        let left = self.corners.iter().filter(|c| !c.removed);
+        let corners: Vec<Vector> = collected(left.map(|c| c.position))?;
         let mut factor = 1.0;
         for attempt in 0..ATTEMPTS {
-            let points: Vec<Vector> =
-                corners.iter().map(|p| self.block.centre + (p - self.block.centre) * factor).collect();
+            let grown = |p: &Vector| self.block.centre + (p - self.block.centre) * factor;
+            let points: Vec<Vector> = collected(corners.iter().map(grown))?;
             let level = build(&points, None)?;
-            if level.centre == self.block.base.centre && contains(&level, self.block.base) {
+            if level.centre == self.block.base.centre && contains(&level, self.block.base)? {
                 return Ok(Some(level));
             }
             factor = 1.0 + MARGIN * 4.0_f64.powi(attempt + 1);

@@ -19,6 +19,7 @@ mod isotropy;
 
 use crate::error::Result;
 use crate::math::Vector;
+use crate::memory::push;
 use crate::polyhedron::Polyhedron;
 use crate::progress::Progress;
 use cuts::{Block, Cuts};
@@ -45,7 +46,7 @@ const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 /// Time in proportion to the planes, about eight queries for the distance of a point each, and for each level that of building it.
 ///
 /// # Errors
-/// [`Error::Cancelled`](crate::error::Error::Cancelled).
+/// [`Error::Cancelled`](crate::error::Error::Cancelled), [`Error::Memory`](crate::error::Error::Memory).
 pub fn outer_cuts(base: &Polyhedron, plane_counts: &[usize], progress: &mut Progress) -> Result<Vec<Polyhedron>> {
     let mut levels = Vec::new();
     let Some(block) = Block::new(base)? else {
@@ -81,7 +82,9 @@ pub fn outer_cuts(base: &Polyhedron, plane_counts: &[usize], progress: &mut Prog
             }
         }
         let (_, chosen, goes_on) = best;
-        levels.extend(started[chosen].level()?);
+        if let Some(level) = started[chosen].level()? {
+            push(&mut levels, level)?;
+        }
         if !goes_on {
             break;
         }

@@ -3,6 +3,7 @@
 use crate::error::{Error, Result};
 use crate::face_merge::MergedFaces;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{copied, extend, filled, push, reserve, with_capacity};
 use crate::normal::unit;
 use crate::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
 use crate::progress::Progress;
@@ -11,15 +12,23 @@ use crate::triangulation::Triangulation;
 
 /// The neighbours of a vertex with the edges to them: those along edges first, else counter-clockwise, each once (in a flat
 /// hull a diagonal occurs on both sides).
-pub fn neighbours_of(surface: &Triangulation, edge_of: &[u32], v: u32, flat: bool) -> Vec<(u32, u32)> {
-    let mut neighbours: Vec<(u32, u32)> =
-        surface.around(v).iter().map(|h| (surface.head(*h), edge_of[*h as usize])).collect();
+pub fn neighbours_of(surface: &Triangulation, edge_of: &[u32], v: u32, flat: bool) -> Result<Vec<(u32, u32)>> {
+    let around = surface.around(v);
+    let mut all: Vec<(u32, u32)> = with_capacity(around.len())?;
+    all.extend(around.iter().map(|h| (surface.head(*h), edge_of[*h as usize])));
     if flat {
-        neighbours.sort_unstable();
-        neighbours.dedup_by_key(|(w, _)| *w);
+        all.sort_unstable();
+        all.dedup_by_key(|(w, _)| *w);
     }
-    neighbours.sort_by_key(|(_, edge)| *edge == NONE);
-    neighbours
+    // Few vertices have neighbours of both kinds.
+    let has_edge = |neighbour: &&(u32, u32)| neighbour.1 != NONE;
+    if all.is_sorted_by_key(|(_, edge)| *edge == NONE) {
+        return Ok(all);
+    }
+    let mut neighbours = with_capacity(all.len())?;
+    neighbours.extend(all.iter().filter(has_edge));
+    neighbours.extend(all.iter().filter(|neighbour| !has_edge(neighbour)));
+    Ok(neighbours)
 }
 
 /// The plane through the side of a face that runs from one vertex to another counter-clockwise, inside positive: its normal and
@@ -109,7 +118,7 @@ fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
 
 impl Polyhedron {
     /// Adds the next vertex with its neighbour blocks.
-    pub(super) fn add_vertex(&mut self, positions: &[Vector], v: u32, neighbours: &[(u32, u32)]) {
+    pub(super) fn add_vertex(&mut self, positions: &[Vector], v: u32, neighbours: &[(u32, u32)]) -> Result<()> {
         let position = positions[v as usize];
         let mut blocks = neighbours.chunks(8).map(|chunk| {
             let mut block = NeighbourBlock { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8], head: [0; 8], edge: [NONE; 8] };
@@ -124,9 +133,9 @@ impl Polyhedron {
         });
         let first = blocks.next();
         let first_more = self.more_neighbours.len() as u32;
-        self.more_neighbours.extend(blocks);
+        extend(&mut self.more_neighbours, blocks)?;
         let more = self.more_neighbours.len() as u32 - first_more;
-        self.vertices.extend(first.map(|neighbours| Vertex { position, first_more, more, neighbours }));
+        extend(&mut self.vertices, first.map(|neighbours| Vertex { position, first_more, more, neighbours }))
     }
 
     /// Adds all edges, ordered by their lower vertex, and the bevels of the sharp ones. Returns the edge of each half-edge, NONE
@@ -143,9 +152,10 @@ impl Polyhedron {
         flood: &mut Flood,
         progress: &mut Progress,
     ) -> Result<Vec<u32>> {
-        let mut edge_of = vec![NONE; surface.twins.len()];
+        let mut edge_of = filled(NONE, surface.twins.len())?;
         // Euler: corners − edges + faces = 2.
-        self.edges.reserve_exact(merged.normals.len() + merged.corners.iter().filter(|c| **c).count());
+        let most = merged.normals.len() + merged.corners.iter().filter(|c| **c).count();
+        reserve(&mut self.edges, most)?;
         for tail in (0..positions.len() as u32).filter(|v| merged.corners[*v as usize]) {
             progress.steps(4 * surface.around(tail).len(), tail as usize, positions.len())?;
             for &first in surface.around(tail) {
@@ -166,10 +176,10 @@ impl Polyhedron {
                     edge.bevel = self.bevels.len() as u32;
                     let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), flood);
                     edge.slack = edge.slack.max(bevel.slack);
-                    self.bevels.push(bevel);
+                    push(&mut self.bevels, bevel)?;
                 }
                 edge.slack += slack_of_leaning(&edge, self.radius);
-                self.edges.push(edge);
+                push(&mut self.edges, edge)?;
             }
         }
         Ok(edge_of)
@@ -185,8 +195,8 @@ impl Polyhedron {
         edge_of: &[u32],
         progress: &mut Progress,
     ) -> Result<()> {
-        self.faces.reserve_exact(merged.normals.len());
-        self.sides.reserve_exact(2 * self.edges.len());
+        reserve(&mut self.faces, merged.normals.len())?;
+        reserve(&mut self.sides, 2 * self.edges.len())?;
         for (face, normal) in merged.normals.iter().enumerate() {
             let first = merged.first_half_edges[face];
             let first_side = self.sides.len();
@@ -204,9 +214,9 @@ impl Polyhedron {
                 let (side, offset) = side_plane(positions, normal, tail, head);
                 match self.sides.len() - first_side {
                     i @ 0..3 => set_plane(&mut planes, 1 + i, &side, offset),
-                    i => self.add_further_side((i - 3) % 4, &side, offset),
+                    i => self.add_further_side((i - 3) % 4, &side, offset)?,
                 }
-                self.sides.push(edge_of[h as usize]);
+                push(&mut self.sides, edge_of[h as usize])?;
                 h = merged.next_on_boundary(surface, last);
                 if h == first {
                     break;
@@ -238,24 +248,25 @@ impl Polyhedron {
         let is_flat = |v: &&u32| self.vertices[**v as usize].neighbours.edge[0] == NONE;
         for (done, (triangle, &face)) in self.triangles.iter().zip(&self.face_of_triangle).enumerate() {
             progress.step(done, self.triangles.len())?;
-            self.flat_vertices.extend(triangle.iter().filter(is_flat).map(|v| [*v, face]));
+            extend(&mut self.flat_vertices, triangle.iter().filter(is_flat).map(|v| [*v, face]))?;
         }
         self.flat_vertices.sort_unstable();
         self.flat_vertices.dedup();
-        self.flat_vertices.shrink_to_fit();
+        self.flat_vertices = copied(&self.flat_vertices)?;
         Ok(())
     }
 
     /// Adds one of the sides beyond the third of the last face; lane 0 begins a block.
-    fn add_further_side(&mut self, lane: usize, side: &Vector, offset: f64) {
+    fn add_further_side(&mut self, lane: usize, side: &Vector, offset: f64) -> Result<()> {
         if lane == 0 {
             // No infinity: differences and quotients of unused lanes have a value, too.
             let unused = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::MAX; 4] };
-            self.more_sides.push(unused);
+            push(&mut self.more_sides, unused)?;
         }
         if let Some(block) = self.more_sides.last_mut() {
             set_plane(block, lane, side, offset);
         }
+        Ok(())
     }
 }
 

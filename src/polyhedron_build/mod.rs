@@ -13,6 +13,7 @@ use crate::locality::{in_order, sort_along_curve, sort_triangles};
 use crate::lookup::Lookup;
 use crate::mass::mass_properties;
 use crate::math::{UNIT_ROUNDOFF, Vector};
+use crate::memory::{collected, copied, filled, reserve, with_capacity};
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::normal::{area_vector, normal_of};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
@@ -46,11 +47,11 @@ pub fn build_in_steps(
 ) -> Result<Polyhedron> {
     let centre = centre_of(points);
     // The sum with +0 turns −0 into 0.
-    let centred: Vec<Vector> = points.iter().map(|p| (p - centre).add_scalar(0.0)).collect();
+    let centred: Vec<Vector> = collected(points.iter().map(|p| (p - centre).add_scalar(0.0)))?;
     sort_along_curve(&mut hull.vertices, &centred, &mut progress.part(0.0, 0.02))?;
 
     let factor = factor_to_middle_scale(&centred);
-    let scaled: Vec<Vector> = centred.iter().map(|p| p * factor).collect();
+    let scaled: Vec<Vector> = collected(centred.iter().map(|p| p * factor))?;
     // At another scale the centre may be beyond the doubles.
     let about = if factor == 1.0 { centre } else { Vector::zeros() };
     let surface = HullSurface::new(&scaled, hull, &mut progress.part(0.02, 0.1))?;
@@ -60,10 +61,10 @@ pub fn build_in_steps(
             let numbers = numbers.map(|numbers| &numbers.faces[..]);
             label_by_polygons(&mut polyhedron, &scaled, mesh, numbers, &mut progress.part(0.88, 0.97))?;
         }
-        _ => label_by_index(&mut polyhedron),
+        _ => label_by_index(&mut polyhedron)?,
     }
     if factor != 1.0 {
-        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor);
+        scale_back(&mut polyhedron, &centred, centre, 1.0 / factor)?;
     }
     // Until here labels are indices of `points`.
     if let Some(Numbers { vertices, .. }) = numbers {
@@ -91,19 +92,11 @@ pub struct Labels {
 }
 
 impl Labels {
-    /// The labels of a polyhedron.
-    pub fn of(polyhedron: &Polyhedron) -> Labels {
-        Labels {
-            vertex_labels: polyhedron.vertex_labels.clone(),
-            face_labels: polyhedron.face_labels.clone(),
-            face_label_starts: polyhedron.face_label_starts.clone(),
-            polygon_corners: polyhedron.polygon_corners.clone(),
-            polygon_starts: polyhedron.polygon_starts.clone(),
-        }
-    }
-
     /// Gives a polyhedron other labels. `false`, and nothing is changed, if they are not labels of such a polyhedron.
-    pub fn give_to(self, polyhedron: &mut Polyhedron) -> bool {
+    ///
+    /// # Errors
+    /// [`crate::error::Error::Memory`].
+    pub fn give_to(self, polyhedron: &mut Polyhedron) -> Result<bool> {
         let divide = |starts: &[u32], parts: usize, whole: usize| {
             starts.len() == parts + 1 && starts[0] == 0 && starts[parts] as usize == whole && starts.is_sorted()
         };
@@ -115,7 +108,7 @@ impl Labels {
             _ => divide(&polygon_starts, face_labels.len(), polygon_corners.len()),
         };
         let fit = vertex_labels.len() == polyhedron.vertices.len()
-            && are_distinct(&vertex_labels)
+            && are_distinct(&vertex_labels)?
             && divide(&face_label_starts, polyhedron.faces.len(), face_labels.len())
             && every_face_has_one
             && polygons
@@ -128,14 +121,14 @@ impl Labels {
             polyhedron.polygon_starts = polygon_starts;
             copy_labels(polyhedron);
         }
-        fit
+        Ok(fit)
     }
 }
 
-fn are_distinct(numbers: &[u32]) -> bool {
-    let mut sorted = numbers.to_vec();
+fn are_distinct(numbers: &[u32]) -> Result<bool> {
+    let mut sorted = copied(numbers)?;
     sorted.sort_unstable();
-    sorted.windows(2).all(|pair| pair[0] != pair[1])
+    Ok(sorted.windows(2).all(|pair| pair[0] != pair[1]))
 }
 
 /// Puts the labels where an answer reads them together with the feature; to be called when they have changed.
@@ -188,12 +181,12 @@ struct HullSurface {
 impl HullSurface {
     fn new(points: &[Vector], hull: Hull, progress: &mut Progress) -> Result<HullSurface> {
         let positions = in_order(points, &hull.vertices, &mut progress.part(0.0, 0.05))?;
-        let mut index = vec![NONE; points.len()];
+        let mut index = filled(NONE, points.len())?;
         for (new, &old) in hull.vertices.iter().enumerate() {
             index[old as usize] = new as u32;
         }
         // Like the vertices in order of place, each triangle from its lowest vertex.
-        let mut triangles: Vec<[u32; 3]> = Vec::with_capacity(hull.triangles.len());
+        let mut triangles: Vec<[u32; 3]> = with_capacity(hull.triangles.len())?;
         let of_triangles = &mut progress.part(0.05, 0.15);
         for t in &hull.triangles {
             of_triangles.step(triangles.len(), hull.triangles.len())?;
@@ -201,7 +194,7 @@ impl HullSurface {
         }
         sort_triangles(&mut triangles, positions.len(), &mut progress.part(0.15, 0.3))?;
         let corners = |t: &[u32; 3]| t.map(|v| positions[v as usize]);
-        let (mut areas, mut normals) = (Vec::with_capacity(triangles.len()), Vec::with_capacity(triangles.len()));
+        let (mut areas, mut normals) = (with_capacity(triangles.len())?, with_capacity(triangles.len())?);
         let progress = &mut progress.part(0.3, 1.0);
         for (done, [a, b, c]) in triangles.iter().map(corners).enumerate() {
             progress.step(done, triangles.len())?;
@@ -247,28 +240,28 @@ impl HullSurface {
             // A segment's ends are each other's neighbours, a point is its own.
             for v in 0..self.positions.len() {
                 let other = self.positions.len() - 1 - v;
-                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)]);
+                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)])?;
             }
             return Ok(polyhedron);
         }
 
-        let sizes: Vec<f64> = self.areas.iter().map(|a| narrow(a).norm()).collect();
+        let sizes: Vec<f64> = collected(self.areas.iter().map(|a| narrow(a).norm()))?;
         let of_surface = &mut progress.part(0.05, 0.15);
         let surface = Triangulation::new_in_steps(self.triangles, &self.normals, self.positions.len(), of_surface)?;
         let bound = merge_bound(radius);
         let of_merging = &mut progress.part(0.15, 0.3);
         let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, bound, of_merging)?;
-        let mut flood = Flood::new(&surface, &self.positions, radius);
+        let mut flood = Flood::new(&surface, &self.positions, radius)?;
         let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood, &mut progress.part(0.3, 0.5))?;
         let of_edges = &mut progress.part(0.5, 0.7);
         let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood, of_edges)?;
         let of_faces = &mut progress.part(0.7, 0.8);
         polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of, of_faces)?;
         let of_vertices = &mut progress.part(0.8, 0.9);
-        polyhedron.vertices.reserve_exact(self.positions.len());
+        reserve(&mut polyhedron.vertices, self.positions.len())?;
         for v in 0..self.positions.len() as u32 {
             of_vertices.steps(surface.around(v).len(), v as usize, self.positions.len())?;
-            polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2));
+            polyhedron.add_vertex(&self.positions, v, &neighbours_of(&surface, &edge_of, v, self.dimension == 2)?)?;
         }
         polyhedron.triangles = surface.triangles;
         polyhedron.face_of_triangle = merged.face_of;
@@ -290,17 +283,17 @@ fn face_slacks(
     progress: &mut Progress,
 ) -> Result<Vec<f64>> {
     let start = |face: usize| surface.tail(merged.first_half_edges[face]);
-    let mut triangle_counts = vec![0_usize; merged.normals.len()];
+    let mut triangle_counts = filled(0_usize, merged.normals.len())?;
     merged.face_of.iter().for_each(|face| triangle_counts[*face as usize] += 1);
     let all = merged.normals.len() + surface.triangles.len();
-    let mut flooded: Vec<Option<f64>> = Vec::with_capacity(merged.normals.len());
+    let mut flooded: Vec<Option<f64>> = with_capacity(merged.normals.len())?;
     for (face, (normal, count)) in merged.normals.iter().zip(&triangle_counts).enumerate() {
         // Most look at twenty neighbours, as said above; a face of many triangles looks at some of each.
         progress.steps(16 + 8 * count, face, all)?;
         flooded.push(flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
     }
-    let mut slacks: Vec<f64> = flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)).collect();
-    let mut falls = vec![0.0_f64; slacks.len()];
+    let mut slacks: Vec<f64> = collected(flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)))?;
+    let mut falls = filled(0.0_f64, slacks.len())?;
     for (t, (triangle, &face)) in surface.triangles.iter().zip(&merged.face_of).enumerate() {
         progress.steps(4, merged.normals.len() + t, all)?;
         let face = face as usize;

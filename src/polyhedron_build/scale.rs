@@ -1,7 +1,9 @@
 //! Bodies of extreme size are laid out near size 1 and scaled back.
 
+use crate::error::Result;
 use crate::mass::bounding_box;
 use crate::math::{Vector, power_of_two};
+use crate::memory::collected;
 use crate::polyhedron::{LARGEST, MassProperties, PlaneBlock, Polyhedron, SMALLEST};
 
 /// 1, or the power of two that brings a very large or very small body to a size near 1. In between squares of lengths and
@@ -17,7 +19,7 @@ pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
 /// Undoes the scaling of a polyhedron that was laid out about the local origin, and whose labels are still indices of the points.
 /// Vertices come back exactly and bounds remain bounds; what else is lost to underflow or overflow is data for a search that
 /// bodies of such a size are too large or too small for anyway.
-pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vector, factor: f64) {
+pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vector, factor: f64) -> Result<()> {
     for (vertex, label) in polyhedron.vertices.iter_mut().zip(&polyhedron.vertex_labels) {
         vertex.position = centred[*label as usize];
     }
@@ -37,7 +39,7 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
     polyhedron.polygon_corners.iter_mut().for_each(|corner| *corner *= factor);
     polyhedron.bevels.iter_mut().for_each(|bevel| bound(&mut bevel.slack));
     bound(&mut polyhedron.radius);
-    let positions: Vec<Vector> = polyhedron.vertices.iter().map(|v| v.position).collect();
+    let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
     let [lower, upper] = bounding_box(&positions, &centre);
     let mass = &polyhedron.mass;
     polyhedron.centre = centre;
@@ -48,4 +50,5 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
         lower,
         upper,
     };
+    Ok(())
 }

@@ -35,7 +35,7 @@ pub fn contains_by_brute_force(outer: &Polyhedron, inner: &Polyhedron) -> bool {
     let mut points: Vec<Vector> = outer.vertices.iter().map(|v| v.position).collect();
     let first_inner = points.len() as u32;
     points.extend(inner.vertices.iter().map(|v| v.position));
-    let exact = ExactPoints::new(&points);
+    let exact = ExactPoints::new(&points).unwrap();
     outer.triangles.iter().all(|corners| {
         let plane = exact.plane(*corners);
         (first_inner..points.len() as u32).all(|v| exact.height(&plane, v) <= 0.0)

@@ -35,7 +35,7 @@ pub fn run(options: &Options) -> Result<(), String> {
             push("swiftprox-points", &|| bytes(Shape::from_points(black_box(&mesh.vertices), &defaults)))?;
             push("parry-hull", &|| try_convex_hull(black_box(&points)).ok().map(|_| 0))?;
             push("table", &|| {
-                let table = black_box(build_table(black_box(polyhedron)));
+                let table = black_box(build_table(black_box(polyhedron)).unwrap());
                 Some(Lookup { made: table.into(), ..polyhedron.lookup.clone() }.heap_bytes())
             })?;
             for (method, kind) in [

@@ -1,0 +1,450 @@
+//! Where memory is lacking a call says so and has changed nothing. An allocator refuses one block after the other: every block of at
+//! least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused.
+
+// GlobalAlloc is an unsafe trait.
+#![allow(unsafe_code)]
+
+#[path = "../benches/common/random.rs"]
+mod random;
+
+use std::alloc::{GlobalAlloc, Layout, System};
+use std::cell::Cell;
+use std::fmt::Write;
+use std::sync::Arc;
+
+use random::Random;
+use swiftprox::error::{Error, Result};
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::mesh::PolygonMesh;
+use swiftprox::mesh_io::{parse_mesh, read_mesh};
+use swiftprox::object::ObjectOptions;
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::progress::Progress;
+use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
+use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
+
+/// No block that ends the program when it is refused is as large (`docs/conventions.md`, Memory).
+const SMALL: usize = 2048;
+
+/// Vertices of the bodies: of one byte each they fill a block that is not small. Twice as many must make no other block so.
+const SIZES: [usize; 2] = [2_100, 4_200];
+
+thread_local! {
+    /// Large blocks asked for since the last refusal was ordered; this thread's alone, as all here.
+    static ASKED: Cell<usize> = const { Cell::new(0) };
+    /// Which of them is refused; 0 for none.
+    static REFUSED: Cell<usize> = const { Cell::new(0) };
+    /// Whether all that follow are, too.
+    static FOR_GOOD: Cell<bool> = const { Cell::new(false) };
+    /// Blocks that were given and not yet given back.
+    static BLOCKS: Cell<isize> = const { Cell::new(0) };
+}
+
+fn refuses(size: usize) -> bool {
+    if size < SMALL {
+        return false;
+    }
+    let asked = ASKED.get() + 1;
+    ASKED.set(asked);
+    let refused = REFUSED.get();
+    refused > 0 && (asked == refused || (asked > refused && FOR_GOOD.get()))
+}
+
+struct Refusing;
+
+// SAFETY: every call is handed to the system's allocator unchanged or refused; the counters neither allocate nor have destructors.
+unsafe impl GlobalAlloc for Refusing {
+    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
+        if refuses(layout.size()) {
+            return std::ptr::null_mut();
+        }
+        BLOCKS.set(BLOCKS.get() + 1);
+        // SAFETY: the caller's promise, passed on.
+        unsafe { System.alloc(layout) }
+    }
+
+    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
+        BLOCKS.set(BLOCKS.get() - 1);
+        // SAFETY: the caller's promise, passed on; `alloc` and `realloc` hand out the system's pointers.
+        unsafe { System.dealloc(pointer, layout) }
+    }
+
+    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
+        if refuses(size) {
+            return std::ptr::null_mut();
+        }
+        // SAFETY: as for `dealloc`.
+        unsafe { System.realloc(pointer, layout, size) }
+    }
+}
+
+#[global_allocator]
+static ALLOCATOR: Refusing = Refusing;
+
+/// Does some work while the block of a number is refused, and those that follow it if `for_good`; says whether it came to that.
+fn without<T>(number: usize, for_good: bool, work: impl FnOnce() -> T) -> (T, bool) {
+    ASKED.set(0);
+    FOR_GOOD.set(for_good);
+    REFUSED.set(number);
+    let done = work();
+    REFUSED.set(0);
+    (done, ASKED.get() >= number)
+}
+
+/// The numbers of the blocks that are refused: the first ones all, then a few of a hundred, so that building a body a thousand times
+/// is not what takes the time.
+fn numbers() -> impl Iterator<Item = usize> {
+    std::iter::successors(Some(1), |number| Some(number + 1 + number / 16))
+}
+
+/// Refuses one block after the other until the work gets all that it asks for, alone and now and then with all that follow. Every
+/// time it must end in [`Error::Memory`] and keep no block. Hands over what is made at last.
+fn refuse_each<T>(what: &str, mut work: impl FnMut() -> Result<T>) -> T {
+    let mut refusals = 0;
+    for number in numbers() {
+        let before = BLOCKS.get();
+        let (made, came_to_that) = without(number, false, &mut work);
+        if !came_to_that {
+            assert!(refusals > 0, "{what} asks for no large block");
+            return made.unwrap_or_else(|error| panic!("{what}: {error}"));
+        }
+        refusals += 1;
+        let error = made.map(drop).expect_err(what);
+        assert!(matches!(error, Error::Memory(_)), "{what}, block {number}: {error:?}");
+        assert!(error.message().contains("memory"), "{what}: {error}");
+        drop(error);
+        assert_eq!(BLOCKS.get(), before, "{what} keeps blocks when block {number} is refused");
+        if refusals % 8 == 1 {
+            let (made, _) = without(number, true, &mut work);
+            assert!(matches!(made.map(drop), Err(Error::Memory(_))), "{what}, from block {number} on");
+            assert_eq!(BLOCKS.get(), before, "{what} keeps blocks when all from {number} on are refused");
+        }
+    }
+    unreachable!()
+}
+
+/// Points on a ball, in general position.
+fn ball(count: usize) -> Vec<Vector> {
+    let mut random = Random::new(count as u64);
+    (0..count).map(|_| random.direction()).collect()
+}
+
+/// What a shape is made of as a mesh of triangles.
+fn mesh_of(shape: &Shape) -> PolygonMesh {
+    let body = shape.polyhedron();
+    let vertices = (0..body.vertices.len() as u32).map(|v| body.local_position(v)).collect();
+    PolygonMesh::new(vertices, body.triangles.as_flattened().to_vec(), None).unwrap()
+}
+
+/// A prism over a polygon of so many corners: two faces of as many sides, cut into triangles from a hub on one side.
+fn prism(corners: u32) -> PolygonMesh {
+    let mut vertices = Vec::new();
+    for z in [0.0, 1.0] {
+        for i in 0..corners {
+            let angle = f64::from(i) / f64::from(corners) * std::f64::consts::TAU;
+            vertices.push(Vector::new(angle.cos(), angle.sin(), z));
+        }
+    }
+    vertices.push(Vector::new(0.0, 0.0, 1.0));
+    let (mut indices, mut valences) = ((0..corners).rev().collect::<Vec<u32>>(), vec![corners]);
+    for i in 0..corners {
+        let next = (i + 1) % corners;
+        indices.extend([i, next, corners + next, corners + i]);
+        valences.push(4);
+        indices.extend([2 * corners, corners + i, corners + next]);
+        valences.push(3);
+    }
+    PolygonMesh::new(vertices, indices, Some(&valences)).unwrap()
+}
+
+fn with_levels(kind: HierarchyKind) -> ShapeOptions {
+    ShapeOptions { hierarchy: HierarchyOptions { kind, ..HierarchyOptions::default() }, ..ShapeOptions::default() }
+}
+
+fn no_progress<T>(work: impl FnOnce(&mut Progress) -> T) -> T {
+    work(&mut Progress::new(&mut |_| true))
+}
+
+#[test]
+fn shapes_from_points() {
+    for size in SIZES {
+        let points = ball(size);
+        let shape = refuse_each("a ball", || Shape::from_points(&points, &ShapeOptions::default()));
+        assert_eq!(shape.polyhedron().vertices.len(), size);
+        let with_inner: Vec<Vector> = points.iter().flat_map(|p| [*p, 0.5 * p]).collect();
+        refuse_each("a ball with points inside", || Shape::from_points(&with_inner, &ShapeOptions::default()));
+        let moved = ShapeOptions { translation: Vector::new(9.0, 0.0, 0.0), ..ShapeOptions::default() };
+        refuse_each("a ball elsewhere", || Shape::from_points(&points, &moved));
+        let flat: Vec<Vector> = points.iter().map(|p| Vector::new(p.x, p.y, 0.0).normalize()).collect();
+        let hull = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+        refuse_each("a polygon", || Shape::from_points(&flat, &hull));
+    }
+    // Exponents that ask for integers; many points make that slow.
+    let wide: Vec<Vector> = ball(SIZES[0]).iter().map(|p| Vector::new(p.x, p.y, 1e-120 * p.z)).collect();
+    let hull = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    let (made, _) = without(1, false, || Shape::from_points(&wide[..700], &hull));
+    assert!(matches!(made, Err(Error::Memory(_))));
+}
+
+#[test]
+fn shapes_from_meshes() {
+    for size in SIZES {
+        let ball = mesh_of(&Shape::from_points(&ball(size), &ShapeOptions::default()).unwrap());
+        refuse_each("a ball's mesh", || Shape::from_mesh(&ball, &ShapeOptions::default()));
+        let prism = prism(size as u32);
+        let shape = refuse_each("a prism", || Shape::from_mesh(&prism, &ShapeOptions::default()));
+        assert_eq!(shape.polyhedron().faces.len(), size + 2);
+        // A vertex pulled inwards: all that is looked at in search of what is wrong.
+        let mut dented = ball.clone();
+        dented.vertices[7] *= 0.5;
+        for number in numbers() {
+            let (refused, came_to_that) =
+                without(number, false, || Shape::from_mesh(&dented, &ShapeOptions::default()));
+            match refused.map(drop) {
+                Err(Error::Mesh(_)) if !came_to_that => break,
+                Err(Error::Memory(_)) if came_to_that => {}
+                other => panic!("block {number}: {other:?}"),
+            }
+        }
+        // A mesh whose faces are ignored: never because of memory.
+        let hull = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+        let made = refuse_each("a mesh as a hull", || Shape::from_mesh(&prism, &hull));
+        assert_eq!(made, shape);
+    }
+}
+
+#[test]
+fn levels_of_each_kind() {
+    for kind in [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts] {
+        let points = ball(SIZES[0]);
+        let shape = refuse_each(&format!("{kind:?}"), || Shape::from_points(&points, &with_levels(kind)));
+        assert!(!shape.hierarchy().levels.is_empty());
+    }
+    let meshes: Vec<PolygonMesh> = SIZES
+        .iter()
+        .rev()
+        .map(|size| mesh_of(&Shape::from_points(&ball(*size), &ShapeOptions::default()).unwrap()))
+        .collect();
+    refuse_each("levels that are given", || {
+        no_progress(|progress| Shape::from_levels(&meshes, &ShapeOptions::default(), progress))
+    });
+    // In a frame that is not the body's own.
+    let moved = ShapeOptions { translation: Vector::new(9.0, 0.0, 0.0), ..ShapeOptions::default() };
+    let (points, options) = (ball(SIZES[0]), with_levels(HierarchyKind::Quadric).hierarchy);
+    refuse_each("levels of a body elsewhere", || {
+        let body = Shape::from_points(&points, &moved)?;
+        no_progress(|progress| body.with_levels(&options, progress))
+    });
+}
+
+#[test]
+fn mesh_files() {
+    for size in SIZES {
+        let mesh = mesh_of(&Shape::from_points(&ball(size), &ShapeOptions::default()).unwrap());
+        let count = mesh.face_count();
+        let (mut obj, mut stl) = (String::new(), "solid ball\n".to_string());
+        let mut rest = String::new();
+        for p in &mesh.vertices {
+            writeln!(obj, "v {} {} {}", p.x, p.y, p.z).unwrap();
+            writeln!(rest, "{} {} {}", p.x, p.y, p.z).unwrap();
+        }
+        let (mut tri, mut polygons) = (rest.clone(), rest);
+        for f in 0..count {
+            let [a, b, c] = *mesh.face(f).first_chunk().unwrap();
+            writeln!(obj, "f {} {} {}", a + 1, b + 1, c + 1).unwrap();
+            writeln!(tri, "{a} {b} {c}").unwrap();
+            writeln!(polygons, "3 {a} {b} {c}").unwrap();
+            stl += "facet normal 0 0 0\nouter loop\n";
+            for v in [a, b, c] {
+                let p = mesh.vertices[v as usize];
+                writeln!(stl, "vertex {} {} {}", p.x, p.y, p.z).unwrap();
+            }
+            stl += "endloop\nendfacet\n";
+        }
+        stl += "endsolid ball\n";
+        let files = [
+            ("obj", obj),
+            ("stl", stl),
+            ("tri", format!("TRI {size} {count}\n{tri}")),
+            ("poly", format!("POLY {size} {count}\n{polygons}")),
+            ("off", format!("OFF {size} {count} 0\n{polygons}")),
+        ];
+        for (extension, content) in files {
+            let read = refuse_each(extension, || parse_mesh(content.as_bytes(), None, "a file"));
+            assert_eq!((read.vertices.len(), read.face_count()), (size, count));
+            let path = std::env::temp_dir().join(format!("swiftprox-memory-{}-{size}.{extension}", std::process::id()));
+            std::fs::write(&path, content).unwrap();
+            refuse_each("a file", || read_mesh(&path));
+            std::fs::remove_file(&path).unwrap();
+        }
+    }
+}
+
+#[test]
+fn shape_files() {
+    for kind in [HierarchyKind::None, HierarchyKind::Quadric] {
+        let shape = Shape::from_mesh(&prism(SIZES[0] as u32), &with_levels(HierarchyKind::None)).unwrap();
+        let shape = no_progress(|progress| shape.with_levels(&with_levels(kind).hierarchy, progress)).unwrap();
+        let bytes = refuse_each("a shape as bytes", || to_bytes(&shape));
+        let path = std::env::temp_dir().join(format!("swiftprox-memory-{}-{kind:?}.shape", std::process::id()));
+        std::fs::write(&path, "as it was").unwrap();
+        let (refused, _) = without(1, false, || save(&shape, &path));
+        assert!(matches!(refused, Err(Error::Memory(_))));
+        assert_eq!(std::fs::read(&path).unwrap(), b"as it was");
+        save(&shape, &path).unwrap();
+        assert_eq!(std::fs::read(&path).unwrap(), bytes);
+        assert_eq!(refuse_each("a shape from bytes", || from_bytes(&bytes)), shape);
+        let (refused, _) = without(1, true, || load(&path));
+        assert!(matches!(refused, Err(Error::Memory(_))));
+        assert_eq!(load(&path).unwrap(), shape);
+        std::fs::remove_file(&path).unwrap();
+    }
+}
+
+/// A distance query of two of a shape, by a cache of its own.
+fn distance(shape: &Shape, config: &PairConfig) -> PairAnswer {
+    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+    let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
+    pair::distance(shape, &Pose::IDENTITY, shape, &there, &mut cache, config, &mut answer).unwrap();
+    answer
+}
+
+/// Queries that need a table go on without, and say the same; [`Shape::prepare`] says what is lacking.
+#[test]
+fn the_first_query_of_a_shape() {
+    for kind in [LookupKind::Automatic, LookupKind::Spherical] {
+        let lookup = LookupOptions { kind, ..LookupOptions::default() };
+        let new = || Shape::from_points(&ball(SIZES[0]), &ShapeOptions { lookup, ..ShapeOptions::default() }).unwrap();
+        let config = PairConfig::default();
+        let expected = distance(&new(), &config);
+        assert_eq!(expected.outcome, Outcome::Separated);
+        for number in 1.. {
+            let shape = new();
+            let bytes = shape.bytes();
+            let (answer, came_to_that) = without(number, false, || distance(&shape, &config));
+            assert!(
+                answer.outcome == Outcome::Separated
+                    && answer.lower <= expected.upper
+                    && expected.lower <= answer.upper
+            );
+            if !came_to_that {
+                assert!(number > 3 && shape.bytes() > bytes);
+                break;
+            }
+            // No query tries again, as that takes long; what insists on the table makes it.
+            let (_, asks) = without(1, false, || distance(&shape, &config));
+            assert!(!asks && shape.bytes() == bytes, "{kind:?}: block {number}");
+            no_progress(|progress| shape.prepare(progress)).unwrap();
+            assert!(shape.bytes() > bytes);
+            assert_eq!(distance(&shape, &config), expected);
+        }
+        let points = ball(SIZES[0]);
+        refuse_each("to prepare", || {
+            let shape = Shape::from_points(&points, &ShapeOptions { lookup, ..ShapeOptions::default() })?;
+            no_progress(|progress| shape.prepare(progress))
+        });
+    }
+}
+
+/// Automatic levels, which only large bodies have: for some of the blocks.
+#[test]
+fn automatic_levels() {
+    let new = || Shape::from_points(&ball(30_000), &ShapeOptions::default()).unwrap();
+    let ask = |shape: &Shape| {
+        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+        let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
+        let config = PairConfig { relative_error: 0.2, ..PairConfig::default() };
+        pair::approximate(shape, &Pose::IDENTITY, shape, &there, &mut cache, &config, &mut answer).unwrap();
+        answer
+    };
+    let shape = new();
+    let expected = ask(&shape);
+    assert!(!shape.hierarchy().levels.is_empty(), "the query goes through levels");
+    for number in [1, 9, 40, 100] {
+        let shape = new();
+        let (answer, _) = without(number, number % 2 == 0, || ask(&shape));
+        assert!(shape.hierarchy().levels.is_empty(), "block {number}");
+        assert!(
+            answer.outcome == Outcome::Separated && answer.lower <= expected.upper && expected.lower <= answer.upper
+        );
+        let (refused, _) = without(number, false, || no_progress(|progress| shape.prepare(progress)));
+        assert!(matches!(refused, Err(Error::Memory(_))), "{refused:?}");
+        no_progress(|progress| shape.prepare(progress)).unwrap();
+        let answer = ask(&shape);
+        assert_eq!((answer.lower, answer.upper), (expected.lower, expected.upper));
+    }
+}
+
+/// A scene of so many boxes in a row, each touching the next.
+fn row(count: usize) -> (Scene, Vec<swiftprox::object::ObjectId>) {
+    let corners: Vec<Vector> = (0..8).map(|i| Vector::from_fn(|k, _| f64::from(i >> k & 1))).collect();
+    let shape = Arc::new(Shape::from_points(&corners, &ShapeOptions::default()).unwrap());
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let ids = (0..count).map(|i| {
+        let pose = Pose::new(&Matrix::identity(), &Vector::new(i as f64, 0.0, 0.0));
+        scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap()
+    });
+    let ids = ids.collect();
+    (scene, ids)
+}
+
+#[test]
+fn scenes() {
+    let (mut scene, mut ids) = row(2);
+    let original = ids[0];
+    let mut refusals = [0; 3];
+    // Objects one by one: most calls need no block, whatever is refused.
+    while ids.len() < 3_000 {
+        let before = scene.object_count();
+        match without(1, false, || scene.copy_object(original)).0 {
+            Ok(id) => ids.push(id),
+            Err(Error::Memory(_)) => {
+                refusals[0] += 1;
+                assert_eq!(scene.object_count(), before);
+                ids.push(scene.copy_object(original).unwrap());
+            }
+            Err(error) => panic!("{error}"),
+        }
+    }
+    for (i, id) in ids.iter().enumerate().skip(1) {
+        let (said, _) = without(1, false, || scene.set_pair_active(original, *id, i % 2 == 0));
+        if said.is_err() {
+            assert!(matches!(said, Err(Error::Memory(_))));
+            refusals[1] += 1;
+            assert!(scene.is_pair_active(original, *id).unwrap());
+            scene.set_pair_active(original, *id, i % 2 == 0).unwrap();
+        }
+        assert_eq!(scene.is_pair_active(original, *id).unwrap(), i % 2 == 0);
+    }
+    // Removing needs no memory.
+    let (left, _) = without(1, true, || ids.drain(20..).try_for_each(|id| scene.remove_object(id)));
+    left.unwrap();
+
+    let (mut scene, ids) = row(60);
+    type Query = for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<swiftprox::scene::SceneAnswer<'a>>;
+    let queries: [Query; 4] = [
+        Scene::query_intersection,
+        Scene::query_exact_distance,
+        Scene::query_contacts,
+        Scene::query_approximate_distance,
+    ];
+    for query in queries {
+        scene.set_pair_active(ids[0], ids[5], false).unwrap(); // the list of pairs is out of date
+        let statistics = *scene.statistics();
+        for number in 1.. {
+            let config = SceneQuery { distance_tolerance: 0.5, ..SceneQuery::default() };
+            let (said, came_to_that) =
+                without(number, false, || query(&mut scene, &config).map(|said| said.pairs.len()));
+            if !came_to_that {
+                assert_eq!(said, Ok(59), "each touches the next");
+                break;
+            }
+            refusals[2] += 1;
+            assert!(matches!(said, Err(Error::Memory(_))), "{said:?}");
+            assert_eq!(*scene.statistics(), statistics);
+        }
+    }
+    assert!(refusals.iter().all(|count| *count > 1), "{refusals:?}");
+}
