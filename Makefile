@@ -15,7 +15,8 @@
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
-export PATH := $(PATH):$(HOME)/.cargo/bin
+# What scripts/rust.sh has installed comes first: the Rust of the system was not new enough.
+export PATH := $(CURDIR)/.rust/bin:$(PATH):$(HOME)/.cargo/bin
 MAKEFLAGS += --no-print-directory
 BUILD = build
 MODELS =
@@ -46,11 +47,13 @@ demo: build
 test: lint test-rust test-c test-fuzz
 
 lint:
-	@scripts/require.sh $(CC_PACKAGES)
+	@scripts/require.sh $(CC_PACKAGES) python3=python3
+	@scripts/rust.sh cargo-fmt cargo-clippy
 	cargo fmt --check
 	cargo clippy --locked --all-targets -- -D warnings
 	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' --exclude-dir=target \
-	    --exclude-dir=build | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
+	    --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
+	python3 benches/figures.py --check $(FIGURES)-*.csv
 
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:
@@ -78,7 +81,7 @@ fuzz:
 # What needs nightly Rust, or a component of it, is skipped where that is missing; scripts/nightly.sh says so. The tests are those
 # of unsafe code and of everything that reads what others wrote; C programs are compiled for both sanitizers, the library is not.
 ASAN_TESTS = --lib --test c_interface --test mesh_io --test shape_file --test hull --test hull_check --test verify --test flat_edges
-HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+HOST = $(shell PATH='$(PATH)' rustc -vV | sed -n 's/^host: //p')
 asan:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake
 	RUSTFLAGS=-Zsanitizer=address scripts/nightly.sh "" test --locked --profile checked --target $(HOST) $(ASAN_TESTS)
