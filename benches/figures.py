@@ -6,12 +6,16 @@ usage: figures.py [--check] RESULTS.csv ...
 The files are those that `make figures` writes, of figures, of verdicts beside libccd's and of builds, in any order.
 
 Writes docs/charts/figure-*.svg, and in docs/figures.md and docs/levels.md replaces what stands between <!-- table: NAME --> and
-<!-- end -->. With --check it writes nothing and fails where a page differs. No package beyond Python itself is needed.
+<!-- end -->. With --check it writes nothing and fails where a page or a chart differs. No package beyond Python itself is needed.
 """
+import contextlib
 import csv
+import filecmp
+import io
 import math
 import os
 import sys
+import tempfile
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
@@ -135,7 +139,7 @@ def motion_ticks(rows):
     return [(unit, step if step == "random" else step + "°") for step, unit in position.items()]
 
 
-def draw_paper(heads, rows):
+def draw_paper(folder, heads, rows):
     for figure, title in NAMES.items():
         here = [r for r in rows if r["figure"] == figure]
         if not here:
@@ -145,10 +149,10 @@ def draw_paper(heads, rows):
             models = in_order(r["model"] for r in here)
             cells = {m: [r for r in here if (r["orbit"], r["model"]) == (orbit, m)] for m in models}
             panels.append([(f"{m}-{m}, {orbit} orbit", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-{figure}.svg"), heads[figure], title, panels, motion_ticks(here), MOTION)
+        grid(os.path.join(folder, f"figure-{figure}.svg"), heads[figure], title, panels, motion_ticks(here), MOTION)
 
 
-def draw_error(heads, rows):
+def draw_error(folder, heads, rows):
     """Approximate distance over the error asked for, with intersection at the left end and exact distance at the right."""
     rows = [r for r in rows if r["figure"] == "error"]
     errors = sorted({r["error"] for r in rows if r["query"] == "approximate"}, reverse=True)
@@ -171,11 +175,11 @@ def draw_error(heads, rows):
             panels.append(row)
         motion = "random poses" if step == "random" else f"{step}° a query"
         if rows:
-            grid(os.path.join(CHARTS, f"figure-error-{step}.svg"), heads["error"], f"Time over the error asked for, {motion}", panels, ticks,
+            grid(os.path.join(folder, f"figure-error-{step}.svg"), heads["error"], f"Time over the error asked for, {motion}", panels, ticks,
                  "error of an approximate distance in radii; intersection to the left, exact distance to the right")
 
 
-def draw_size(heads, rows):
+def draw_size(folder, heads, rows):
     rows = [r for r in rows if r["figure"] == "size"]
     for query in in_order(r["query"] for r in rows):
         here = [r for r in rows if r["query"] == query]
@@ -184,11 +188,11 @@ def draw_size(heads, rows):
             models = in_order(r["model"] for r in here)
             cells = {m: [r for r in here if (r["n"], r["model"]) == (n, m)] for m in models}
             panels.append([(f"{m}-{m}, {2 * n - 4:,} triangles", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-size-{query}.svg"), heads["size"], f"Larger bodies, {QUERIES[query]}, small orbit", panels,
+        grid(os.path.join(folder, f"figure-size-{query}.svg"), heads["size"], f"Larger bodies, {QUERIES[query]}, small orbit", panels,
              motion_ticks(here), "motion from one query to the next; time a query")
 
 
-def draw_choice(heads, rows):
+def draw_choice(folder, heads, rows):
     """How many times as long as the best fixed setting the automatic one takes, cell by cell."""
     cells = claims.choice_cells(rows)
     if not cells:
@@ -216,7 +220,12 @@ def draw_choice(heads, rows):
             parts.append(text_element(x + 6, y + 13, f"{ratio:.2f}"))
             parts.append(text_element(x + wide - 8, y + 13, name.split()[0], "end"))
         y += high
-    plot.write(os.path.join(CHARTS, "figure-choice.svg"), width, y + 10, parts)
+    plot.write(os.path.join(folder, "figure-choice.svg"), width, y + 10, parts)
+
+
+def draw(folder, heads, rows):
+    for figures in (draw_paper, draw_error, draw_size, draw_choice):
+        figures(folder, heads, rows)
 
 
 def main():
@@ -236,14 +245,16 @@ def main():
         if not check:
             with open(page, "w") as file:
                 file.write(filled)
-    if check:
-        return
     plot.STYLES.update(STYLES)
-    os.makedirs(CHARTS, exist_ok=True)
-    draw_paper(heads, rows)
-    draw_error(heads, rows)
-    draw_size(heads, rows)
-    draw_choice(heads, rows)
+    if not check:
+        os.makedirs(CHARTS, exist_ok=True)
+        return draw(CHARTS, heads, rows)
+    with tempfile.TemporaryDirectory() as folder:
+        with contextlib.redirect_stdout(io.StringIO()):
+            draw(folder, heads, rows)
+        for name in os.listdir(folder):
+            if not filecmp.cmp(os.path.join(folder, name), os.path.join(CHARTS, name), shallow=False):
+                sys.exit(f"docs/charts/{name} does not show what the CSV files say: run benches/figures.py")
 
 
 if __name__ == "__main__":
