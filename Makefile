@@ -1,5 +1,5 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
-# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz
+# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz, side by side
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
 # make tsan                   tests with threads under the thread sanitizer
@@ -39,18 +39,23 @@ RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
 	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=$(TESTING)
-	cmake --build $(BUILD)
+	+cmake --build $(BUILD)
 
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-test: lint test-rust test-c test-fuzz
+# Side by side: while one compiles what takes a single core, another tests. What each of them prints comes when it is done.
+test:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
+	-@scripts/require.sh valgrind=valgrind $(PEERS)
+	@scripts/rust.sh cargo-fmt cargo-clippy
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse lint test-rust test-c test-fuzz
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
 	cargo fmt --check
-	cargo clippy --locked --all-targets -- -D warnings
+	cargo clippy --locked --profile checked --all-targets -- -D warnings
 	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' --exclude-dir=target \
 	    --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
 	python3 benches/figures.py --check $(FIGURES)-*.csv
