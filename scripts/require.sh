@@ -2,12 +2,13 @@
 # Installs what is missing: Debian packages (scripts/apt.sh), Rust (scripts/rust.sh), and the crates of Cargo.lock. What cannot be had
 # ends in one line on stderr.
 #
-#   require.sh COMMAND_OR_FILE=PACKAGE ...        a file is what has a slash in its name
+#   require.sh NEEDED=PACKAGE ...        a command; a file, which has a slash in its name; or PYTHON:MODULE
 scripts=${0%/*}
 missing=
 for pair in "$@"; do
     needed=${pair%%=*}
     case $needed in
+    *:*) "${needed%%:*}" -c "import ${needed#*:}" >/dev/null 2>&1 ;;
     */*) [ -e "$needed" ] ;;
     *) command -v "$needed" >/dev/null 2>&1 ;;
     esac || missing="$missing ${pair#*=}"

@@ -127,6 +127,19 @@ class Packages(Machine):
         self.assert_done(self.run_script("require.sh", "/usr/include/no/some.h=libsome-dev"))
         self.assertTrue(os.path.exists(self.path("bin", "some-config")))
 
+    def test_a_module_that_python_has_not_is_installed(self):
+        self.command("python3", '[ "$*" = "-c import some" ]\n')
+        self.package("python3-other", "other")
+        self.assert_done(self.run_script("require.sh", "python3:some=python3-some"))
+        self.assert_done(self.run_script("require.sh", self.path("bin", "python3") + ":some=python3-some"))
+        self.assert_done(self.run_script("require.sh", "python3:some=python3-some", "python3:other=python3-other"))
+        self.assertTrue(os.path.exists(self.path("bin", "other")))
+
+    def test_a_module_of_a_python_that_is_missing_is_installed(self):
+        self.package("python3-some", "python3")
+        self.assert_done(self.run_script("require.sh", "python3:some=python3-some"))
+        self.assertTrue(os.path.exists(self.path("bin", "python3")))
+
     def test_all_that_is_missing_is_installed_at_once(self):
         for name in ("gcc", "valgrind"):
             self.package(name, name)
