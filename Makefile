@@ -1,5 +1,5 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
-# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz
+# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz, side by side
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
 # make tsan                   tests with threads under the thread sanitizer
@@ -10,12 +10,14 @@
 #                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
+# make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
-export PATH := $(PATH):$(HOME)/.cargo/bin
+# What scripts/rust.sh has installed comes first: the Rust of the system was not new enough.
+export PATH := $(CURDIR)/.rust/bin:$(PATH):$(HOME)/.cargo/bin
 MAKEFLAGS += --no-print-directory
 BUILD = build
 MODELS =
@@ -27,30 +29,41 @@ TARGET =
 # gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
 CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
+# What draws charts: Debian's own Python has Debian's matplotlib, even where another one comes first in PATH. DRAW=python3 takes that.
+DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
+MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
 COAL = $(BUILD)/coal/bin/python
 STABILITY = benches/results/stability
 FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability steps cases hard clean
+.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
 	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=$(TESTING)
-	cmake --build $(BUILD)
+	+cmake --build $(BUILD)
 
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-test: lint test-rust test-c test-fuzz
+# Side by side: while one compiles what takes a single core, another tests. What each of them prints comes when it is done.
+test:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
+	-@scripts/require.sh valgrind=valgrind $(PEERS)
+	@scripts/rust.sh cargo-fmt cargo-clippy
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse lint test-rust test-c test-fuzz
 
 lint:
-	@scripts/require.sh $(CC_PACKAGES)
+	@scripts/require.sh $(CC_PACKAGES) python3=python3
+	@scripts/rust.sh cargo-fmt cargo-clippy
 	cargo fmt --check
-	cargo clippy --locked --all-targets -- -D warnings
+	cargo clippy --locked --profile checked --all-targets -- -D warnings
 	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' --exclude-dir=target \
-	    --exclude-dir=build | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
+	    --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
+	python3 benches/figures.py --check $(FIGURES)-*.csv
+	python3 benches/plot.py --check
 
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:
@@ -78,7 +91,7 @@ fuzz:
 # What needs nightly Rust, or a component of it, is skipped where that is missing; scripts/nightly.sh says so. The tests are those
 # of unsafe code and of everything that reads what others wrote; C programs are compiled for both sanitizers, the library is not.
 ASAN_TESTS = --lib --test c_interface --test mesh_io --test shape_file --test hull --test hull_check --test verify --test flat_edges
-HOST = $(shell rustc -vV | sed -n 's/^host: //p')
+HOST = $(shell PATH='$(PATH)' rustc -vV | sed -n 's/^host: //p')
 asan:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake
 	RUSTFLAGS=-Zsanitizer=address scripts/nightly.sh "" test --locked --profile checked --target $(HOST) $(ASAN_TESTS)
@@ -104,16 +117,16 @@ valgrind:
 
 # Without FCL, or pkg-config to find it, FCL is left out.
 bench:
-	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
 	mkdir -p $(dir $(RESULTS))
 	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --csv $(RESULTS)
-	python3 benches/plot.py $(RESULTS)
+	$(DRAW) benches/plot.py $(RESULTS)
 
 # Each measurement takes a minute or two.
 COMPARE = $(TIMED) $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare
 figures:
-	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
 	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(COMPARE) --figures 5,6,7,8,9,10,11,12 --count 1800 --passes 5 --csv $(FIGURES)-paper.csv
@@ -122,11 +135,11 @@ figures:
 	$(COMPARE) --figures size --count 900 --passes 3 --csv $(FIGURES)-size.csv
 	$(COMPARE) --build --n 1002,10002,100002 --passes 2 --csv $(FIGURES)-build.csv
 	$(COMPARE) --query intersection --n 1002,10002 --count 1800 --passes 5 --csv $(FIGURES)-verdict.csv
-	python3 benches/figures.py $(FIGURES)-*.csv
+	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 
 # Peers that are not installed are left out; coal comes from PyPI into an environment of its own in build/.
 stability:
-	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh $(PEERS)
 	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
 	cmake --build $(BUILD) --target stability_runners
@@ -136,12 +149,18 @@ stability:
 	-@test -x $(COAL) || { python3 -m venv $(BUILD)/coal && $(BUILD)/coal/bin/pip install -q coal==3.0.3; } || rm -rf $(BUILD)/coal
 	python3 benches/stability/stability.py $(BUILD)/hard --build $(BUILD) --coal $(COAL) \
 		--compare $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare --csv $(STABILITY).csv --cost $(STABILITY)-cost.csv
-	python3 benches/stability/chart.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
+	$(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 
 steps:
-	@scripts/require.sh $(CC_PACKAGES) python3=python3
+	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)
 	cargo bench --locked --bench worst_case -- --csv $(CURDIR)/benches/results/worst-case.csv
-	python3 benches/plot_steps.py benches/results/worst-case.csv
+	$(DRAW) benches/plot.py benches/results/worst-case.csv
+
+charts:
+	@scripts/require.sh $(MATPLOTLIB)
+	$(DRAW) benches/plot.py --again
+	$(DRAW) benches/figures.py $(FIGURES)-*.csv
+	$(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 
 cases:
 	$(if $(CASES),,$(error make cases CASES=DIR: the folder of cases is missing))

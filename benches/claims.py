@@ -2,7 +2,7 @@
 import math
 import re
 
-from plot import geometric_mean, in_order
+from rows import geometric_mean, in_order
 
 LOW_COHERENCE = ("20", "45", "90", "random")
 HOLDS, HOLDS_NOT, PARTLY = "holds", "**does not hold**", "**holds in part**"

@@ -6,50 +6,50 @@ usage: figures.py [--check] RESULTS.csv ...
 The files are those that `make figures` writes, of figures, of verdicts beside libccd's and of builds, in any order.
 
 Writes docs/charts/figure-*.svg, and in docs/figures.md and docs/levels.md replaces what stands between <!-- table: NAME --> and
-<!-- end -->. With --check it writes nothing and fails where a page differs. No package beyond Python itself is needed.
+<!-- end -->. With --check it writes nothing and fails where a page differs, or a chart is not the drawing of these rows.
 """
-import csv
 import math
 import os
 import sys
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, HERE)
-import claims  # noqa: E402
-import plot  # noqa: E402
-from plot import Panel, in_order, legend, limits, step_positions, text_element  # noqa: E402
+import charts
+import claims
+from charts import BLUE, DASHED, DOTTED, FOREST, GREEN, GREY, INDIGO, ORANGE, PINK, RED, SKY, SOLID, WINE
+from charts import Axis, Cell, Cells, Curve, Kind, Line, Panel, Panels, Row, Style
+from rows import in_order, machine, read, with_numbers
 
-CHARTS = os.path.join(HERE, "..", "docs", "charts")
-PAGES = [os.path.join(HERE, "..", "docs", page) for page in ("figures.md", "levels.md")]
-BLUE, RED, GREEN, VIOLET, BROWN, TEAL, GREY = "#0b5fa5", "#d1495b", "#5f8a2b", "#8b5fbf", "#c98a1b", "#2f8f83", "#777777"
-THIN, DOTS = "6 3", "2 3"
+PAGES = [os.path.join(charts.FOLDER, "..", page) for page in ("figures.md", "levels.md")]
+NUMBERS = ("best_ns", "mean_steps", "by_levels", "error", "best_ms", "bytes")
 STYLES = {
-    "most violated": (BLUE, "", "most violated plane (SWIFT)"),
-    "first violated": (RED, "", "first violated plane (as in V-Clip, but not V-Clip)"),
-    "nothing": (GREY, "", "nothing: the last features"),
-    "LUT 2 5.625": (RED, "", "LUT 2 5.625"),
-    "DK 100 Double-Double": (GREEN, "", "DK 100 Double-Double"),
-    "quadric 0.03125": (VIOLET, "", "quadric 0.03125"),
-    "cuts 0.03125": (BROWN, "", "outer cuts 0.03125 (ours)"),
-    "automatic": (BLUE, "", "automatic (ours)"),
-    "shells": (BLUE, "", "shells (ours)"),
-    "no levels": (BLUE, "", "no levels: automatic"),
-    "quadric 0.25": (GREEN, "", "quadric 0.25"),
-    "cuts 0.25": (BROWN, "", "outer cuts 0.25 (ours)"),
-    "2 levels": (VIOLET, "", "2 levels"),
-    "3 levels": (GREEN, "", "3 levels"),
-    "4 levels": (BROWN, "", "4 levels"),
-    "levels and table": (TEAL, THIN, "quadric 0.25, from shells (ours)"),
-    "table alone": ("#41a1e0", THIN, "no levels, from shells (ours)"),
+    "most violated": Style("most violated plane (SWIFT)", BLUE),
+    "first violated": Style("first violated plane (as in V-Clip, but not V-Clip)", RED, marker="s"),
+    "nothing": Style("nothing: the last features", GREY),
+    "LUT 2 5.625": Style("LUT 2 5.625", RED, marker="s"),
+    "DK 100 Double-Double": Style("DK 100 Double-Double", GREEN, marker="^"),
+    "quadric 0.03125": Style("quadric 0.03125", INDIGO, marker="D"),
+    "cuts 0.03125": Style("outer cuts 0.03125 (ours)", ORANGE, marker="v"),
+    "automatic": Style("automatic (ours)", BLUE),
+    "shells": Style("shells (ours)", BLUE),
+    "no levels": Style("no levels: automatic", BLUE),
+    "quadric 0.25": Style("quadric 0.25", GREEN, marker="^"),
+    "cuts 0.25": Style("outer cuts 0.25 (ours)", ORANGE, marker="v"),
+    "2 levels": Style("2 levels", PINK, marker="D"),
+    "3 levels": Style("3 levels", GREEN, marker="^"),
+    "4 levels": Style("4 levels", ORANGE, marker="v"),
+    "levels and table": Style("quadric 0.25, from shells (ours)", INDIGO, DASHED, "X"),
+    "table alone": Style("no levels, from shells (ours)", SKY, DASHED, "P"),
 }
 for colour, cut_off in ((BLUE, 20), (GREEN, 100), (RED, 250)):
-    for dash, policy in (("", "Single"), (THIN, "Single-Single"), (DOTS, "Double-Double")):
-        STYLES[f"{cut_off} {policy}"] = (colour, dash, f"{cut_off} {policy}")
-for dash, degrees in (("", "5.625"), (THIN, "11.25")):
-    for colour, factor in ((GREEN, 1), (RED, 2), (VIOLET, 4)):
-        STYLES[f"{factor} {degrees}"] = (colour, dash, f"{factor} {degrees}")
-RATES = {"quadric 0.5": GREY, "quadric 0.25": GREEN, "quadric 0.125": RED, "quadric 0.0625": BROWN, "quadric 0.03125": VIOLET,
-         "cuts 0.25": TEAL, "cuts 0.03125": BLUE}
+    for dash, marker, policy in ((SOLID, "o", "Single"), (DASHED, "s", "Single-Single"), (DOTTED, "^", "Double-Double")):
+        STYLES[f"{cut_off} {policy}"] = Style(f"{cut_off} {policy}", colour, dash, marker)
+for dash, marker, degrees in ((SOLID, "s", "5.625"), (DASHED, "^", "11.25")):
+    for colour, factor in ((GREEN, 1), (RED, 2), (INDIGO, 4)):
+        STYLES[f"{factor} {degrees}"] = Style(f"{factor} {degrees}", colour, dash, marker)
+RATES = {
+    "quadric 0.5": (GREY, SOLID, "s"), "quadric 0.25": (GREEN, SOLID, "^"), "quadric 0.125": (RED, SOLID, "P"),
+    "quadric 0.0625": (WINE, SOLID, "X"), "quadric 0.03125": (INDIGO, SOLID, "D"), "cuts 0.25": (FOREST, DASHED, "^"),
+    "cuts 0.03125": (ORANGE, DASHED, "v"),
+}
 
 QUERIES = {"distance": "exact distance", "intersection": "intersection", "approximate": "approximate distance, error 0.01",
            "contact": "contact"}
@@ -63,160 +63,134 @@ NAMES = {  # figure: title
     "11": "Figure 11: the best of each, intersection",
     "12": "Figure 12: the best of each, exact distance",
 }
-MOTION = "motion from one query to the next; time a query, bodies of 1,002 vertices"
 
-
-def read(paths):
-    """On what each figure was measured, and the rows of all files: of figures, of verdicts beside peers, and of builds; numbers as floats."""
+def read_all(paths):
+    """On what each figure was measured, and the rows of all files: of figures, of verdicts beside peers, and of builds."""
     heads, kinds = {}, {"figure": [], "disagreements": [], "bytes": []}
     for path in paths:
-        with open(path) as file:
-            head = file.readline().lstrip("# ").strip()
-            rows = list(csv.DictReader(file))
+        head, rows = read(path)
         kind = next((kind for kind in kinds if kind in rows[0]), None)
         if kind is None:
             sys.exit(f"{path}: not a file of benches/compare")
-        for row in rows:
-            row["n"] = int(row["n"])
-            for name in row.keys() & {"best_ns", "mean_steps", "by_levels", "error", "best_ms", "bytes"}:
-                row[name] = float(row[name])
-        kinds[kind] += rows
+        kinds[kind] += with_numbers(rows, NUMBERS)
         if kind == "figure":
-            machine = ", ".join(part for part in head.split(", ") if not part.endswith("passes"))
-            heads.update({row["figure"]: machine for row in rows})
+            where = ", ".join(part for part in machine(head[0]).split(", ") if not part.endswith("passes"))
+            heads.update({row["figure"]: where for row in rows})
     return heads, *kinds.values()
 
 
-def style_rates(names):
-    """The styles of names that end in a number of levels, as "quadric 0.25 (3)"."""
-    for name in names:
-        base = name.split(" (")[0]
-        if base != name and base in RATES:
-            plot.STYLES[name] = (RATES[base], "" if base.startswith("quadric") else THIN, name)
+def style(name):
+    """Names may end in a number of levels, as "quadric 0.25 (3)"."""
+    base = name.split(" (")[0]
+    if base != name and base in RATES:
+        return Style(name, *RATES[base])
+    return STYLES[name]
 
 
-def grid(path, head, title, panels, ticks, note):
-    """panels: rows of (title, {series: [(unit, ns, whether a line leads there)]}); ticks: (unit, label)."""
-    series = in_order(name for row in panels for _, curves in row for name in curves)
-    style_rates(series)
-    times = [ns for row in panels for _, curves in row for points in curves.values() for _, ns, _ in points]
-    low, high = limits(times)
-    width_of_one, height, gap, left = 330, 250, 18, 66
-    width = left + len(panels[0]) * (width_of_one + gap)
-    entries, used = legend([plot.style(name, series) for name in series], left, 50, width - left - 16)
-    top = 50 + used + 20
-    parts = plot.title(head, title, width) + entries
-    for i, row in enumerate(panels):
-        for k, (name, curves) in enumerate(row):
-            panel = Panel(left + k * (width_of_one + gap), top + i * (height + 50), width_of_one, height, low, high)
-            panel.frame(name, ticks, k == 0)
-            for method, points in curves.items():
-                colour, dash, _ = plot.style(method, series)
-                panel.curve([(unit, ns) for unit, ns, joined in points if joined], colour, dash)
-                for unit, ns, _ in points:
-                    panel.dot(unit, ns, colour)
-            parts += panel.parts
-    bottom = top + len(panels) * (height + 50) - 8
-    parts.append(text_element(left, bottom, note))
-    plot.write(path, width, bottom + 14, parts)
+def chart(title, machine, x, panels, note=""):
+    """panels: rows of panels of times, all over the same axis."""
+    curves = [curve for row in panels for panel in row for curve in panel.curves]
+    y = charts.value_axis("time a query", [ns for curve in curves for _, ns in curve.points], charts.duration)
+    styles = {name: style(name) for name in in_order(curve.series for curve in curves)}
+    return Panels(title, machine, x, styles, [Row(row, y, 190) for row in panels], note)
 
 
-def over_motion(rows):
-    """The curves of a panel, and the ticks."""
-    position = step_positions(in_order(r["step"] for r in rows))
-    curves = {}
+def over_motion(rows, place):
+    points = {}
     for r in rows:
-        curves.setdefault(r["series"], []).append((position[r["step"]], r["best_ns"], r["step"] != "random"))
+        points.setdefault(r["series"], {})[r["step"]] = (place[r["step"]], r["best_ns"])
+    return [curve for series, found in points.items() for curve in charts.over_motion(series, found)]
+
+
+def grid(rows, columns, title):
+    """Rows of panels over the motion: one for each value of the one column, in each of them one for each value of the other."""
+    x, place = charts.motion_axis(in_order(r["step"] for r in rows))
+    panels = []
+    for across in in_order(r[columns[0]] for r in rows):
+        here = [r for r in rows if r[columns[0]] == across]
+        panels.append([Panel(title(across, along), over_motion([r for r in here if r[columns[1]] == along], place))
+                       for along in in_order(r[columns[1]] for r in here)])
+    return x, panels
+
+
+def paper_figures(heads, rows):
+    for figure, title in NAMES.items():
+        here = [r for r in rows if r["figure"] == figure]
+        if here:
+            x, panels = grid(here, ("orbit", "model"), lambda orbit, model: f"{model}-{model}, {orbit} orbit")
+            yield f"figure-{figure}", chart(title, heads[figure], x, panels, "Bodies of 1,002 vertices.")
+
+
+def error_curves(rows, place):
+    """Approximate distance joined; intersection at the left end and exact distance at the right apart."""
+    curves = []
+    for series in in_order(r["series"] for r in rows):
+        here = [r for r in rows if r["series"] == series]
+        joined = [(place[r["error"]], r["best_ns"]) for r in here if r["query"] == "approximate"]
+        apart = [(place[r["query"]], r["best_ns"]) for r in here if r["query"] in place]
+        curves += [Curve(series, joined), Curve(series, apart, Kind.DOTS)]
     return curves
 
 
-def motion_ticks(rows):
-    position = step_positions(in_order(r["step"] for r in rows))
-    return [(unit, step if step == "random" else step + "°") for step, unit in position.items()]
-
-
-def draw_paper(heads, rows):
-    for figure, title in NAMES.items():
-        here = [r for r in rows if r["figure"] == figure]
-        if not here:
-            continue
-        panels = []
-        for orbit in in_order(r["orbit"] for r in here):
-            models = in_order(r["model"] for r in here)
-            cells = {m: [r for r in here if (r["orbit"], r["model"]) == (orbit, m)] for m in models}
-            panels.append([(f"{m}-{m}, {orbit} orbit", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-{figure}.svg"), heads[figure], title, panels, motion_ticks(here), MOTION)
-
-
-def draw_error(heads, rows):
-    """Approximate distance over the error asked for, with intersection at the left end and exact distance at the right."""
+def error_figures(heads, rows):
+    """Time over the error asked for."""
     rows = [r for r in rows if r["figure"] == "error"]
+    if not rows:
+        return
     errors = sorted({r["error"] for r in rows if r["query"] == "approximate"}, reverse=True)
-    most, least = math.log10(errors[0]), math.log10(errors[-1])
-    unit = {e: 0.16 + 0.68 * (most - math.log10(e)) / (most - least) for e in errors}
-    decade = {e: f"1e{round(math.log10(e))}" if math.log10(e) % 1 in (0.0, 1.0) else "" for e in errors}
-    ticks = [(0.04, "verdict")] + [(unit[e], decade[e]) for e in errors] + [(0.96, "exact")]
+    # To the right errors are smaller.
+    place = {error: 1 / error for error in errors}
+    place.update({"intersection": 0.08 / errors[0], "distance": 6 / errors[-1]})
+    decades = [(place[error], f"{error:.0e}".replace("e-0", "e-")) for error in errors if f"{error:e}".startswith("1.000000")]
+    ticks = [(place["intersection"], "verdict"), *decades, (place["distance"], "exact")]
+    x = Axis("error of an approximate distance that was asked for, in radii; at the ends intersection and exact distance",
+             place["intersection"] / 2.2, place["distance"] * 2.2, ticks)
     for step in ("10", "random"):
         panels = []
         for orbit in in_order(r["orbit"] for r in rows):
-            row = []
-            for model in in_order(r["model"] for r in rows):
-                curves = {}
-                for r in rows:
-                    if (r["orbit"], r["model"], r["step"]) == (orbit, model, step):
-                        at = {"intersection": 0.04, "distance": 0.96}.get(r["query"])
-                        point = (unit[r["error"]], r["best_ns"], True) if at is None else (at, r["best_ns"], False)
-                        curves.setdefault(r["series"], []).append(point)
-                row.append((f"{model}-{model}, {orbit} orbit", curves))
-            panels.append(row)
+            models = in_order(r["model"] for r in rows)
+            cells = {m: [r for r in rows if (r["orbit"], r["model"], r["step"]) == (orbit, m, step)] for m in models}
+            panels.append([Panel(f"{m}-{m}, {orbit} orbit", error_curves(cell, place)) for m, cell in cells.items()])
         motion = "random poses" if step == "random" else f"{step}° a query"
-        if rows:
-            grid(os.path.join(CHARTS, f"figure-error-{step}.svg"), heads["error"], f"Time over the error asked for, {motion}", panels, ticks,
-                 "error of an approximate distance in radii; intersection to the left, exact distance to the right")
+        yield f"figure-error-{step}", chart(f"Time over the error asked for, {motion}", heads["error"], x, panels)
 
 
-def draw_size(heads, rows):
+def size_figures(heads, rows):
     rows = [r for r in rows if r["figure"] == "size"]
     for query in in_order(r["query"] for r in rows):
         here = [r for r in rows if r["query"] == query]
-        panels = []
-        for n in in_order(r["n"] for r in here):
-            models = in_order(r["model"] for r in here)
-            cells = {m: [r for r in here if (r["n"], r["model"]) == (n, m)] for m in models}
-            panels.append([(f"{m}-{m}, {2 * n - 4:,} triangles", over_motion(cells[m])) for m in models])
-        grid(os.path.join(CHARTS, f"figure-size-{query}.svg"), heads["size"], f"Larger bodies, {QUERIES[query]}, small orbit", panels,
-             motion_ticks(here), "motion from one query to the next; time a query")
+        x, panels = grid(here, ("n", "model"), lambda n, model: f"{model}-{model}, {2 * n - 4:,} triangles")
+        yield f"figure-size-{query}", chart(f"Larger bodies, {QUERIES[query]}, small orbit", heads["size"], x, panels)
 
 
-def draw_choice(heads, rows):
+RATIOS = ((1.1, charts.GOOD), (1.25, charts.BAD[0]), (1.6, charts.BAD[1]), (math.inf, charts.BAD[2]))
+
+
+def choice_figure(heads, rows):
     """How many times as long as the best fixed setting the automatic one takes, cell by cell."""
     cells = claims.choice_cells(rows)
     if not cells:
         return
-    steps = in_order(step for *_, step in cells)
-    queries = in_order(query for query, *_ in cells)
-    lines = sorted(in_order((query, orbit, model) for query, orbit, model, _ in cells), key=lambda line: queries.index(line[0]))
-    left, top, wide, high = 270, 92, 104, 19
-    width = left + len(steps) * wide + 16
-    parts = plot.title(heads["choice"], "The automatic choice beside the best fixed setting of each cell", width)
-    parts.append(text_element(16, 44, "times as long as the best fixed setting, and which that is (quadric 0.03125, cuts 0.25: through levels); green: up to 1.1"))
-    for k, step in enumerate(steps):
-        parts.append(text_element(left + k * wide + wide / 2, top - 10, step if step == "random" else step + "°", "middle", "bold"))
-    y, last = top, None
-    for query, orbit, model in lines:
-        if query != last:
-            y += 10 if last else 0
-            last = query
-        parts.append(text_element(left - 10, y + 14, f"{query}, {model}-{model}, {orbit}", "end"))
-        for k, step in enumerate(steps):
+    steps, queries = in_order(step for *_, step in cells), in_order(query for query, *_ in cells)
+    lines = []
+    for query, orbit, model in sorted(in_order(key[:3] for key in cells), key=lambda line: queries.index(line[0])):
+        here = []
+        for step in steps:
             ratio, name, _ = cells[query, orbit, model, step]
-            fill = "#dcefdc" if ratio <= 1.1 else "#fff0c8" if ratio <= 1.25 else "#f9c9a0" if ratio <= 1.6 else "#ee8f7f"
-            x = left + k * wide
-            parts.append(f'<rect x="{x}" y="{y}" width="{wide - 2}" height="{high - 2}" fill="{fill}"/>')
-            parts.append(text_element(x + 6, y + 13, f"{ratio:.2f}"))
-            parts.append(text_element(x + wide - 8, y + 13, name.split()[0], "end"))
-        y += high
-    plot.write(os.path.join(CHARTS, "figure-choice.svg"), width, y + 10, parts)
+            here.append(Cell(f"{ratio:.2f}", name.split()[0], next(colour for limit, colour in RATIOS if ratio <= limit)))
+        label = f"{query}, {model}-{model}, {orbit}"
+        lines.append(Line(label, here, gap_before=bool(lines) and not lines[-1].label.startswith(query)))
+    names = {limit: f"up to {limit}" for limit, _ in RATIOS} | {math.inf: "more"}
+    yield "figure-choice", Cells(
+        "The automatic choice beside the best fixed setting of each cell", heads["choice"],
+        "times as long as the best fixed setting, and which that is (quadric 0.03125, cuts 0.25: through levels)",
+        [("random" if step == "random" else step + "°", "") for step in steps], lines,
+        [(colour, names[limit]) for limit, colour in RATIOS], 170)
+
+
+def figures(heads, rows):
+    """All charts by name."""
+    return dict(made for of_kind in (paper_figures, error_figures, size_figures, choice_figure) for made in of_kind(heads, rows))
 
 
 def main():
@@ -225,25 +199,23 @@ def main():
     paths = arguments[1:] if check else arguments
     if not paths:
         sys.exit(__doc__)
-    heads, rows, verdicts, builds = read(paths)
+    heads, rows, verdicts, builds = read_all(paths)
     made = claims.tables(rows, verdicts, builds)
     for page in PAGES:
         with open(page) as file:
             text = file.read()
         filled = claims.fill(text, made)
         if check and filled != text:
-            sys.exit(f"{page} does not say what the CSV files say: run benches/figures.py")
+            sys.exit(f"{page} does not say what the CSV files say: run make charts")
         if not check:
             with open(page, "w") as file:
                 file.write(filled)
-    if check:
-        return
-    plot.STYLES.update(STYLES)
-    os.makedirs(CHARTS, exist_ok=True)
-    draw_paper(heads, rows)
-    draw_error(heads, rows)
-    draw_size(heads, rows)
-    draw_choice(heads, rows)
+    for name, drawing in figures(heads, rows).items():
+        path = os.path.join(charts.FOLDER, name + ".svg")
+        if check:
+            charts.check(path, drawing)
+        else:
+            charts.draw(path, drawing, paths)
 
 
 if __name__ == "__main__":

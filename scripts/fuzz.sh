@@ -11,9 +11,11 @@ set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
 as_test=false
 limits="-max_total_time=$1"
+profile=release
 if [ "$1" = --as-test ]; then
     as_test=true
     limits="-seed=1 -runs=1000"
+    profile=quick
 fi
 shift
 targets=("$@")
@@ -37,7 +39,7 @@ if $as_test; then
     fi
 fi
 export CARGO_TARGET_DIR="${CARGO_TARGET_DIR:-$PWD/target}/fuzz"
-RUSTC_WRAPPER="$PWD/rustc.sh" "${cargo[@]}" build --locked --release --bins
+RUSTC_WRAPPER="$PWD/rustc.sh" "${cargo[@]}" build --locked --profile "$profile" --bins
 
 temporary=$(mktemp -d)
 trap 'rm -rf "$temporary"' EXIT
@@ -47,17 +49,19 @@ if $as_test; then export FOUND=$temporary/corpus; else export FOUND=$CARGO_TARGE
 # Short stacks of allocations, and freed memory kept for 16 MB: several times as many executions a second.
 export ASAN_OPTIONS=malloc_context_size=4:detect_stack_use_after_return=0:quarantine_size_mb=16
 
+export PROGRAMS=$CARGO_TARGET_DIR/$profile
+
 # One target; says how many executions there were, or all of it if it fails.
 run() {
     local target=$1 limits=$2 new="$FOUND/$1" log="$TMPDIR/$1.log"
     mkdir -p "$new" "artifacts/$target"
-    if "$CARGO_TARGET_DIR/release/$target" "$new" "corpus/$target" $limits -max_len=512 -timeout=20 \
+    if "$PROGRAMS/$target" "$new" "corpus/$target" $limits -max_len=512 -timeout=20 \
         -rss_limit_mb=2048 -malloc_limit_mb=256 -artifact_prefix="artifacts/$target/" -print_final_stats=1 >"$log" 2>&1; then
         echo "fuzz: $target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions, $(
             sed -n 's/.*\(cov: [0-9]*\).*/\1/p' "$log" | tail -n 1) edges, no failure"
     else
         grep -avE '^#[0-9]+.*(NEW|REDUCE|pulse|RELOAD)' "$log" | tail -n 150
-        echo "fuzz: $target failed; again: $CARGO_TARGET_DIR/release/$target fuzz/artifacts/$target/..."
+        echo "fuzz: $target failed; again: $PROGRAMS/$target fuzz/artifacts/$target/..."
         return 1
     fi
 }

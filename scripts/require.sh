@@ -1,28 +1,25 @@
 #!/bin/sh
-# Installs what is missing, on Debian and its like where that is possible without asking; else prints the line that does.
-# Asks for Rust in any case, which no distribution of today has new enough.
+# Installs what is missing: Debian packages (scripts/apt.sh), Rust (scripts/rust.sh), and the crates of Cargo.lock. What cannot be had
+# ends in one line on stderr.
 #
-#   require.sh COMMAND_OR_FILE=PACKAGE ...
+#   require.sh NEEDED=PACKAGE ...        a command; a file, which has a slash in its name; or PYTHON:MODULE
+scripts=${0%/*}
 missing=
 for pair in "$@"; do
     needed=${pair%%=*}
-    command -v "$needed" >/dev/null 2>&1 || [ -e "$needed" ] || missing="$missing ${pair#*=}"
+    case $needed in
+    *:*) "${needed%%:*}" -c "import ${needed#*:}" >/dev/null 2>&1 ;;
+    */*) [ -e "$needed" ] ;;
+    *) command -v "$needed" >/dev/null 2>&1 ;;
+    esac || missing="$missing ${pair#*=}"
 done
-if [ -n "$missing" ]; then
-    line="apt-get install -y --no-install-recommends$missing"
-    if command -v apt-get >/dev/null 2>&1 && [ "$(id -u)" = 0 ]; then
-        apt-get update -q && DEBIAN_FRONTEND=noninteractive $line || exit 1
-    elif command -v apt-get >/dev/null 2>&1 && sudo -n true 2>/dev/null; then
-        sudo apt-get update -q && sudo DEBIAN_FRONTEND=noninteractive $line || exit 1
-    else
-        echo "missing:$missing; on Debian: sudo $line" >&2
-        exit 1
-    fi
-fi
+# Unquoted: each word is a package.
+[ -z "$missing" ] || "$scripts/apt.sh" $missing || exit 1
+"$scripts/rust.sh" || exit 1
 
-wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' "$(dirname "$0")/../Cargo.toml")
-found=$(cargo --version 2>/dev/null | cut -d ' ' -f 2)
-if [ "$(printf '%s\n' "$wanted" "${found:-0}" | sort -V | head -n 1)" != "$wanted" ]; then
-    echo "Rust $wanted or newer is needed, found ${found:-none}: curl --proto '=https' --tlsv1.2 -sSf https://sh.rustup.rs | sh" >&2
+cd "$scripts/.." || exit 1
+PATH=$PWD/.rust/bin:$PATH:$HOME/.cargo/bin
+if ! errors=$(cargo fetch --locked --quiet 2>&1); then
+    echo "the crates of Cargo.lock cannot be fetched:" $(printf '%s\n' "$errors" | grep -v '^Caused by:\|^$') >&2
     exit 1
 fi

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests stability.py and chart.py:  test_stability.py BUILD
+"""Tests stability.py and report.py:  test_stability.py BUILD
 
 A runner that fails in every way there is gets every failure counted; the runners that are built answer two tiny families
 without any; and the committed chart and page are what the committed CSV files say.
@@ -20,6 +20,7 @@ from decimal import Decimal
 HERE = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.join(HERE, "..", "..")
 sys.path.insert(0, HERE)
+import report  # noqa: E402
 import stability  # noqa: E402
 from stability import Method, cases  # noqa: E402
 
@@ -120,18 +121,17 @@ class Families(unittest.TestCase):
         counts_csv, cost = (os.path.join(self.folder.name, name) for name in ("counts.csv", "cost.csv"))
         stability.write_counts(counts_csv, rows, methods)
         stability.write_costs(cost, rows)
-        svg, page = os.path.join(self.folder.name, "chart.svg"), os.path.join(self.folder.name, "page.md")
-        self.write("page.md", "<!-- table: totals -->\n<!-- end -->\n<!-- table: cost -->\n<!-- end -->\n")
-        chart = [sys.executable, os.path.join(HERE, "chart.py"), counts_csv, cost, svg, page]
-        subprocess.run(chart, check=True, stdout=subprocess.DEVNULL)
-        subprocess.run(chart + ["--check"], check=True)
-        with open(page) as file:
-            self.assertIn("| `swiftprox` | 0 |", file.read())
+        head, counts, costs = report.read_both(counts_csv, cost)
+        page = report.page("<!-- table: totals -->\n<!-- end -->\n<!-- table: cost -->\n<!-- end -->\n", head, counts, costs)
+        self.assertIn("| `swiftprox` | 0 |", page)
+        self.assertIn("| apart | 4 |", page)
+        lines = report.chart(head, counts).lines
+        self.assertEqual([(line.label, line.cells[0].text, line.last) for line in lines], [("apart", "0", "4"), ("meeting", "0", "2"), ("all", "0", "6")])
 
     def test_the_committed_chart_and_page_say_what_the_csv_says(self):
         made = [os.path.join(ROOT, *path.split("/")) for path in
                 ("benches/results/stability.csv", "benches/results/stability-cost.csv", "docs/charts/failures.svg", "docs/stability.md")]
-        subprocess.run([sys.executable, os.path.join(HERE, "chart.py"), *made, "--check"], check=True)
+        subprocess.run([sys.executable, os.path.join(HERE, "report.py"), *made, "--check"], check=True)
 
     def test_the_committed_counts_are_of_all_families_and_this_library_failed_in_none(self):
         sources = glob.glob(os.path.join(ROOT, "benches", "common", "hard", "*.rs"))

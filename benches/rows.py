@@ -1,0 +1,34 @@
+"""Rows of the CSV files in benches/results, and what every script does with them."""
+import csv
+import math
+
+
+def read(path):
+    """The head lines of a CSV file, without their "# ", and its rows, whose numbers are floats."""
+    with open(path) as file:
+        lines = file.read().splitlines()
+    head = [line[2:] for line in lines if line.startswith("# ")]
+    rows = list(csv.DictReader(line for line in lines if not line.startswith("# ")))
+    return head, rows
+
+
+def with_numbers(rows, names):
+    """The rows with those of the named columns that they have as floats, and n as a whole number."""
+    for row in rows:
+        row.update((name, float(row[name])) for name in row.keys() & set(names))
+        if "n" in row:
+            row["n"] = int(row["n"])
+    return rows
+
+
+def machine(head):
+    """On what was measured: without the compiler's flags, which stand in the CSV file."""
+    return head.split(", -")[0]
+
+
+def in_order(items):
+    return list(dict.fromkeys(items))
+
+
+def geometric_mean(values):
+    return math.exp(sum(map(math.log, values)) / len(values))
