@@ -13,7 +13,8 @@ import unittest
 
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(SCRIPTS)
-EVERYWHERE = ("sh", "cat", "chmod", "cp", "cut", "dirname", "env", "grep", "head", "ln", "mkdir", "mktemp", "rm", "sed", "sort", "tail")
+EVERYWHERE = ("sh", "cat", "chmod", "cp", "cut", "dirname", "env", "grep", "head", "ln", "mkdir", "mktemp", "rm", "sed", "sort",
+              "tail")
 WRITE_DOWN = '#!/bin/sh\necho "${0##*/} $*" >>"$CALLS"\n'
 CARGO = 'if [ "$1" = --version ]; then echo "cargo VERSION (30a34c682 2025-05-25)"; fi\n'
 # Packages are folders of commands.
