@@ -11,6 +11,8 @@ cd "$(dirname "$0")/.." || exit 1
 wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 # Not the newest: nobody knows its compiler and its lints yet.
 version=1.95.0
+# It has the script that sh.rustup.rs leads to, too: one host to reach, not two.
+server=https://static.rust-lang.org
 folder=$PWD/.rust
 PATH=$folder/bin:$PATH:$HOME/.cargo/bin
 
@@ -40,7 +42,7 @@ by_rustup() {
 
 by_installer() {
     command -v curl >/dev/null 2>&1 || try scripts/apt.sh curl ca-certificates || return
-    try curl --proto '=https' --tlsv1.2 -sSfo "$temporary/installer" https://sh.rustup.rs || return
+    try curl --proto '=https' --tlsv1.2 -sSfo "$temporary/installer" "$server/rustup/rustup-init.sh" || return
     try env RUSTUP_HOME="$folder/rustup" CARGO_HOME="$folder/cargo" RUSTUP_INIT_SKIP_PATH_CHECK=yes sh "$temporary/installer" -y \
         --no-modify-path --profile minimal --default-toolchain "$version" -c rustfmt -c clippy
 }
@@ -56,7 +58,7 @@ else
     by_installer
 fi || {
     echo "$lacking, and Rust $version cannot be installed: ${reason:-no reason given}; with a network that reaches" \
-        "sh.rustup.rs and static.rust-lang.org try again, or install Rust yourself: https://rustup.rs" >&2
+        "$server try again, or install Rust yourself: https://rustup.rs" >&2
     exit 1
 }
 # The link comes last: what was interrupted is not taken for complete.

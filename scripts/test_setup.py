@@ -248,7 +248,7 @@ class Rust(Machine):
             self.assertFalse(os.path.lexists(os.path.join(self.project, ".rust", "bin")))
 
     def test_an_installer_that_cannot_be_downloaded_ends_in_one_line(self):
-        self.command("curl", 'echo "curl: (6) Could not resolve host: sh.rustup.rs" >&2; exit 6\n')
+        self.command("curl", 'echo "curl: (6) Could not resolve host: static.rust-lang.org" >&2; exit 6\n')
         self.assert_refused("Could not resolve host")
 
     def test_an_installer_that_fails_ends_in_one_line(self):
