@@ -48,20 +48,21 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-# Side by side: while one compiles what takes a single core, another tests. What each of them prints comes when it is done.
+# Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
 test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
 	-@scripts/require.sh valgrind=valgrind $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse lint test-rust test-c test-fuzz
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz lint
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
 	cargo fmt --check
 	cargo clippy --locked --profile checked --all-targets -- -D warnings
-	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' --exclude-dir=target \
-	    --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || { echo 'comments are at most 132 columns wide'; exit 1; }
+	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' \
+	    --exclude-dir=target --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || \
+	    { echo 'comments are at most 132 columns wide'; exit 1; }
 	python3 benches/figures.py --check $(FIGURES)-*.csv
 	python3 benches/plot.py --check
 

@@ -1,6 +1,6 @@
 #!/bin/sh
-# Installs what is missing: Debian packages (scripts/apt.sh), Rust (scripts/rust.sh), and the crates of Cargo.lock. What cannot be had
-# ends in one line on stderr.
+# Installs what is missing: Debian packages (scripts/apt.sh), Rust (scripts/rust.sh), and the crates of Cargo.lock. What cannot be
+# had ends in one line on stderr.
 #
 #   require.sh NEEDED=PACKAGE ...        a command; a file, which has a slash in its name; or PYTHON:MODULE
 scripts=${0%/*}

@@ -1,16 +1,18 @@
 #!/bin/sh
-# Sees to it that there is a Rust new enough. One that is missing, too old, or without a command that is needed is left as it is, and
-# another installed for this project alone, into the folder .rust. Its commands are in .rust/bin, where the Makefile and CMake look
-# first. `rm -r .rust` takes it away.
+# Sees to it that there is a Rust new enough. Where it is missing, too old, or lacks a command that is needed, one is installed for
+# this project alone, into the folder .rust; the old one stays as it is. The commands are in .rust/bin, where the Makefile and CMake
+# look first. `rm -r .rust` takes it away.
 #
 #   rust.sh [COMMAND ...]        further commands that are needed: cargo-fmt, cargo-clippy
 #
-# By rustup where it is installed or a package of the system's, else by the installer of https://rustup.rs. To both RUSTUP_DIST_SERVER
-# names a mirror. What cannot be fetched ends in one line on stderr.
+# By rustup where it is installed or a package of the system's, else by the installer of https://rustup.rs. RUSTUP_DIST_SERVER names
+# a mirror to both. What cannot be fetched ends in one line on stderr.
 cd "$(dirname "$0")/.." || exit 1
 wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' Cargo.toml)
 # Not the newest: nobody knows its compiler and its lints yet.
 version=1.95.0
+# It has the script that sh.rustup.rs leads to, too: one host to reach, not two.
+server=https://static.rust-lang.org
 folder=$PWD/.rust
 PATH=$folder/bin:$PATH:$HOME/.cargo/bin
 
@@ -40,7 +42,7 @@ by_rustup() {
 
 by_installer() {
     command -v curl >/dev/null 2>&1 || try scripts/apt.sh curl ca-certificates || return
-    try curl --proto '=https' --tlsv1.2 -sSfo "$temporary/installer" https://sh.rustup.rs || return
+    try curl --proto '=https' --tlsv1.2 -sSfo "$temporary/installer" "$server/rustup/rustup-init.sh" || return
     try env RUSTUP_HOME="$folder/rustup" CARGO_HOME="$folder/cargo" RUSTUP_INIT_SKIP_PATH_CHECK=yes sh "$temporary/installer" -y \
         --no-modify-path --profile minimal --default-toolchain "$version" -c rustfmt -c clippy
 }
@@ -55,8 +57,8 @@ if command -v rustup >/dev/null 2>&1 || try scripts/apt.sh rustup; then
 else
     by_installer
 fi || {
-    echo "$lacking, and Rust $version cannot be installed: ${reason:-no reason given}; with a network that reaches sh.rustup.rs and" \
-        "static.rust-lang.org try again, or install Rust yourself: https://rustup.rs" >&2
+    echo "$lacking, and Rust $version cannot be installed: ${reason:-no reason given}; with a network that reaches" \
+        "$server try again, or install Rust yourself: https://rustup.rs" >&2
     exit 1
 }
 # The link comes last: what was interrupted is not taken for complete.

@@ -13,7 +13,8 @@ import unittest
 
 SCRIPTS = os.path.dirname(os.path.abspath(__file__))
 ROOT = os.path.dirname(SCRIPTS)
-EVERYWHERE = ("sh", "cat", "chmod", "cp", "cut", "dirname", "env", "grep", "head", "ln", "mkdir", "mktemp", "rm", "sed", "sort", "tail")
+EVERYWHERE = ("sh", "cat", "chmod", "cp", "cut", "dirname", "env", "grep", "head", "ln", "mkdir", "mktemp", "rm", "sed", "sort",
+              "tail")
 WRITE_DOWN = '#!/bin/sh\necho "${0##*/} $*" >>"$CALLS"\n'
 CARGO = 'if [ "$1" = --version ]; then echo "cargo VERSION (30a34c682 2025-05-25)"; fi\n'
 # Packages are folders of commands.
@@ -260,7 +261,7 @@ class Rust(Machine):
             self.assertFalse(os.path.lexists(os.path.join(self.project, ".rust", "bin")))
 
     def test_an_installer_that_cannot_be_downloaded_ends_in_one_line(self):
-        self.command("curl", 'echo "curl: (6) Could not resolve host: sh.rustup.rs" >&2; exit 6\n')
+        self.command("curl", 'echo "curl: (6) Could not resolve host: static.rust-lang.org" >&2; exit 6\n')
         self.assert_refused("Could not resolve host")
 
     def test_an_installer_that_fails_ends_in_one_line(self):
