@@ -44,8 +44,8 @@
  *
  * Floating-point environment. It may be any: another rounding, subnormal numbers flushed to zero, exceptions trapped. On x86-64 and
  * AArch64 the answers are bit for bit those in the default one. A function sets that where the program's differs, and puts the
- * program's back before it returns. Functions of the program's that it calls find the program's own; what they change of it ends with
- * them. A call clears no flag of an exception and may raise any. On other processors the environment must be the default one.
+ * program's back before it returns. Functions of the program's that it calls find the program's own; what they change of it ends
+ * with them. A call clears no flag of an exception and may raise any. On other processors the environment must be the default one.
  *
  * Closed sets. Touching is intersecting. An interval [lower, upper] holds the true distance, rounding included.
  */

@@ -280,8 +280,8 @@ pub fn exit_of_prism<L: Lanes>(
 fn exit_fractions<L: Lanes>(start: L, end: L) -> L {
     let (zero, never) = (L::splat(0.0), L::splat(f64::INFINITY));
     let inside = start.max(zero);
-    // What does not fall below 0 falls by the least double, so that no 0/0 is computed. (Not by a choice of lanes: LLVM divides first
-    // and chooses afterwards.)
+    // What does not fall below 0 falls by the least double, so that no 0/0 is computed. (Not by a choice of lanes: LLVM divides
+    // first and chooses afterwards.)
     let below = end.negate().max(L::splat(f64::from_bits(1)));
     let fraction = inside.div(inside.add(below));
     fraction.where_greater(zero, end, never).where_greater(start, end, never)

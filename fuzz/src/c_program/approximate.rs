@@ -13,8 +13,8 @@ use swiftprox::pair::{Bounds, Levels, Outcome, PairAnswer, PairConfig, Refinemen
 use swiftprox::scene::PairResult;
 
 use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
-use super::{Program, check_verified, last_message};
 use super::shapes::ask_alike;
+use super::{Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
 
 const ERRORS: [f64; 5] = [0.0, 1e-9, 1e-2, 1.0, f64::INFINITY];

@@ -232,9 +232,7 @@ impl Program {
         }
         let answer = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
-        Ok(unsafe {
-            inside(self.environment, || swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer))
-        })
+        Ok(unsafe { inside(self.environment, || swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer)) })
     }
 }
 
