@@ -9,9 +9,9 @@ mod common;
 use std::time::Instant;
 
 use common::models::{ELLIPSOIDS, ellipsoid};
+use swiftprox::build::assembly::build;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
 use swiftprox::progress::Progress;
 
 const KINDS: [(HierarchyKind, &str); 3] = [

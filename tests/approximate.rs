@@ -12,13 +12,13 @@ use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::random::{Random, rotation};
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
+use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 
 const KINDS: [HierarchyKind; 4] =

@@ -12,7 +12,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use common::hard::flight::{poses, shapes};
 use common::hard::{Sequence, families};
 use shapes::{at, cuboid};
-use swiftprox::exact;
+use swiftprox::base::simd::environment::{Environment, Rounding, is_invalid};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
@@ -23,7 +23,7 @@ use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file;
-use swiftprox::simd::environment::{Environment, Rounding, is_invalid};
+use swiftprox::solve::exact;
 use swiftprox::verify::verify;
 
 const DEFAULT: Environment = Environment { rounding: Rounding::Nearest, flushes: false, traps: false };

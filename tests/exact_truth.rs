@@ -13,9 +13,9 @@ use cases::{Case, FAMILIES, Random, coordinates, row_major};
 use certificate::dot;
 use dashu_ratio::RBig;
 use oracle::{Truth, rational, transform};
-use swiftprox::exact::{ExactAnswer, VertexPair, encloses_origin, solve};
+use swiftprox::build::assembly::build;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
+use swiftprox::solve::exact::{ExactAnswer, VertexPair, encloses_origin, solve};
 
 const CASES_PER_FAMILY: usize = 1_000;
 

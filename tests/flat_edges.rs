@@ -8,9 +8,9 @@ mod shapes;
 use common::caches::cache_of_features;
 use common::random::Random;
 use shapes::hull;
-use swiftprox::exact::solve;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
+use swiftprox::solve::exact::solve;
 
 /// An edge of B lies deep inside A, under a ridge of A that is all but flat, and nearly parallel to it: the difference of the
 /// edges' nearest points is perpendicular to both, but points the wrong way for A.

@@ -7,10 +7,10 @@ mod random;
 use std::collections::BTreeSet;
 
 use random::Random;
-use swiftprox::hull_build::{Hull, convex_hull};
-use swiftprox::hull_check::check_hull;
+use swiftprox::base::predicates::ExactPoints;
+use swiftprox::build::check::check_hull;
+use swiftprox::build::hull::{Hull, convex_hull};
 use swiftprox::math::Vector;
-use swiftprox::predicates::ExactPoints;
 
 /// The corners of the hull of a set that spans a plane or space, by definition, O(n⁴): the corners of
 /// the polygon in every supporting plane. Exact duplicates once, by their lowest index.

@@ -1,8 +1,8 @@
 //! What `check_mesh` accepts, and that it says where the rest is wrong.
 
+use swiftprox::build::check::check_mesh;
+use swiftprox::build::hull::convex_hull;
 use swiftprox::error::Error;
-use swiftprox::hull_build::convex_hull;
-use swiftprox::hull_check::check_mesh;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
 

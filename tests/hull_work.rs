@@ -3,9 +3,9 @@
 
 use std::f64::consts::TAU;
 
+use swiftprox::build::check::check_hull;
+use swiftprox::build::hull::{convex_hull, convex_hull_in_steps};
 use swiftprox::error::Error;
-use swiftprox::hull_build::{convex_hull, convex_hull_in_steps};
-use swiftprox::hull_check::check_hull;
 use swiftprox::math::Vector;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};

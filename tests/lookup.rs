@@ -10,20 +10,20 @@ use std::{ptr, thread};
 use common::models::{cuboid, ellipsoid, grid_on_cube, prism, random_hull};
 use common::orbits::{ORBITS, Step, poses};
 use common::random::{Random, rotation};
+use swiftprox::base::simd::Portable;
 use swiftprox::error::Error;
-use swiftprox::frame::{Frame, Marker};
-use swiftprox::lookup::{Cells, Plan, Shells, Spherical, Table};
-use swiftprox::lookup_build::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
+use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::nearest_vertex::{AllVertices, NearestVertex};
+use swiftprox::pair::start::{self, Guess};
 use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
-use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
+use swiftprox::polyhedron::lookup::{Cells, Plan, Shells, Spherical, Table};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
-use swiftprox::simd::Portable;
-use swiftprox::start::{self, Guess};
+use swiftprox::solve::frame::{Frame, Marker};
+use swiftprox::tables::nearest_vertex::{AllVertices, NearestVertex};
+use swiftprox::tables::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
 use swiftprox::verify::verify;
 
 fn options(kind: LookupKind, resolution: u32) -> ShapeOptions {

@@ -17,7 +17,7 @@ mod cases {
 use common::random::Random;
 use retold::{renumbered, shifted_exactly, shuffled};
 use shapes::hull;
-use swiftprox::hull_build::convex_hull;
+use swiftprox::build::hull::convex_hull;
 use swiftprox::math::{Matrix, Pose, Vector, power_of_two};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{

@@ -6,13 +6,13 @@ mod common;
 
 use common::models::{ELLIPSOIDS, ellipsoid, random_hull};
 use common::random::{Random, rotation};
+use swiftprox::base::predicates::ExactPoints;
+use swiftprox::build::assembly::build;
 use swiftprox::error::Error;
+use swiftprox::levels::outer_cuts::outer_cuts;
+use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::Vector;
-use swiftprox::outer_cuts::outer_cuts;
-use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
-use swiftprox::predicates::ExactPoints;
 use swiftprox::progress::Progress;
 
 fn hull(points: &[Vector]) -> Polyhedron {
@@ -195,6 +195,8 @@ fn a_body_whose_first_block_rounding_opens_has_no_levels_or_sound_ones() {
     .map(Vector::from);
     let body = hull(&points);
     for counts in [&[6][..], &[4, 8, 12], &[60]] {
-        assert!(levels(&body, counts).iter().all(|level| swiftprox::containment::contains(level, &body).unwrap()));
+        assert!(
+            levels(&body, counts).iter().all(|level| swiftprox::levels::containment::contains(level, &body).unwrap())
+        );
     }
 }

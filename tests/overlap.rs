@@ -7,13 +7,13 @@ mod shapes;
 
 use random::Random;
 use shapes::{cuboid, hull};
-use swiftprox::enclosure::encloses_origin;
-use swiftprox::exact;
-use swiftprox::frame::Frame;
+use swiftprox::base::simd::Portable;
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
 use swiftprox::shape::Shape;
-use swiftprox::simd::Portable;
+use swiftprox::solve::enclosure::encloses_origin;
+use swiftprox::solve::exact;
+use swiftprox::solve::frame::Frame;
 
 fn moved(translation: Vector) -> Pose {
     Pose::new(&Matrix::identity(), &translation)

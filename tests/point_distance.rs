@@ -5,11 +5,11 @@ mod common;
 
 use common::models::{ELLIPSOIDS, cuboid, ellipsoid, prism, random_hull};
 use common::random::Random;
-use swiftprox::exact;
+use swiftprox::build::assembly::build;
+use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::point_distance::PointDistance;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
+use swiftprox::solve::exact;
 
 fn bodies() -> Vec<(String, Polyhedron)> {
     let mut all: Vec<(String, Vec<Vector>)> = Vec::new();

@@ -8,13 +8,13 @@ use std::collections::HashSet;
 
 use common::models::{ELLIPSOIDS, ellipsoid, prism};
 use common::random::Random;
+use swiftprox::build::assembly::build;
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
+use swiftprox::levels::quadric::{Simplified, simplify};
 use swiftprox::math::Vector;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
 use swiftprox::progress::Progress;
-use swiftprox::quadric::{Simplified, simplify};
 
 fn hull(points: &[Vector]) -> Polyhedron {
     build(points, None).unwrap()

@@ -10,7 +10,6 @@ use std::sync::Arc;
 use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use shapes::at;
 use swiftprox::error::Error;
-use swiftprox::exact::solve;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
@@ -18,6 +17,7 @@ use swiftprox::pair::{self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, Pa
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
+use swiftprox::solve::exact::solve;
 use swiftprox::verify::verify;
 
 fn scene() -> Scene {

@@ -9,15 +9,15 @@ use std::path::Path;
 
 use common::models::{cuboid, ellipsoid, prism, random_hull};
 use common::random::Random;
+use swiftprox::build::assembly::Labels;
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::polyhedron_build::Labels;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, from_bytes_in_steps, load, load_in_steps, save, to_bytes};
+use swiftprox::tables::{LookupKind, LookupOptions};
 
 const KINDS: [HierarchyKind; 5] = [
     HierarchyKind::None,
@@ -241,7 +241,7 @@ fn forged_files_give_a_sound_shape_or_an_error() {
             Ok(shape) => {
                 accepted += 1;
                 for level in &shape.hierarchy().levels {
-                    assert!(swiftprox::containment::contains(&level.polyhedron, shape.polyhedron()).unwrap());
+                    assert!(swiftprox::levels::containment::contains(&level.polyhedron, shape.polyhedron()).unwrap());
                 }
                 assert_eq!(from_bytes(&to_bytes(&shape).unwrap()).unwrap(), shape);
                 let labels = &shape.polyhedron().vertex_labels;

@@ -12,11 +12,11 @@ use std::sync::atomic::{AtomicU64, Ordering};
 
 use common::caches::cache_of_features;
 use common::random::Random;
-use swiftprox::exact::{ExactAnswer, solve};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::solve::exact::{ExactAnswer, solve};
 use swiftprox::verify::verify;
 
 /// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/polyhedron_build/layout.rs).

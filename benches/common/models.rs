@@ -1,7 +1,7 @@
 //! Models: convex polyhedra as polygon meshes, outward faces counter-clockwise.
 
+use swiftprox::build::hull::convex_hull;
 use swiftprox::error::Result;
-use swiftprox::hull_build::convex_hull;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
 

@@ -5,8 +5,8 @@
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
-use swiftprox::hull_build::{Hull, convex_hull};
-use swiftprox::hull_check::check_hull;
+use swiftprox::build::hull::{Hull, convex_hull};
+use swiftprox::build::check::check_hull;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;

@@ -15,7 +15,7 @@ use swiftprox::pair::{
     intersection,
 };
 use swiftprox::shape::Shape;
-use swiftprox::simd::environment::Environment;
+use swiftprox::base::simd::environment::Environment;
 use swiftprox::verify::verify;
 use swiftprox_fuzz::bodies::Body;
 use swiftprox_fuzz::cases::{Case, Random};

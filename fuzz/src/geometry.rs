@@ -4,10 +4,10 @@
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use nalgebra::{Quaternion, UnitQuaternion};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::lookup_build::{LookupKind, LookupOptions};
+use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::shape::{InputPolicy, ShapeOptions};
-use swiftprox::simd::environment::Environment;
+use swiftprox::base::simd::environment::Environment;
 
 /// What doubles do badly.
 const SPECIAL: [f64; 16] = [

@@ -11,7 +11,7 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::{Failure, StatusCode, guard, must_return};
-use crate::simd::environment::with_callers;
+use crate::base::simd::environment::with_callers;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
 /// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's

@@ -3,7 +3,7 @@
 use super::shape::{copy_triangles, copy_vertices, create, read_arrays};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
-use crate::memory::with_capacity;
+use crate::base::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 

@@ -4,7 +4,7 @@ use std::ffi::{CStr, c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
 use super::{Failure, LAST_ERROR, StatusCode, guard, must_return};
-use crate::enumerator::Enumerator;
+use crate::base::enumerator::Enumerator;
 use crate::pair::{FeatureKind, Outcome};
 
 /// Major version of this header: programs compiled with another one do not go with this library.

@@ -5,10 +5,10 @@ use std::sync::Arc;
 
 use super::shape::{Faces, check_count, read_faces, read_vectors};
 use super::{Checked, Failure, StatusCode, call_out, exclusive, guard, string};
-use crate::error::{Error, Result};
-use crate::memory::{extend, reserve, with_capacity};
+use crate::base::error::{Error, Result};
+use crate::base::memory::{extend, reserve, with_capacity};
+use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};
 use crate::mesh::{PolygonMesh, check_vertex};
-use crate::mesh_io::{register_mesh_reader, unregister_mesh_reader};
 
 /// Receives the mesh that a swift_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call of
 /// the callback, for its thread.

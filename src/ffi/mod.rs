@@ -27,11 +27,11 @@ use std::mem::MaybeUninit;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Once;
 
-use crate::enumerator::{Enumerator, enumerator};
-use crate::error::Error;
+use crate::base::enumerator::{Enumerator, enumerator};
+use crate::base::error::Error;
+use crate::base::simd::environment::with_default;
 use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
 use crate::shape::InputPolicy;
-use crate::simd::environment::with_default;
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -7,10 +7,10 @@ use super::scene::{SceneHandle, change, look};
 use super::shape::{read_arrays, read_path};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, output, read_struct, write_struct};
-use crate::math::{Matrix, Pose, Vector};
-use crate::memory::{collected, with_capacity};
-use crate::object::{ObjectId, ObjectOptions};
+use crate::base::math::{Matrix, Pose, Vector};
+use crate::base::memory::{collected, with_capacity};
 use crate::scene::Scene;
+use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
 /// How an object begins. Fill it with swift_object_options_init, then change what should differ.

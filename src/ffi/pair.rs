@@ -5,13 +5,13 @@ use super::{
     Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, input, output, read_enumerator, read_struct,
     struct_size,
 };
-use crate::error::Result;
-use crate::math::Pose;
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::pair::verify::verify;
 use crate::pair::{
     self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status,
 };
 use crate::shape::Shape;
-use crate::verify::verify;
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for PairConfig {
@@ -302,7 +302,7 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
 mod tests {
     use super::super::library::swift_library_last_error_message;
     use super::*;
-    use crate::math::Vector;
+    use crate::base::math::Vector;
     use crate::shape::ShapeOptions;
     use std::ffi::CStr;
     use std::ptr::null;

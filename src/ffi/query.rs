@@ -2,7 +2,7 @@
 
 use super::scene::{SceneHandle, change, look};
 use super::{StatusCode, Versioned, guard, output, read_enumerator, read_struct};
-use crate::error::Result;
+use crate::base::error::Result;
 use crate::pair::{Bounds, Levels, Refinement, Start};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 
@@ -251,8 +251,8 @@ mod tests {
     use super::super::object::swift_scene_add_object;
     use super::super::scene::{swift_scene_activate_all, swift_scene_create, swift_scene_destroy};
     use super::*;
-    use crate::math::Vector;
-    use crate::object::ObjectId;
+    use crate::base::math::Vector;
+    use crate::scene::object::ObjectId;
     use crate::shape::{Shape, ShapeOptions};
     use std::ffi::CStr;
     use std::ptr::{null, null_mut};

@@ -4,8 +4,8 @@ use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::{Checked, Failure, StatusCode, Versioned, guard, input, keep_panics_quiet, output, read_struct};
-use crate::math::ROTATION_LIMIT;
-use crate::object::ObjectId;
+use crate::base::math::ROTATION_LIMIT;
+use crate::scene::object::ObjectId;
 use crate::scene::{Scene, SceneOptions};
 use crate::shape::Shape;
 

@@ -8,14 +8,14 @@ use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_optio
 use super::{
     Checked, Failure, StatusCode, Versioned, array, guard, input, keep_panics_quiet, output, string, write_struct,
 };
-use crate::lookup::Plan;
-use crate::lookup_build::LookupKind;
-use crate::math::Vector;
-use crate::memory::{collected, copied};
+use crate::base::math::Vector;
+use crate::base::memory::{collected, copied};
 use crate::mesh::PolygonMesh;
 use crate::polyhedron::Polyhedron;
+use crate::polyhedron::lookup::Plan;
 use crate::shape::Shape;
-use crate::shape_file;
+use crate::shape::file as shape_file;
+use crate::tables::LookupKind;
 
 /// What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it.
 #[derive(Debug, Clone, Copy)]

@@ -3,12 +3,12 @@
 use std::ffi::c_void;
 
 use super::{Checked, Failure, StatusCode, Versioned, call_out, guard, output, read_enumerator, read_struct};
-use crate::error::Result;
-use crate::hierarchy::{HierarchyKind, HierarchyOptions};
-use crate::lookup_build::{LookupKind, LookupOptions};
-use crate::math::{Matrix, Vector};
-use crate::progress::Progress;
+use crate::base::error::Result;
+use crate::base::math::{Matrix, Vector};
+use crate::base::progress::Progress;
+use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
+use crate::tables::{LookupKind, LookupOptions};
 
 /// Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
 /// with the callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that

@@ -1,15 +1,15 @@
 //! What of a minimum that marching finds is good enough an answer, at a quick look or a closer one.
 
 use super::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Query, Status, set_interval};
-use crate::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
-use crate::contact;
-use crate::frame::Frame;
-use crate::marching;
-use crate::math::{Pose, ROTATION_LIMIT, divisor};
+use crate::base::math::{Pose, ROTATION_LIMIT, divisor};
+use crate::base::simd::{Kernel, Lanes};
+use crate::pair::contact;
 use crate::polyhedron::Polyhedron;
-use crate::separating_axis::NUDGE;
-use crate::simd::{Kernel, Lanes};
-use crate::state::State;
+use crate::solve::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
+use crate::solve::frame::Frame;
+use crate::solve::marching;
+use crate::solve::separating_axis::NUDGE;
+use crate::solve::state::State;
 
 /// Accepts a minimum whose interval is good enough: answer and cache are then written.
 pub(super) struct Acceptance<'a> {

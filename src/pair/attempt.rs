@@ -3,13 +3,13 @@
 
 use super::acceptance::{Acceptance, AtFirst};
 use super::{Attempt, PairQuery, Start, Statistics};
-use crate::descent::TRIAL_STEPS;
-use crate::frame::{Frame, Marker};
-use crate::marching::{self, March, Way};
+use crate::base::simd::{Kernel, Lanes, Work};
+use crate::pair::descent::TRIAL_STEPS;
+use crate::pair::start::{self, Beginning, FROM_CENTRES, Guess};
 use crate::polyhedron::Polyhedron;
-use crate::simd::{Kernel, Lanes, Work};
-use crate::start::{self, Beginning, FROM_CENTRES, Guess};
-use crate::state::State;
+use crate::solve::frame::{Frame, Marker};
+use crate::solve::marching::{self, March, Way};
+use crate::solve::state::State;
 
 /// The common case, for [ordinary](Polyhedron::ordinary) bodies: the cached features still are the nearest. One state, straight
 /// through to the answer, without the loop that would keep so much in registers.

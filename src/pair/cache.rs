@@ -1,14 +1,14 @@
 //! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand.
 
 use super::{PairConfig, Start};
-use crate::descent::{Leveled, Place};
-use crate::exact::VertexPair;
-use crate::frame::Marker;
-use crate::math::Vector;
-use crate::overlap::Pairs;
+use crate::base::math::Vector;
+use crate::pair::descent::{Leveled, Place};
 use crate::polyhedron::Polyhedron;
-use crate::separating_axis::Axis;
-use crate::state::State;
+use crate::solve::decide::Pairs;
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Marker;
+use crate::solve::separating_axis::Axis;
+use crate::solve::state::State;
 
 /// What a pair remembers from its last query (that its bounding spheres did not answer). Any bytes are safe; all zero is cold.
 /// It changes how fast an answer comes, never the verdict.

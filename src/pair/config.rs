@@ -1,9 +1,9 @@
 //! What a pair query is asked for.
 
-use crate::descent::{Accuracy, Refinement};
-use crate::error::{Error, Result, check_range};
-use crate::frame::RIGID_TOGETHER;
-use crate::math::ROTATION_LIMIT;
+use crate::base::error::{Error, Result, check_range};
+use crate::base::math::ROTATION_LIMIT;
+use crate::pair::descent::{Accuracy, Refinement};
+use crate::solve::frame::RIGID_TOGETHER;
 
 /// Which interval a query computes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]

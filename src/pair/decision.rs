@@ -3,17 +3,17 @@
 use super::acceptance::{Acceptance, Closely};
 use super::attempt::{FAR, General, has_turned_away, may_have_come_apart};
 use super::{Attempt, Levels, Outcome, PairCache, PairQuery, Query, Start, Statistics, Status, set_interval};
-use crate::contact;
-use crate::contact_direction::contact_direction;
-use crate::enclosure::encloses_origin;
-use crate::error::Result;
-use crate::frame::Frame;
-use crate::math::ROTATION_LIMIT;
-use crate::overlap::{self, Decision, Pairs, Wanted};
+use crate::base::error::Result;
+use crate::base::math::ROTATION_LIMIT;
+use crate::base::simd::{self, Portable};
+use crate::pair::contact;
+use crate::pair::contact_direction::contact_direction;
+use crate::pair::start::{self, Guess};
 use crate::shape::Shape;
-use crate::simd::{self, Portable};
-use crate::start::{self, Guess};
-use crate::state::State;
+use crate::solve::decide::{self, Decision, Pairs, Wanted};
+use crate::solve::enclosure::encloses_origin;
+use crate::solve::frame::Frame;
+use crate::solve::state::State;
 
 impl PairQuery<'_> {
     /// The whole query, for what is not the common case from the start.
@@ -122,8 +122,8 @@ impl PairQuery<'_> {
         // Cheap bounds or not, nearest points are to be nearest.
         let tight = query != Query::Intersection || config.distance_tolerance < f64::INFINITY;
         let wanted = Wanted { tight, distance_tolerance: config.distance_tolerance };
-        let (decision, work) = overlap::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), wanted);
-        let overlap::Work { fallback_iterations, exact_iterations } = work;
+        let (decision, work) = decide::decide(polyhedra, poses, frame.is_some(), hint.as_slice(), wanted);
+        let decide::Work { fallback_iterations, exact_iterations } = work;
         statistics.fallback_iterations = fallback_iterations;
         statistics.exact_iterations = exact_iterations;
         self.answer.statistics = statistics;
@@ -192,7 +192,7 @@ impl PairQuery<'_> {
                 if query == Query::Contact {
                     let overlap = &contact_direction(polyhedra, poses, pairs.as_slice());
                     let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
-                    let points = overlap::combinations(polyhedra, pairs.as_slice(), &weights);
+                    let points = decide::combinations(polyhedra, pairs.as_slice(), &weights);
                     let features = contact::features_of_overlap(polyhedra, poses, pairs.as_slice(), &points, overlap);
                     contact::fill_placed(answer, polyhedra, poses, &points, &overlap.direction, features);
                 } else {

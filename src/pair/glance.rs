@@ -1,11 +1,11 @@
 //! What settles a query at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
 
 use super::{PairAnswer, PairConfig, PairQuery, Statistics, Status, set_interval};
-use crate::certificate::reciprocal_length;
-use crate::contact;
-use crate::frame::{Frame, RIGID_TOGETHER};
-use crate::separating_axis::{self, Search, Trial};
-use crate::simd::{self, Kernel, Lanes};
+use crate::base::simd::{self, Kernel, Lanes};
+use crate::pair::contact;
+use crate::solve::certificate::reciprocal_length;
+use crate::solve::frame::{Frame, RIGID_TOGETHER};
+use crate::solve::separating_axis::{self, Search, Trial};
 
 impl PairQuery<'_> {
     /// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart

@@ -3,9 +3,9 @@
 
 use super::levels::{are_worth_it, may_answer, most_error, surely_most_error};
 use super::{Levels, PairQuery, Status};
-use crate::descent::{self, Leveled, Place, TRIAL_STEPS};
+use crate::base::simd::{self, Kernel, Lanes};
+use crate::pair::descent::{self, Leveled, Place, TRIAL_STEPS};
 use crate::shape::Shape;
-use crate::simd::{self, Kernel, Lanes};
 
 impl PairQuery<'_> {
     /// Whether it is the common case; answer and cache are then written.

@@ -7,22 +7,22 @@ use super::{
     Attempt, Levels, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Query, Start, Statistics, Status,
     set_interval,
 };
-use crate::certificate::Interval;
-use crate::contact;
-use crate::descent::{Accuracy, Descended, Descent, Found, Leveled, Place, TRIAL_STEPS};
-use crate::enclosure::encloses_origin;
-use crate::error::Result;
-use crate::frame::Frame;
-use crate::gjk::{self, Nearest, Simplex};
-use crate::hierarchy::{HierarchyKind, Level};
-use crate::math::{Pose, ROTATION_LIMIT};
-use crate::overlap::Decision;
+use crate::base::error::Result;
+use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::simd::{self, Kernel, Lanes, Portable};
+use crate::levels::hierarchy::{HierarchyKind, Level};
+use crate::pair::contact;
+use crate::pair::descent::{Accuracy, Descended, Descent, Found, Leveled, Place, TRIAL_STEPS};
+use crate::pair::start;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
-use crate::simd::{self, Kernel, Lanes, Portable};
-use crate::start;
-use crate::state::State;
-use crate::voronoi::climb;
+use crate::solve::certificate::Interval;
+use crate::solve::decide::Decision;
+use crate::solve::enclosure::encloses_origin;
+use crate::solve::frame::Frame;
+use crate::solve::gjk::{self, Nearest, Simplex};
+use crate::solve::state::State;
+use crate::solve::voronoi::climb;
 
 /// See [`super::approximate`].
 #[inline(always)]

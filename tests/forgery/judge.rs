@@ -1,10 +1,10 @@
 //! What of an answer is false, by the oracle: in rational numbers, and with twice the allowance that `verify` states.
 
 use dashu_ratio::RBig;
-use swiftprox::exact;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer};
 use swiftprox::polyhedron::Polyhedron;
+use swiftprox::solve::exact;
 
 use crate::cases::{coordinates, row_major};
 use crate::certificate::{dot, proved_by};

@@ -3,12 +3,12 @@
 
 use std::cell::OnceCell;
 
-use swiftprox::lookup_build::{LookupKind, LookupOptions};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{
     Bounds, Outcome, PairAnswer, PairCache, PairConfig, Start, Status, contact, distance, intersection,
 };
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 
 use crate::cases::Random;

@@ -1,9 +1,9 @@
 //! Bodies to make levels of: round and flat, thin and long, smooth and sharp.
 
+use swiftprox::build::assembly::build;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
 
 use crate::common::models::{ELLIPSOIDS, cuboid, ellipsoid, prism, random_hull};
 use crate::common::random::Random;

@@ -1,12 +1,12 @@
 //! What holds for every hierarchy, however made.
 
-use swiftprox::exact;
+use swiftprox::base::predicates::ExactPoints;
+use swiftprox::build::assembly::build;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, Level, Links};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
-use swiftprox::predicates::ExactPoints;
-use swiftprox::state::FeatureId;
+use swiftprox::solve::exact;
+use swiftprox::solve::state::FeatureId;
 
 /// Panics with `name` unless all is well.
 pub fn validate(name: &str, base: &Polyhedron, hierarchy: &Hierarchy) {

@@ -1,7 +1,7 @@
 //! Small pairs of polytopes that are hard in every way known to us, from fixed seeds.
 
 pub use crate::common::random::Random;
-use swiftprox::double_double::{wide_dot, widen};
+use swiftprox::base::double_double::{wide_dot, widen};
 use swiftprox::math::{Matrix, Pose, Vector};
 
 use crate::oracle::{Matrix3x4, Polytope, Truth, truth};

@@ -9,10 +9,10 @@ mod validate;
 use common::models;
 use common::random::Random;
 use random::{ellipsoid, turned};
+use swiftprox::build::assembly::build;
 use swiftprox::math::{UNIT_ROUNDOFF, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;
-use swiftprox::polyhedron_build::build;
 use validate::validate;
 
 fn hull(points: &[Vector]) -> Polyhedron {

@@ -14,7 +14,7 @@ mod scales;
 mod surfaces;
 mod threads;
 
-use swiftprox::hull_build::convex_hull;
+use swiftprox::build::hull::convex_hull;
 use swiftprox::mesh::PolygonMesh;
 
 use super::PosePair;

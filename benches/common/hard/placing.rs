@@ -1,6 +1,6 @@
 //! Placing bodies in contact, a hair apart or a hair into each other, at spots of every kind.
 
-use swiftprox::hull_build::convex_hull;
+use swiftprox::build::hull::convex_hull;
 use swiftprox::math::{Matrix, Vector};
 use swiftprox::mesh::PolygonMesh;
 

@@ -5,8 +5,8 @@ use std::hint::black_box;
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::lookup::Lookup;
-use swiftprox::lookup_build::build_table;
+use swiftprox::polyhedron::lookup::Lookup;
+use swiftprox::tables::build_table;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
 

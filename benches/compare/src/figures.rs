@@ -7,7 +7,7 @@ use std::rc::Rc;
 
 use swiftprox::error::Result;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::lookup_build::{LookupKind, LookupOptions};
+use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Levels, PairConfig, Refinement, Start};
 use swiftprox::shape::{Shape, ShapeOptions};

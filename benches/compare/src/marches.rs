@@ -3,15 +3,15 @@
 
 use std::rc::Rc;
 
-use swiftprox::certificate::{Certify, Gap, Minimum};
-use swiftprox::frame::Frame;
-use swiftprox::marching::{self, March};
+use swiftprox::solve::certificate::{Certify, Gap, Minimum};
+use swiftprox::solve::frame::Frame;
+use swiftprox::solve::marching::{self, March};
 use swiftprox::math::{Pose, ROTATION_LIMIT};
 use swiftprox::shape::Shape;
-use swiftprox::simd::{self, Kernel, Lanes};
-use swiftprox::start;
-use swiftprox::state::State;
-use swiftprox::voronoi::Rule;
+use swiftprox::base::simd::{self, Kernel, Lanes};
+use swiftprox::pair::start;
+use swiftprox::solve::state::State;
+use swiftprox::solve::voronoi::Rule;
 
 use crate::method::{Method, Reply};
 use crate::scenes::PosePair;

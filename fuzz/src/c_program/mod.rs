@@ -21,7 +21,7 @@ use swiftprox::ffi::shape_options::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::PairAnswer;
 use swiftprox::shape::Shape;
-use swiftprox::simd::environment::Environment;
+use swiftprox::base::simd::environment::Environment;
 
 use model::Scene;
 

@@ -9,7 +9,7 @@ use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape::*;
 use swiftprox::pair::{Outcome, PairAnswer};
 use swiftprox::shape::Shape;
-use swiftprox::simd::environment::Environment;
+use swiftprox::base::simd::environment::Environment;
 
 use super::arguments::{
     Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, pair_config, shape_options, start, temporary_file,

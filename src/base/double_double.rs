@@ -1,0 +1,127 @@
+//! Double-double arithmetic: a number as the unevaluated sum of two doubles, about 106 bits.
+//!
+//! Error-free transformations after T. J. Dekker, "A Floating-Point Technique for Extending the Available Precision",
+//! Numerische Mathematik 18 (1971), and D. E. Knuth, The Art of Computer Programming, vol. 2, §4.2.2. Products are split
+//! rather than fused: without a target that has the instruction, a fused multiply-add is a library call. The transformations
+//! are error-free while nothing under- or overflows; the callers say why that does not matter to them.
+
+use std::ops::{Add, Mul, Sub};
+
+use crate::base::math::Vector;
+
+/// hi + lo with |lo| ≤ u·|hi|.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct DoubleDouble {
+    /// The sum rounded to double.
+    pub hi: f64,
+    /// The rest.
+    pub lo: f64,
+}
+
+/// a + b exactly.
+#[inline]
+pub fn two_sum(a: f64, b: f64) -> DoubleDouble {
+    let hi = a + b;
+    let b_part = hi - a;
+    DoubleDouble { hi, lo: (a - (hi - b_part)) + (b - b_part) }
+}
+
+/// a·b exactly.
+#[inline]
+pub fn two_product(a: f64, b: f64) -> DoubleDouble {
+    let hi = a * b;
+    let ((a_high, a_low), (b_high, b_low)) = (split(a), split(b));
+    let lo = a_low * b_low - (((hi - a_high * b_high) - a_low * b_high) - a_high * b_low);
+    DoubleDouble { hi, lo }
+}
+
+/// a as the sum of two numbers of 26 bits (Veltkamp's splitting).
+#[inline]
+fn split(a: f64) -> (f64, f64) {
+    const SPLITTER: f64 = 134_217_729.0; // 2²⁷ + 1
+    let c = SPLITTER * a;
+    let high = c - (c - a);
+    (high, a - high)
+}
+
+/// hi + lo where |hi| ≥ |lo| or hi = 0.
+#[inline]
+fn renormalise(hi: f64, lo: f64) -> DoubleDouble {
+    let sum = hi + lo;
+    DoubleDouble { hi: sum, lo: lo - (sum - hi) }
+}
+
+impl From<f64> for DoubleDouble {
+    #[inline]
+    fn from(hi: f64) -> Self {
+        DoubleDouble { hi, lo: 0.0 }
+    }
+}
+
+impl Add for DoubleDouble {
+    type Output = DoubleDouble;
+
+    /// Off by at most 3u² of the sum, to first order (M. Joldes, J.-M. Muller, V. Popescu, "Tight and Rigorous Error Bounds for
+    /// Basic Building Blocks of Double-Word Arithmetic", 2017, algorithm 6).
+    #[inline]
+    fn add(self, other: DoubleDouble) -> DoubleDouble {
+        let high = two_sum(self.hi, other.hi);
+        let low = two_sum(self.lo, other.lo);
+        let first = renormalise(high.hi, high.lo + low.hi);
+        renormalise(first.hi, first.lo + low.lo)
+    }
+}
+
+impl Sub for DoubleDouble {
+    type Output = DoubleDouble;
+
+    #[inline]
+    fn sub(self, other: DoubleDouble) -> DoubleDouble {
+        self + DoubleDouble { hi: -other.hi, lo: -other.lo }
+    }
+}
+
+impl Mul for DoubleDouble {
+    type Output = DoubleDouble;
+
+    /// Off by at most 8u² of the product: the cross terms are at most u each and rounded by u² each, their sum by 2u², the sum
+    /// with the low word by 3u², and the product of the low words, u², is left out.
+    #[inline]
+    fn mul(self, other: DoubleDouble) -> DoubleDouble {
+        let product = two_product(self.hi, other.hi);
+        renormalise(product.hi, product.lo + (self.hi * other.lo + self.lo * other.hi))
+    }
+}
+
+/// A vector of double-doubles.
+pub type WideVector = [DoubleDouble; 3];
+
+/// p − q, exactly (as a sum of two vectors of doubles).
+#[inline]
+pub fn wide_difference(p: &Vector, q: &Vector) -> WideVector {
+    [two_sum(p.x, -q.x), two_sum(p.y, -q.y), two_sum(p.z, -q.z)]
+}
+
+/// a × b; each component is off by less than 2⁻¹⁰⁰·|a||b|.
+#[inline]
+pub fn wide_cross(a: &WideVector, b: &WideVector) -> WideVector {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// a·b, off by less than 2⁻¹⁰⁰·|a||b|.
+#[inline]
+pub fn wide_dot(a: &WideVector, b: &WideVector) -> DoubleDouble {
+    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
+}
+
+/// A vector as double-doubles.
+#[inline]
+pub fn widen(v: &Vector) -> WideVector {
+    [v.x.into(), v.y.into(), v.z.into()]
+}
+
+/// Rounded to doubles.
+#[inline]
+pub fn narrow(v: &WideVector) -> Vector {
+    Vector::new(v[0].hi, v[1].hi, v[2].hi)
+}

@@ -1,0 +1,136 @@
+//! Vectors, poses and the constants of rounding-error bounds.
+//!
+//! nalgebra's types are aliased here and nowhere else.
+
+use crate::base::error::{Error, Result};
+
+/// A point or a direction in three dimensions.
+pub type Vector = nalgebra::Vector3<f64>;
+/// A 3x3 matrix.
+pub type Matrix = nalgebra::Matrix3<f64>;
+
+/// The unit roundoff u = 2⁻⁵³ of double precision: |fl(x) − x| ≤ u·|x|.
+pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
+
+/// The largest |RᵀR − I| entry at which a rotation is accepted unless the caller tightens it.
+pub const ROTATION_LIMIT: f64 = 1e-2;
+
+/// `x` put into [`low`, `high`]; `low` for a NaN. In one comparison each, which `f64::max` and `f64::min` are not: they treat NaN
+/// differently.
+#[inline(always)]
+pub fn clamp(x: f64, low: f64, high: f64) -> f64 {
+    let x = if x > low { x } else { low };
+    if x < high { x } else { high }
+}
+
+/// A number from 0 on to divide by: at least the least normal one, so that no 0/0 is computed where centres or points are one.
+#[inline(always)]
+pub fn divisor(x: f64) -> f64 {
+    if x > f64::MIN_POSITIVE { x } else { f64::MIN_POSITIVE }
+}
+
+/// 2^`exponent`, from −1022 to 1023, exactly: `powi` promises no precision.
+#[inline]
+pub fn power_of_two(exponent: i32) -> f64 {
+    debug_assert!((-1022..=1023).contains(&exponent), "{exponent}");
+    f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+/// An object's placement: world point = R·(local point) + T, exactly as the doubles give it. R is nearly orthonormal,
+/// but no answer assumes that it is perfectly so.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct Pose {
+    /// The row-major 3x4 matrix `[R|T]`.
+    pub rows: [[f64; 4]; 3],
+}
+
+impl Pose {
+    /// The identity.
+    pub const IDENTITY: Pose = Pose { rows: [[1.0, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]] };
+
+    /// From twelve numbers, row-major `[R|T]`. Nothing is checked; see [`Pose::check`].
+    pub fn from_row_major(m: &[f64; 12]) -> Pose {
+        Pose { rows: [[m[0], m[1], m[2], m[3]], [m[4], m[5], m[6], m[7]], [m[8], m[9], m[10], m[11]]] }
+    }
+
+    /// From a rotation and a translation.
+    pub fn new(rotation: &Matrix, translation: &Vector) -> Pose {
+        let row = |i: usize| [rotation[(i, 0)], rotation[(i, 1)], rotation[(i, 2)], translation[i]];
+        Pose { rows: [row(0), row(1), row(2)] }
+    }
+
+    /// R.
+    pub fn rotation(&self) -> Matrix {
+        let r = &self.rows;
+        Matrix::new(r[0][0], r[0][1], r[0][2], r[1][0], r[1][1], r[1][2], r[2][0], r[2][1], r[2][2])
+    }
+
+    /// T.
+    pub fn translation(&self) -> Vector {
+        Vector::new(self.rows[0][3], self.rows[1][3], self.rows[2][3])
+    }
+
+    /// R·p + T in plain rounded arithmetic.
+    pub fn transform(&self, p: &Vector) -> Vector {
+        self.rotate(p) + self.translation()
+    }
+
+    /// R·d in plain rounded arithmetic.
+    pub fn rotate(&self, d: &Vector) -> Vector {
+        let r = &self.rows;
+        Vector::new(
+            r[0][0] * d.x + r[0][1] * d.y + r[0][2] * d.z,
+            r[1][0] * d.x + r[1][1] * d.y + r[1][2] * d.z,
+            r[2][0] * d.x + r[2][1] * d.y + r[2][2] * d.z,
+        )
+    }
+
+    /// Rᵀ·d in plain rounded arithmetic: maps a world direction *into* the object. For any R the support function of R·K in
+    /// direction U is that of K in direction RᵀU.
+    pub fn rotate_back(&self, d: &Vector) -> Vector {
+        let r = &self.rows;
+        Vector::new(
+            r[0][0] * d.x + r[1][0] * d.y + r[2][0] * d.z,
+            r[0][1] * d.x + r[1][1] * d.y + r[2][1] * d.z,
+            r[0][2] * d.x + r[1][2] * d.y + r[2][2] * d.z,
+        )
+    }
+
+    /// The largest entry of |RᵀR − I| as computed (its own rounding error is at most 4u for an accepted R), or NaN.
+    pub fn rotation_defect(&self) -> f64 {
+        let r = &self.rows;
+        let mut worst = 0.0_f64;
+        for i in 0..3 {
+            for j in i..3 {
+                let dot = r[0][i] * r[0][j] + r[1][i] * r[1][j] + r[2][i] * r[2][j];
+                let off = (dot - if i == j { 1.0 } else { 0.0 }).abs();
+                // Not f64::max: it would lose a NaN.
+                if off.is_nan() || off > worst {
+                    worst = off;
+                }
+                if worst.is_nan() {
+                    return worst;
+                }
+            }
+        }
+        worst
+    }
+
+    /// Accepts a pose of finite numbers with |RᵀR − I| ≤ `limit` in every entry and det R > 0.
+    pub fn check(&self, limit: f64) -> Result<()> {
+        if let Some(k) = self.rows.iter().flatten().position(|x| !x.is_finite()) {
+            return Err(Error::Pose(format!("pose entry {k} (row {}, column {}) is not finite", k / 4, k % 4)));
+        }
+        let defect = self.rotation_defect();
+        if !(defect <= limit) {
+            return Err(Error::Pose(format!(
+                "the rotation is not orthonormal: an entry of RᵀR − I is {defect:e}, the limit is {limit:e}"
+            )));
+        }
+        if !(self.rotation().determinant() > 0.0) {
+            return Err(Error::Pose("the rotation is a reflection: its determinant is negative".into()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,202 @@
+//! Arrays in proportion to what a caller gave: asked for in a way that can be refused.
+//!
+//! Rust ends the program where memory is not there. A vector that grows with the input, or with a scene, therefore gets its room
+//! here: a refusal is [`Error::Memory`]. What is small whatever the input is need not ask; `docs/conventions.md` lists that.
+
+use std::collections::{BinaryHeap, TryReserveError};
+use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+
+use crate::base::error::{Error, Result};
+
+/// An empty vector with room for `count`.
+#[inline]
+pub(crate) fn with_capacity<T>(count: usize) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    list.try_reserve_exact(count).map_err(|e| lacking::<T>(count, &e))?;
+    Ok(list)
+}
+
+/// `count` times the same.
+#[inline]
+pub(crate) fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>> {
+    let mut list = with_capacity(count)?;
+    list.resize(count, value);
+    Ok(list)
+}
+
+/// What an iterator gives.
+#[inline]
+pub(crate) fn collected<T>(items: impl IntoIterator<Item = T>) -> Result<Vec<T>> {
+    let mut list = Vec::new();
+    extend(&mut list, items)?;
+    Ok(list)
+}
+
+/// A copy of a slice.
+#[inline]
+pub(crate) fn copied<T: Clone>(items: &[T]) -> Result<Vec<T>> {
+    let mut list = with_capacity(items.len())?;
+    list.extend_from_slice(items);
+    Ok(list)
+}
+
+/// Room for `count` more, and for as many again as there are, so that asking for one at a time costs little.
+#[inline]
+pub(crate) fn reserve<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
+    if count > list.capacity() - list.len() { grow(list, count) } else { Ok(()) }
+}
+
+/// One more at the end.
+#[inline(always)]
+pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<()> {
+    if list.len() == list.capacity() {
+        grow(list, 1)?;
+    }
+    list.push(item);
+    Ok(())
+}
+
+/// All that an iterator gives at the end. What is there after a refusal is part of it.
+#[inline]
+pub(crate) fn extend<T>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) -> Result<()> {
+    let items = items.into_iter();
+    let (least, most) = items.size_hint();
+    if most == Some(least) {
+        reserve(list, least)?;
+        list.extend(items);
+        return Ok(());
+    }
+    for item in items {
+        push(list, item)?;
+    }
+    Ok(())
+}
+
+/// One more in a heap.
+#[inline(always)]
+pub(crate) fn push_to_heap<T: Ord>(heap: &mut BinaryHeap<T>, item: T) -> Result<()> {
+    if heap.len() == heap.capacity() {
+        heap.try_reserve(1).map_err(|e| lacking::<T>(heap.len() + 1, &e))?;
+    }
+    heap.push(item);
+    Ok(())
+}
+
+/// What came of something, if anything did; only a lack of memory and a cancelling caller are errors here.
+pub(crate) fn found<T>(result: Result<T>) -> Result<Option<T>> {
+    match result {
+        Err(error @ (Error::Memory(_) | Error::Cancelled(_))) => Err(error),
+        other => Ok(other.ok()),
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn grow<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
+    list.try_reserve(count).map_err(|e| lacking::<T>(list.len().saturating_add(count), &e))
+}
+
+/// The error of a collection of the standard library that asked for room itself: for `count` of `T`.
+#[cold]
+#[inline(never)]
+pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
+    let bytes = count.saturating_mul(size_of::<T>());
+    Error::Memory(format!("there is no memory for an array of {bytes} bytes: {error}"))
+}
+
+/// What the first who needs it makes, while others who need it wait.
+#[derive(Debug)]
+pub struct OnNeed<T> {
+    made: OnceLock<T>,
+    /// Held while it is made. True where memory was lacking: then it is done without until somebody insists, as trying again takes
+    /// long.
+    lacked: Mutex<bool>,
+}
+
+impl<T> OnNeed<T> {
+    /// Not made yet.
+    pub const fn new() -> OnNeed<T> {
+        OnNeed { made: OnceLock::new(), lacked: Mutex::new(false) }
+    }
+
+    /// What is made.
+    #[inline(always)]
+    pub fn get(&self) -> Option<&T> {
+        self.made.get()
+    }
+
+    /// Made by who can do without: `None` where memory is or was lacking.
+    #[cold]
+    #[inline(never)]
+    pub fn make(&self, make: impl FnOnce() -> Result<T>) -> Option<&T> {
+        let mut lacked = self.lock();
+        if !*lacked && self.get().is_none() {
+            match make() {
+                Ok(made) => drop(self.made.set(made)),
+                Err(_) => *lacked = true,
+            }
+        }
+        self.get()
+    }
+
+    /// Made by who insists.
+    ///
+    /// # Errors
+    /// What `make` says, usually [`Error::Memory`]; it is not made then.
+    pub fn insist(&self, make: impl FnOnce() -> Result<T>) -> Result<()> {
+        let mut lacked = self.lock();
+        if self.get().is_none() {
+            let _ = self.made.set(make()?);
+            *lacked = false;
+        }
+        Ok(())
+    }
+
+    /// Made elsewhere; dropped if another was first.
+    pub fn set(&self, made: T) {
+        let _ = self.made.set(made);
+    }
+
+    /// Nothing is left half done behind this lock.
+    fn lock(&self) -> MutexGuard<'_, bool> {
+        self.lacked.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl<T> From<T> for OnNeed<T> {
+    fn from(made: T) -> Self {
+        OnNeed { made: OnceLock::from(made), lacked: Mutex::new(false) }
+    }
+}
+
+impl<T: Clone> Clone for OnNeed<T> {
+    fn clone(&self) -> Self {
+        self.get().cloned().map_or_else(OnNeed::new, OnNeed::from)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_asked_for_comes_or_is_refused() {
+        assert_eq!(filled(7_u8, 3).unwrap(), [7; 3]);
+        assert_eq!(copied(&[1, 2]).unwrap(), [1, 2]);
+        assert_eq!(collected((0..9).filter(|i| i % 2 == 1)).unwrap(), [1, 3, 5, 7]);
+        let mut list = collected(0..3).unwrap();
+        extend(&mut list, [5, 6]).unwrap();
+        push(&mut list, 7).unwrap();
+        assert_eq!(list, [0, 1, 2, 5, 6, 7]);
+        let refused = [
+            with_capacity::<u64>(1 << 60).map(drop),
+            filled(0_u64, 1 << 60).map(drop),
+            collected(0..1_u64 << 60).map(drop),
+            reserve(&mut list, usize::MAX),
+        ];
+        for result in refused {
+            assert!(matches!(result, Err(Error::Memory(_))), "{result:?}");
+        }
+        assert_eq!(list, [0, 1, 2, 5, 6, 7]);
+    }
+}

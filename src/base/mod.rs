@@ -1,0 +1,19 @@
+//! What every stage stands on: errors, memory and files that may be refused, progress, vectors and poses, vector units, and arithmetic
+//! whose signs and last bits are known. It knows nothing of polyhedra.
+
+pub mod error;
+pub(crate) mod memory;
+pub mod files;
+pub(crate) mod enumerator;
+pub mod math;
+#[doc(hidden)]
+pub mod simd;
+pub mod progress;
+pub(crate) mod sorting;
+pub(crate) mod locality;
+#[doc(hidden)]
+pub mod double_double;
+pub(crate) mod extended_range;
+#[doc(hidden)]
+pub mod predicates;
+pub(crate) mod normal;

@@ -1,0 +1,13 @@
+//! From polygons or points to a polyhedron: the exact hull, what the input may be off by, merged faces, and how far each plane
+//! misses the hull.
+
+#[doc(hidden)]
+pub mod hull;
+#[doc(hidden)]
+pub mod check;
+pub(crate) mod slack;
+pub(crate) mod merge;
+pub(crate) mod labels;
+pub(crate) mod mass;
+#[doc(hidden)]
+pub mod assembly;

@@ -1,0 +1,684 @@
+//! Levels after D. P. Dobkin and D. G. Kirkpatrick ("Determining the Separation of Preprocessed Polyhedra: A Unified Approach",
+//! ICALP 1990), as Ehmann & Lin 2000, §4.4, make bounding volumes of them.
+//!
+//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the
+//! vertices around it: what is left is the exact hull of a part of the body's vertices, and the next removal begins there. For
+//! its bounding volume the vertices move outward along rays from the body's centre of mass c, all by one factor at first
+//! (scaling), and then back one by one as far as the volume stays convex and bounds the body (relaxation).
+//!
+//! On those rays both conditions are *linear*. Let r = p − c for each vertex, and let the level have its vertices at r/x. A
+//! point q of the body lies in the cone of one triangle, its centre-of-mass region: r_q = α·r_a + β·r_b + γ·r_c with α, β, γ
+//! ≥ 0. It is below the plane through the moved corners exactly if α·x_a + β·x_b + γ·x_c ≤ 1. The vertex d beyond the edge of a
+//! triangle (a, b, c) is below its plane exactly if α·x_a + β·x_b + γ·x_c ≤ x_d, with r_d = α·r_a + β·r_b + γ·r_c. Neither the
+//! cones nor their coefficients change while vertices slide.
+//!
+//! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
+//! (see `hierarchy`).
+
+use crate::base::error::Result;
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::memory::{collected, copied, extend, filled, push, with_capacity};
+use crate::base::normal::{area_vector, normal_of};
+use crate::base::predicates::ExactPoints;
+use crate::base::progress::Progress;
+use crate::polyhedron::triangulation::Triangulation;
+use crate::polyhedron::{NONE, Polyhedron};
+
+/// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin
+/// 2000, §4.4). A corner of a box has importance 3, so a box gets no level.
+const MOST_IMPORTANT: f64 = 1.0;
+
+/// Vertices of more neighbours stay: filling their holes takes time in proportion to the square. No level would be without the
+/// tip of a cone anyway.
+const LARGEST_VALENCE: usize = 100;
+
+/// A level that saves less than one triangle in sixteen is not worth its memory; without such a limit a body of which only a
+/// vertex at a time can go would fill it.
+const LEAST_SAVING: usize = 16;
+
+/// Sliding ends where no vertex gains more than this fraction of what scaling has moved the farthest one by.
+const LEAST_SLIDE: f64 = 1e-2;
+
+/// Slides for each triangle at most; one or two are common.
+const MOST_SLIDES: usize = 32;
+
+/// The levels of a body, one after the other.
+pub struct DobkinKirkpatrick<'a> {
+    base: &'a Polyhedron,
+    exact: ExactPoints,
+    /// The body's vertices as seen from its centre of mass.
+    rays: Vec<Vector>,
+    /// Free ones, to be reused, only while vertices are removed.
+    triangles: Vec<Triangle>,
+    free: Vec<u32>,
+    /// For each vertex that is left one of its triangles; NONE for the others.
+    triangle_at: Vec<u32>,
+    /// For each removed vertex the next one in the same region, or NONE.
+    next_in_region: Vec<u32>,
+    triangle_count: usize,
+    /// The vertices that are left, ascending.
+    left: Vec<u32>,
+}
+
+/// A triangle of the hull of the vertices that are left.
+struct Triangle {
+    /// Counter-clockwise from outside; vertices of the body.
+    corners: [u32; 3],
+    /// `neighbours[k]` is across the edge from `corners[k]` to `corners[(k + 1) % 3]`.
+    neighbours: [u32; 3],
+    /// Unit outward normal.
+    normal: Vector,
+    /// The first of the removed vertices of the body in this triangle's centre-of-mass region, or NONE; then
+    /// [`DobkinKirkpatrick::next_in_region`].
+    region: u32,
+    is_free: bool,
+}
+
+/// What the triangles of a level demand of the x of their corners a, b, c, each by its coefficients α, β, γ.
+struct Conditions {
+    /// α·x_a + β·x_b + γ·x_c ≤ 1 for the body's vertices in the region of triangle t: `bounds[starts[t]..starts[t + 1]]`.
+    bounds: Vec<[f64; 3]>,
+    starts: Vec<u32>,
+    /// α·x_a + β·x_b + γ·x_c ≤ x_d for the vertex d beyond each edge of each triangle.
+    beyond: Vec<[(u32, [f64; 3]); 3]>,
+}
+
+/// The cone of a triangle from the centre of mass, to find coefficients of points in.
+struct Cone {
+    /// Normals of its sides, each opposite to a corner.
+    sides: [Vector; 3],
+    volume: f64,
+}
+
+impl Cone {
+    /// α, β, γ with q = α·r_a + β·r_b + γ·r_c for the corners of the triangle.
+    fn coefficients(&self, q: &Vector) -> [f64; 3] {
+        self.sides.map(|side| side.dot(q) / self.volume)
+    }
+}
+
+/// The next level as it comes from here.
+pub struct Removal {
+    /// The vertices of the body that are left, ascending.
+    pub vertices: Vec<u32>,
+    /// Where they are on this level, in the centred coordinates of the body.
+    pub points: Vec<Vector>,
+    /// The triangles that fill holes: their corners, ascending, and the removed vertex. Ordered by the corners.
+    pub filled: Vec<([u32; 3], u32)>,
+}
+
+impl<'a> DobkinKirkpatrick<'a> {
+    /// Begins with a body of dimension 3.
+    ///
+    /// # Errors
+    /// [`Error::Bug`](crate::base::error::Error::Bug) if its triangles are no closed surface, [`crate::base::error::Error::Memory`].
+    pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
+        let positions: Vec<Vector> = collected(base.vertices.iter().map(|v| v.position))?;
+        let centre = base.mass.centre_of_mass - base.centre;
+        let normal_of = |corners: &[u32; 3]| normal(&positions, *corners);
+        let normals: Vec<Vector> = collected(base.triangles.iter().map(normal_of))?;
+        let surface = Triangulation::new(copied(&base.triangles)?, &normals, positions.len())?;
+        let mut triangle_at = filled(NONE, positions.len())?;
+        let mut triangles = with_capacity(base.triangles.len())?;
+        for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
+            let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
+            triangles.push(Triangle { corners, neighbours, normal, region: NONE, is_free: false });
+            for v in corners {
+                triangle_at[v as usize] = t as u32;
+            }
+        }
+        Ok(DobkinKirkpatrick {
+            base,
+            exact: ExactPoints::new(&positions)?,
+            rays: collected(positions.iter().map(|p| p - centre))?,
+            triangle_count: triangles.len(),
+            left: collected(0..positions.len() as u32)?,
+            triangles,
+            free: Vec::new(),
+            triangle_at,
+            next_in_region: filled(NONE, positions.len())?,
+        })
+    }
+
+    /// Triangles that are left.
+    pub fn triangle_count(&self) -> usize {
+        self.triangle_count
+    }
+
+    /// The next level, of at least `minimum` triangles. `None` where the construction ends: a tetrahedron or the minimum is
+    /// reached, hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
+    ///
+    /// # Errors
+    /// [`crate::base::error::Error::Cancelled`], [`crate::base::error::Error::Memory`].
+    pub fn next(&mut self, minimum: usize, progress: &mut Progress) -> Result<Option<Removal>> {
+        let set = self.independent_set(minimum.max(4))?;
+        if set.is_empty() || 2 * LEAST_SAVING * set.len() < self.triangle_count {
+            return Ok(None);
+        }
+        progress.report(0.1)?;
+        let mut filled = Vec::new();
+        for &v in &set {
+            if !self.remove(v, &mut filled)? {
+                return Ok(None);
+            }
+        }
+        filled.sort_unstable();
+        progress.report(0.3)?;
+        self.left.retain(|v| self.triangle_at[*v as usize] != NONE);
+        self.pack_triangles()?;
+        let x = self.relaxed(&self.conditions()?)?;
+        progress.report(0.9)?;
+
+        // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
+        let radius = self.base.mass.radius;
+        let least = (0..self.triangles.len() as u32).map(|t| self.height(t));
+        let grown = 1.0 + 64.0 * UNIT_ROUNDOFF * radius / least.fold(radius, f64::min);
+        if !(1.0..2.0).contains(&grown) {
+            return Ok(None);
+        }
+        let centre = self.base.mass.centre_of_mass - self.base.centre;
+        let place = |v: &u32| centre + self.rays[*v as usize] * (grown / x[*v as usize]);
+        let points = collected(self.left.iter().map(place))?;
+        progress.report(1.0)?;
+        Ok(Some(Removal { vertices: copied(&self.left)?, points, filled }))
+    }
+
+    /// Importance: Σ (1 − n·n′) over the edges of a vertex, n and n′ the normals beside; with the interior dihedral angle θ
+    /// this is the paper's Σ (1 + cos θ). 0 where the surface is flat, 3 at the corner of a box.
+    fn importance(&self, v: u32, star: &[u32]) -> f64 {
+        debug_assert!(star.iter().all(|t| self.triangles[*t as usize].corners.contains(&v)));
+        let normal = |k: usize| &self.triangles[star[k % star.len()] as usize].normal;
+        (0..star.len()).map(|k| 1.0 - normal(k).dot(normal(k + 1))).sum()
+    }
+
+    /// Vertices to be removed, no two of them neighbours: the least important ones first, of equal ones the lowest; ascending.
+    ///
+    /// Such a vertex is taken unless a less important neighbour is. So they need not be visited in order of importance, which
+    /// jumps about in memory: whoever asks for one decides its less important neighbours before.
+    fn independent_set(&self, minimum: usize) -> Result<Vec<u32>> {
+        let mut star = Vec::new();
+        // Infinite for a vertex that stays in any case.
+        let mut importances = filled(f64::INFINITY, self.rays.len())?;
+        for &v in &self.left {
+            self.star(v, &mut star)?;
+            let importance = self.importance(v, &star);
+            if importance <= MOST_IMPORTANT && star.len() <= LARGEST_VALENCE {
+                importances[v as usize] = importance;
+            }
+        }
+        let by_importance =
+            |v: &u32, w: &u32| importances[*v as usize].total_cmp(&importances[*w as usize]).then(v.cmp(w));
+        let mut is_decided: Vec<bool> = collected(importances.iter().map(|importance| importance.is_infinite()))?;
+        let mut set = Vec::new();
+        let mut waiting = Vec::new();
+        for &v in &self.left {
+            push(&mut waiting, v)?;
+            while let Some(&v) = waiting.last() {
+                if is_decided[v as usize] {
+                    waiting.pop();
+                    continue;
+                }
+                self.star(v, &mut star)?;
+                let ring = || star.iter().map(|t| self.following(*t, v));
+                match ring().find(|w| !is_decided[*w as usize] && by_importance(w, &v).is_lt()) {
+                    Some(w) => push(&mut waiting, w)?,
+                    None => {
+                        // None of its neighbours is taken: that would have decided this vertex.
+                        push(&mut set, v)?;
+                        is_decided[v as usize] = true;
+                        ring().for_each(|w| is_decided[w as usize] = true);
+                    }
+                }
+            }
+        }
+        // Each vertex takes two triangles with it.
+        let most = self.triangle_count.saturating_sub(minimum) / 2;
+        if set.len() > most {
+            set.sort_unstable_by(by_importance);
+            set.truncate(most);
+        }
+        set.sort_unstable();
+        Ok(set)
+    }
+
+    /// The triangles around a vertex, counter-clockwise.
+    fn star(&self, v: u32, star: &mut Vec<u32>) -> Result<()> {
+        star.clear();
+        let first = self.triangle_at[v as usize];
+        let mut t = first;
+        loop {
+            push(star, t)?;
+            let triangle = &self.triangles[t as usize];
+            t = triangle.neighbours[(place_of(triangle, v) + 2) % 3];
+            if t == first {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// Removes a vertex and fills the hole by the outer hull of the vertices around it. `false` if the centre of mass is not inside
+    /// of all of the filling.
+    fn remove(&mut self, v: u32, filled: &mut Vec<([u32; 3], u32)>) -> Result<bool> {
+        let mut star = Vec::new();
+        self.star(v, &mut star)?;
+        let mut ring = with_capacity(star.len())?;
+        let mut outer = with_capacity(star.len())?;
+        let mut region = vec![v];
+        for &t in &star {
+            let triangle = &mut self.triangles[t as usize];
+            let next = (place_of(triangle, v) + 1) % 3;
+            ring.push(triangle.corners[next]);
+            outer.push(triangle.neighbours[next]);
+            triangle.is_free = true;
+            let first = triangle.region;
+            extend(&mut region, self.region(first))?;
+        }
+        extend(&mut self.free, star.iter().copied())?;
+        self.triangle_at[v as usize] = NONE;
+        self.triangle_count -= 2;
+        let filling = self.fill(&ring, &outer)?;
+        let is_inside = filling.iter().all(|t| self.height(*t) > 64.0 * UNIT_ROUNDOFF * self.base.mass.radius);
+        for &t in &filling {
+            let mut corners = self.triangles[t as usize].corners;
+            corners.sort_unstable();
+            push(filled, (corners, v))?;
+        }
+        let cones: Vec<Cone> = collected(filling.iter().map(|t| self.cone(*t)))?;
+        for q in region {
+            // The cones of the filling are those of the hole: q is in one of them, up to rounding.
+            let ray = &self.rays[q as usize];
+            let inside = |cone: &Cone| cone.coefficients(ray).into_iter().fold(f64::INFINITY, f64::min);
+            let depths = filling.iter().zip(&cones).map(|(t, cone)| (*t, inside(cone)));
+            if let Some((t, _)) = depths.max_by(|(_, a), (_, b)| a.total_cmp(b)) {
+                let first = &mut self.triangles[t as usize].region;
+                self.next_in_region[q as usize] = std::mem::replace(first, q);
+            }
+        }
+        Ok(is_inside)
+    }
+
+    /// Drops free triangles; the others keep their order, in which neighbours are near each other.
+    fn pack_triangles(&mut self) -> Result<()> {
+        let mut number = 0;
+        let numbers: Vec<u32> = collected(self.triangles.iter().map(|triangle| {
+            number += u32::from(!triangle.is_free);
+            number.wrapping_sub(1)
+        }))?;
+        self.triangles.retain(|triangle| !triangle.is_free);
+        for triangle in &mut self.triangles {
+            triangle.neighbours = triangle.neighbours.map(|t| numbers[t as usize]);
+        }
+        for v in &self.left {
+            let t = &mut self.triangle_at[*v as usize];
+            *t = numbers[*t as usize];
+        }
+        self.free.clear();
+        Ok(())
+    }
+
+    /// The removed vertices in a region, from its first.
+    fn region(&self, first: u32) -> impl Iterator<Item = u32> {
+        let some = |q: u32| (q != NONE).then_some(q);
+        std::iter::successors(some(first), move |q| some(self.next_in_region[*q as usize]))
+    }
+
+    /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from
+    /// `ring[k]`), wrapping each part of the ring like a gift: over the chord from its first to its last vertex the one above
+    /// which no other lies. Returns the new triangles. Time in proportion to the square of the ring at worst.
+    fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Result<Vec<u32>> {
+        let mut filling = with_capacity(ring.len() - 2)?;
+        // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is
+        // outer.
+        let last = ring.len() - 1;
+        let mut parts = vec![(0, last, outer[last], NONE)];
+        while let Some((i, j, beyond, side)) = parts.pop() {
+            let (tail, head) = (ring[i], ring[j]);
+            if i + 1 == j {
+                // An edge of the ring; `beyond` is a new triangle.
+                self.triangles[beyond as usize].neighbours[side as usize] = outer[i];
+                self.join(outer[i], head, beyond);
+                continue;
+            }
+            let mut apex = i + 1;
+            let mut plane = self.exact.plane([tail, ring[apex], head]);
+            for k in i + 2..j {
+                if self.exact.height(&plane, ring[k]) > 0.0 {
+                    apex = k;
+                    plane = self.exact.plane([tail, ring[apex], head]);
+                }
+            }
+            let t = self.add([tail, ring[apex], head], beyond)?;
+            if side == NONE {
+                self.join(beyond, tail, t);
+            } else {
+                self.triangles[beyond as usize].neighbours[side as usize] = t;
+            }
+            filling.push(t);
+            push(&mut parts, (i, apex, t, 0))?;
+            push(&mut parts, (apex, j, t, 1))?;
+        }
+        Ok(filling)
+    }
+
+    /// Makes `other` the neighbour of a triangle across the edge that begins at `from`, seen from that triangle.
+    fn join(&mut self, triangle: u32, from: u32, other: u32) {
+        let triangle = &mut self.triangles[triangle as usize];
+        let place = place_of(triangle, from);
+        triangle.neighbours[place] = other;
+    }
+
+    /// A new triangle; `across` is beyond the edge from its last corner to its first.
+    fn add(&mut self, corners: [u32; 3], across: u32) -> Result<u32> {
+        let normal = normal(&self.rays, corners);
+        let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: NONE, is_free: false };
+        let t = match self.free.pop() {
+            Some(t) => {
+                self.triangles[t as usize] = new;
+                t
+            }
+            None => {
+                push(&mut self.triangles, new)?;
+                self.triangles.len() as u32 - 1
+            }
+        };
+        for v in corners {
+            self.triangle_at[v as usize] = t;
+        }
+        Ok(t)
+    }
+
+    /// How far the plane of a triangle is from the centre of mass.
+    fn height(&self, t: u32) -> f64 {
+        let triangle = &self.triangles[t as usize];
+        triangle.normal.dot(&self.rays[triangle.corners[0] as usize])
+    }
+
+    /// The cone of a triangle.
+    fn cone(&self, t: u32) -> Cone {
+        let [a, b, c] = self.triangles[t as usize].corners.map(|v| &self.rays[v as usize]);
+        let sides = [b.cross(c), c.cross(a), a.cross(b)];
+        Cone { volume: sides[0].dot(a), sides }
+    }
+
+    /// The linear conditions of a level; see the head of this file.
+    fn conditions(&self) -> Result<Conditions> {
+        let count = self.triangles.len();
+        let mut conditions = Conditions {
+            bounds: with_capacity(self.rays.len())?,
+            starts: with_capacity(count + 1)?,
+            beyond: with_capacity(count)?,
+        };
+        for (t, triangle) in (0..).zip(&self.triangles) {
+            conditions.starts.push(conditions.bounds.len() as u32);
+            let cone = self.cone(t);
+            let coefficients = |q: u32| cone.coefficients(&self.rays[q as usize]);
+            extend(&mut conditions.bounds, self.region(triangle.region).map(coefficients))?;
+            conditions.beyond.push([0, 1, 2].map(|k| {
+                let opposite = self.opposite(triangle.neighbours[k], triangle.corners[(k + 1) % 3]);
+                (opposite, coefficients(opposite))
+            }));
+        }
+        conditions.starts.push(conditions.bounds.len() as u32);
+        Ok(conditions)
+    }
+
+    /// The x of each vertex that is left after scaling and relaxation: from 1/factor for all, again and again the vertices slide
+    /// that can slide far: at first those that can slide by a quarter of what scaling has moved the farthest one by, then by a
+    /// sixteenth, and so on. They do so in sweeps along the curve that vertices are in order of: to let always the one slide that
+    /// can slide farthest brings the level no nearer to the body, and jumps about in memory. The factor is the one about the centre
+    /// of mass that makes the hull of the vertices that are left bound the body.
+    fn relaxed(&self, conditions: &Conditions) -> Result<Vec<f64>> {
+        let sums = conditions.bounds.iter().map(|cone| cone.iter().sum());
+        let factor = sums.fold(1.0, f64::max);
+        let mut x = filled(1.0 / factor, self.rays.len())?;
+        let farthest = (factor - 1.0) * self.base.mass.radius;
+        let least = LEAST_SLIDE * farthest;
+        // For each vertex how far it can slide, and to which x; NaN where that has to be found out anew.
+        let mut slides = filled((f64::NAN, 0.0), self.rays.len())?;
+        let mut star = Vec::new();
+        let mut slides_left = MOST_SLIDES * self.triangle_count;
+        let mut threshold = farthest;
+        let (mut round, mut dirty) = (Vec::new(), Vec::new());
+        while threshold > least {
+            threshold = (0.25 * threshold).max(least);
+            extend(&mut round, self.left.iter().copied().filter(|v| !(slides[*v as usize].0 <= threshold)))?;
+            while !round.is_empty() {
+                for &v in &round {
+                    let (mut slide, mut limit) = slides[v as usize];
+                    if slide <= threshold {
+                        continue;
+                    }
+                    self.star(v, &mut star)?;
+                    if slide.is_nan() {
+                        limit = self.limit(&x, v, &star, conditions);
+                        slide = self.rays[v as usize].norm() * (1.0 / x[v as usize] - 1.0 / limit);
+                        slides[v as usize] = (slide, limit);
+                    }
+                    if !(slide > threshold) {
+                        continue;
+                    }
+                    if slides_left == 0 {
+                        return Ok(x);
+                    }
+                    slides_left -= 1;
+                    x[v as usize] = limit;
+                    slides[v as usize].0 = 0.0;
+                    for &t in &star {
+                        let next = (place_of(&self.triangles[t as usize], v) + 1) % 3;
+                        for w in [self.triangles[t as usize].corners[next], conditions.beyond[t as usize][next].0] {
+                            // One that is to be looked at anew already has its turn later in this sweep or in the next.
+                            if !slides[w as usize].0.is_nan() {
+                                slides[w as usize].0 = f64::NAN;
+                                push(&mut dirty, w)?;
+                            }
+                        }
+                    }
+                }
+                std::mem::swap(&mut round, &mut dirty);
+                dirty.clear();
+                round.sort_unstable();
+            }
+        }
+        Ok(x)
+    }
+
+    /// The largest x of a vertex that the others allow, at least its own.
+    fn limit(&self, x: &[f64], v: u32, star: &[u32], conditions: &Conditions) -> f64 {
+        let at = |w: u32| x[w as usize];
+        let mut limit = 1.0_f64;
+        for &t in star {
+            let triangle = &self.triangles[t as usize];
+            let [first, end] = [0, 1].map(|i| conditions.starts[t as usize + i] as usize);
+            let bounds = &conditions.bounds[first..end];
+            let k = place_of(triangle, v);
+            let [next, last] = [(k + 1) % 3, (k + 2) % 3];
+            let [b, c] = [at(triangle.corners[next]), at(triangle.corners[last])];
+            for cone in bounds {
+                if cone[k] > 0.0 {
+                    limit = limit.min((1.0 - cone[next] * b - cone[last] * c) / cone[k]);
+                }
+            }
+            // The vertex beyond the edge to `next` stays below this triangle. Both triangles of an edge say the same.
+            let (d, cone) = conditions.beyond[t as usize][k];
+            if cone[k] > 0.0 {
+                limit = limit.min((at(d) - cone[next] * b - cone[last] * c) / cone[k]);
+            }
+        }
+        // Not f64::max: a NaN of a degenerate cone must not spread.
+        if limit > at(v) { limit } else { at(v) }
+    }
+
+    /// The corner of a triangle after a vertex.
+    fn following(&self, t: u32, v: u32) -> u32 {
+        let triangle = &self.triangles[t as usize];
+        triangle.corners[(place_of(triangle, v) + 1) % 3]
+    }
+
+    /// The corner of a triangle opposite to its edge that begins at `from`.
+    fn opposite(&self, t: u32, from: u32) -> u32 {
+        let triangle = &self.triangles[t as usize];
+        triangle.corners[(place_of(triangle, from) + 2) % 3]
+    }
+}
+
+/// Which corner of a triangle a vertex is.
+fn place_of(triangle: &Triangle, v: u32) -> usize {
+    triangle.corners.iter().position(|w| *w == v).unwrap_or(0)
+}
+
+/// The unit normal of a triangle.
+fn normal(positions: &[Vector], corners: [u32; 3]) -> Vector {
+    let [a, b, c] = corners.map(|v| positions[v as usize]);
+    normal_of(&area_vector(&a, &b, &c), &a, &b, &c)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::assembly::build;
+    use swiftprox::random::Random;
+
+    /// Ellipsoids of few and of many vertices, and a ball with spikes.
+    fn bodies() -> Vec<Polyhedron> {
+        let mut random = Random::new(21);
+        let mut bodies = Vec::new();
+        for (count, half_axes) in [(40, [1.0, 1.0, 1.0]), (300, [1.0, 0.7, 0.2]), (1000, [1.0, 1.0, 0.1])] {
+            let points: Vec<Vector> =
+                (0..count).map(|_| random.direction().component_mul(&Vector::from(half_axes))).collect();
+            bodies.push(build(&points, None).unwrap());
+        }
+        let mut points: Vec<Vector> = (0..300).map(|_| random.direction()).collect();
+        points.extend((0..6).map(|_| random.direction() * 4.0));
+        bodies.push(build(&points, None).unwrap());
+        bodies
+    }
+
+    fn next(removing: &mut DobkinKirkpatrick) -> Option<Removal> {
+        removing.next(4, &mut Progress::new(&mut |_| true)).unwrap()
+    }
+
+    /// The importance and the neighbours of each vertex of the hull of some vertices of a body.
+    fn importances(body: &Polyhedron, ids: &[u32]) -> Vec<(f64, Vec<u32>)> {
+        let points: Vec<Vector> = ids.iter().map(|v| body.vertices[*v as usize].position).collect();
+        let hull = build(&points, None).unwrap();
+        assert_eq!(hull.vertices.len(), ids.len());
+        let id = |v: u32| ids[hull.vertex_labels[v as usize] as usize];
+        let mut beside = std::collections::HashMap::new();
+        for corners in &hull.triangles {
+            let [a, b, c] = corners.map(|v| hull.vertices[v as usize].position);
+            let normal = (b - a).cross(&(c - a)).normalize();
+            for k in 0..3 {
+                beside.insert((id(corners[k]), id(corners[(k + 1) % 3])), normal);
+            }
+        }
+        let mut all = vec![(0.0, Vec::new()); body.vertices.len()];
+        for (&(tail, head), normal) in &beside {
+            let (importance, neighbours) = &mut all[tail as usize];
+            *importance += 1.0 - normal.dot(&beside[&(head, tail)]);
+            neighbours.push(head);
+        }
+        all
+    }
+
+    /// The least important first, none beside another, none of an importance above 1 (Ehmann & Lin 2000, §4.4).
+    #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
+    fn flat_vertices_go_and_peaks_stay() {
+        let (mut levels, mut peaks) = (0, 0);
+        for body in bodies() {
+            let mut removing = DobkinKirkpatrick::new(&body).unwrap();
+            let mut ids: Vec<u32> = (0..body.vertices.len() as u32).collect();
+            while let Some(Removal { vertices, .. }) = next(&mut removing) {
+                let all = importances(&body, &ids);
+                let mut order = ids.clone();
+                order.sort_by(|v, w| all[*v as usize].0.total_cmp(&all[*w as usize].0));
+                let mut is_left = vec![true; body.vertices.len()];
+                for v in order {
+                    let (importance, neighbours) = &all[v as usize];
+                    let is_free =
+                        neighbours.iter().all(|w| is_left[*w as usize]) && neighbours.len() <= LARGEST_VALENCE;
+                    is_left[v as usize] = !is_free || *importance > 1.0;
+                    peaks += usize::from(is_free && *importance > 1.0);
+                }
+                ids.retain(|v| is_left[*v as usize]);
+                assert_eq!(vertices, ids);
+                levels += 1;
+            }
+        }
+        // There were vertices that nothing but their importance has kept.
+        assert!(levels > 15 && peaks > 50, "{levels} {peaks}");
+    }
+
+    /// Three right angles at each corner make an importance of 3.
+    #[test]
+    fn a_box_has_no_vertex_to_remove() {
+        let side = |bit: usize, i: usize| if i & bit == 0 { 0.0 } else { bit as f64 };
+        let corners: Vec<Vector> = (0..8).map(|i| Vector::new(side(1, i), side(2, i), side(4, i))).collect();
+        let cuboid = build(&corners, None).unwrap();
+        assert!((0..8).all(|v| (importances(&cuboid, &[0, 1, 2, 3, 4, 5, 6, 7])[v].0 - 3.0).abs() < 1e-12));
+        assert!(next(&mut DobkinKirkpatrick::new(&cuboid).unwrap()).is_none());
+        // With one corner cut off the three new ones are flatter, but not flat enough.
+        let mut cut = corners[..7].to_vec();
+        let cut_off = |k: usize| Vector::from_fn(|i, _| corners[7][i] * if i == k { 0.5 } else { 1.0 });
+        cut.extend((0..3).map(cut_off));
+        assert!(next(&mut DobkinKirkpatrick::new(&build(&cut, None).unwrap()).unwrap()).is_none());
+    }
+
+    /// Vertices move along their rays from the centre of mass, out by the factor that makes the level bound the body, and back
+    /// as far as it still does: that brings it nearer to the body than scaling alone.
+    #[test]
+    #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
+    fn relaxation_draws_vertices_back_along_their_rays() {
+        let (mut levels, mut nearer) = (0.0, [0.0; 2]);
+        for body in bodies() {
+            let centre = body.mass.centre_of_mass - body.centre;
+            let mut removing = DobkinKirkpatrick::new(&body).unwrap();
+            while let Some(Removal { vertices, points, .. }) = next(&mut removing) {
+                let kept: Vec<Vector> = vertices.iter().map(|v| body.vertices[*v as usize].position - centre).collect();
+                // The factor, from the planes of the hull of what is left.
+                let hull = build(&kept, None).unwrap();
+                let mut factor = 1.0_f64;
+                for corners in &hull.triangles {
+                    let [a, b, c] = corners.map(|v| hull.local_position(v));
+                    let normal = (b - a).cross(&(c - a));
+                    let reach = |v: &crate::polyhedron::Vertex| normal.dot(&(v.position - centre));
+                    let highest = body.vertices.iter().map(reach).fold(0.0, f64::max);
+                    factor = factor.max(highest / normal.dot(&a));
+                }
+                let mut drawn_back = 0;
+                for (point, ray) in points.iter().zip(&kept) {
+                    let p = point - centre;
+                    assert!(p.cross(ray).norm() <= 1e-14 * p.norm() * body.radius);
+                    let by = p.norm() / ray.norm();
+                    assert!((1.0 - 1e-12..=factor * (1.0 + 1e-9)).contains(&by), "{by} of {factor}");
+                    drawn_back += usize::from(by < factor * (1.0 - 1e-6));
+                }
+                assert!(3 * drawn_back > points.len(), "{drawn_back} of {}", points.len());
+                // It bounds the body, and its vertices are less far above the body's planes.
+                let level = build(&points, None).unwrap();
+                for face in &level.faces {
+                    let height = face.normal.dot(&(level.local_position(face.vertex)));
+                    let reach = body.vertices.iter().map(|v| face.normal.dot(&v.position)).fold(0.0, f64::max);
+                    assert!(reach <= height + 1e-12 * body.radius, "{reach} {height}");
+                }
+                let above = |p: &Vector| body.faces.iter().map(|face| face.planes.value(0, p)).fold(0.0, f64::max);
+                let measure = |points: &mut dyn Iterator<Item = Vector>| {
+                    let heights: Vec<f64> = points.map(|p| above(&p)).collect();
+                    [heights.iter().copied().fold(0.0, f64::max), heights.iter().sum::<f64>()]
+                };
+                let relaxed = measure(&mut points.iter().copied());
+                let scaled = measure(&mut kept.iter().map(|ray| centre + ray * factor));
+                for i in 0..2 {
+                    assert!(relaxed[i] <= scaled[i] * (1.0 + 1e-9), "{relaxed:?} {scaled:?}");
+                    nearer[i] += 1.0 - relaxed[i] / scaled[i];
+                }
+                levels += 1.0;
+            }
+        }
+        // The corners of the planes that touch the body can give no way; most others do.
+        let [largest, mean] = nearer.map(|sum| sum / levels);
+        println!("{levels} levels: the largest deviation of a vertex {largest} less, the mean {mean} less");
+        assert!(levels > 15.0 && largest > 0.01 && mean > 0.2);
+    }
+}

@@ -1,0 +1,176 @@
+//! STL, ASCII and binary (3D Systems, Stereolithography Interface Specification, 1989).
+//!
+//! STL repeats every vertex in every triangle: exactly equal ones become one here, in order of first occurrence. A
+//! triangle with two equal corners has no area, and its other two sides coincide, so the surface closes without it: it is
+//! dropped, and later triangles move up. Normals are not read: vertices say the same, more accurately.
+//!
+//! The coordinates of a binary file are single precision. So are nearly always those of an ASCII file, being printed from
+//! the same programs' floats, hence both are marked as such.
+
+use std::collections::HashMap;
+use std::fmt;
+
+use crate::base::error::{Error, Result};
+use crate::base::math::Vector;
+use crate::base::memory::lacking;
+use crate::mesh::PolygonMesh;
+
+use super::scanner::{Scanner, shown};
+
+/// A binary file starts with 80 free bytes and the number of triangles.
+const HEADER: usize = 84;
+/// Normal and three corners in single precision, and two free bytes.
+const TRIANGLE: usize = 50;
+
+/// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word:
+/// the free bytes of a binary file may well start with "solid".
+pub fn is_binary(bytes: &[u8]) -> bool {
+    claimed_size(bytes) == Some(bytes.len() as u64)
+}
+
+/// Reads an STL file.
+pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
+    if is_binary(bytes) {
+        return parse_binary(bytes, name);
+    }
+    // Text has no zero bytes; the count of a binary file ends in one unless the file has 16,777,216 triangles or more.
+    let head = &bytes[..bytes.len().min(HEADER)];
+    let word = Scanner::plain(bytes, name).token().unwrap_or_default();
+    if word.eq_ignore_ascii_case(b"solid") && !head.contains(&0) {
+        return parse_ascii(bytes, name);
+    }
+    Err(Error::File(match claimed_size(bytes) {
+        Some(size) => format!(
+            "{name}: neither ASCII STL (which starts with \"solid\") nor binary: its triangle count asks for {size} \
+             bytes, the file has {}",
+            bytes.len()
+        ),
+        None => format!(
+            "{name}: neither ASCII STL (which starts with \"solid\") nor binary: {} bytes are too few",
+            bytes.len()
+        ),
+    }))
+}
+
+/// The size of a binary file with the triangle count that is at its place; `None` for a file without that place.
+fn claimed_size(bytes: &[u8]) -> Option<u64> {
+    let count = bytes.get(HEADER - 4..HEADER)?.first_chunk()?;
+    Some(HEADER as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(*count)))
+}
+
+fn parse_binary(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
+    let mut welder = Welder::default();
+    for (t, triangle) in bytes[HEADER..].chunks_exact(TRIANGLE).enumerate() {
+        let coordinate = |k: usize| {
+            let at = 12 + 4 * k;
+            let b = &triangle[at..at + 4];
+            f64::from(f32::from_le_bytes([b[0], b[1], b[2], b[3]]))
+        };
+        let corner = |k: usize| Vector::new(coordinate(3 * k), coordinate(3 * k + 1), coordinate(3 * k + 2));
+        welder
+            .push_triangle([corner(0), corner(1), corner(2)])
+            .map_err(|e| e.unless_memory(|e| Error::File(format!("{name}: triangle {t}: {e}"))))?;
+    }
+    Ok(welder.mesh)
+}
+
+fn parse_ascii(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
+    let mut scanner = Scanner::plain(bytes, name);
+    let mut welder = Welder::default();
+    let mut triangle_count = 0_usize;
+    // A file may hold several solids, one after the other; they become one mesh.
+    while let Some(word) = scanner.token() {
+        expect(&scanner, word, "solid")?;
+        // The name of the solid.
+        scanner.next_line();
+        loop {
+            let of = format_args!("triangle {triangle_count} or \"endsolid\"");
+            let word = scanner.token().ok_or_else(|| scanner.ended(of))?;
+            if word.eq_ignore_ascii_case(b"endsolid") {
+                scanner.next_line();
+                break;
+            }
+            expect(&scanner, word, "facet")?;
+            let corners = read_facet(&mut scanner, format_args!("triangle {triangle_count}"))?;
+            welder.push_triangle(corners).map_err(|e| scanner.place(e))?;
+            triangle_count += 1;
+        }
+    }
+    Ok(welder.mesh)
+}
+
+/// A facet behind its first word; `of` says in messages which.
+fn read_facet(scanner: &mut Scanner, of: fmt::Arguments) -> Result<[Vector; 3]> {
+    expect_next(scanner, of, "normal")?;
+    // The normal itself may be anything: some programs print "nan" or "-nan(ind)".
+    for _ in 0..3 {
+        scanner.token();
+    }
+    expect_next(scanner, of, "outer")?;
+    expect_next(scanner, of, "loop")?;
+    let mut corners = [Vector::zeros(); 3];
+    for corner in &mut corners {
+        expect_next(scanner, of, "vertex")?;
+        *corner = scanner.point(of)?;
+    }
+    expect_next(scanner, of, "endloop")?;
+    expect_next(scanner, of, "endfacet")?;
+    Ok(corners)
+}
+
+fn expect_next(scanner: &mut Scanner, of: fmt::Arguments, expected: &str) -> Result<()> {
+    let word = scanner.token().ok_or_else(|| scanner.ended(of))?;
+    expect(scanner, word, expected)
+}
+
+/// Words of STL are in lower case by the book, in upper case from some programs.
+fn expect(scanner: &Scanner, word: &[u8], expected: &str) -> Result<()> {
+    if word.eq_ignore_ascii_case(expected.as_bytes()) {
+        Ok(())
+    } else {
+        Err(scanner.error(format_args!("{} where \"{expected}\" should be", shown(word))))
+    }
+}
+
+/// Builds a mesh from loose triangles.
+struct Welder {
+    mesh: PolygonMesh,
+    /// Indices by the bits of the coordinates, −0 as 0.
+    indices: HashMap<[u64; 3], u32>,
+}
+
+impl Default for Welder {
+    fn default() -> Self {
+        let mesh = PolygonMesh { single_precision: true, ..PolygonMesh::default() };
+        Welder { mesh, indices: HashMap::new() }
+    }
+}
+
+impl Welder {
+    fn push_triangle(&mut self, corners: [Vector; 3]) -> Result<()> {
+        let mut face = [0; 3];
+        for (index, corner) in face.iter_mut().zip(&corners) {
+            *index = self.vertex(corner)?;
+        }
+        let [a, b, c] = face;
+        if a == b || b == c || c == a {
+            return Ok(());
+        }
+        self.mesh.push_face(&face)
+    }
+
+    /// The index of the vertex at this position, new or not.
+    fn vertex(&mut self, position: &Vector) -> Result<u32> {
+        // −0 + 0 = 0: what compares equal gets one key.
+        let key = [position.x, position.y, position.z].map(|x| (x + 0.0).to_bits());
+        if let Some(&index) = self.indices.get(&key) {
+            return Ok(index);
+        }
+        // `push_vertex` refuses what does not fit 32 bits.
+        let index = self.mesh.vertices.len() as u32;
+        self.indices.try_reserve(1).map_err(|e| lacking::<([u64; 3], u32)>(self.indices.len() + 1, &e))?;
+        self.mesh.push_vertex(*position)?;
+        self.indices.insert(key, index);
+        Ok(index)
+    }
+}

@@ -1,0 +1,333 @@
+//! Witness points, normal and features of an answer, in the caller's frames and numbering.
+
+use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
+use crate::base::simd::{Lanes, Portable};
+use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
+use crate::pair::contact_direction::Overlap;
+use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Frame;
+use crate::solve::state::FeatureId;
+use crate::solve::voronoi::edge_direction;
+
+/// Neighbours of a vertex beyond which all faces in the order of memory are looked through sooner than those around it.
+const MOST_NEIGHBOURS: usize = 64;
+
+/// Rounds of refinement of the weights of a contact. Each gains the digits that the inverse has, two where the tetrahedron is 10¹⁴
+/// times as long as it is thick; most need one or two.
+const MOST_REFINEMENTS: usize = 12;
+
+const NOTHING: [f64; 3] = [f64::NAN; 3];
+
+/// An answer that says no points and features, only a normal.
+#[inline(always)]
+pub fn fill_normal<L: Lanes>(answer: &mut PairAnswer, normal: L) {
+    fill_nothing(answer);
+    normal.store_vector(&mut answer.normal);
+}
+
+/// An answer that says no points, normal and features.
+#[inline(always)]
+pub fn fill_nothing(answer: &mut PairAnswer) {
+    answer.local1 = NOTHING;
+    answer.local2 = NOTHING;
+    answer.world1 = NOTHING;
+    answer.world2 = NOTHING;
+    answer.normal = NOTHING;
+    answer.feature1 = Feature::default();
+    answer.feature2 = Feature::default();
+}
+
+/// From a prepared frame: centred local points, the same mapped by the rotations, the unit normal from body 2 to body 1.
+#[inline(always)]
+pub fn fill_separated<L: Lanes>(
+    answer: &mut PairAnswer,
+    frame: &Frame<L>,
+    points: [L; 2],
+    rotated: [L; 2],
+    normal: L,
+    features: [FeatureId; 2],
+) {
+    let [body1, body2] = &frame.bodies;
+    points[0].add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut answer.local1);
+    points[1].add(L::from_vector(&body2.polyhedron.centre)).store_vector(&mut answer.local2);
+    rotated[0].add(body1.translation).store_vector(&mut answer.world1);
+    rotated[1].add(body2.translation).store_vector(&mut answer.world2);
+    normal.store_vector(&mut answer.normal);
+    answer.feature1 = label(body1.polyhedron, features[0], &points[0].to_vector());
+    answer.feature2 = label(body2.polyhedron, features[1], &points[1].to_vector());
+}
+
+/// As [`fill_separated`] without a frame, for any magnitudes.
+pub fn fill_placed(
+    answer: &mut PairAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    points: &[Vector; 2],
+    direction: &Vector,
+    features: [FeatureId; 2],
+) {
+    let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
+    answer.local1 = local[0].into();
+    answer.local2 = local[1].into();
+    answer.world1 = placed(poses[0], &local[0]).into();
+    answer.world2 = placed(poses[1], &local[1]).into();
+    answer.normal = normalised(direction);
+    answer.feature1 = label(polyhedra[0], features[0], &points[0]);
+    answer.feature2 = label(polyhedra[1], features[1], &points[1]);
+}
+
+/// A local point in the world, infinite only where the world is larger than the doubles: not where terms that cancel are.
+fn placed(pose: &Pose, local: &Vector) -> Vector {
+    let world = pose.transform(local);
+    if world.iter().all(|x| x.is_finite()) {
+        return world;
+    }
+    (pose.rotate(&(0.125 * local)) + 0.125 * pose.translation()) * 8.0
+}
+
+/// The vertex pairs that prove an intersection, in the caller's numbering.
+pub fn fill_proof(answer: &mut PairAnswer, polyhedra: [&Polyhedron; 2], pairs: &[VertexPair]) {
+    answer.proof_count = pairs.len() as u32;
+    for (out, pair) in answer.proof.iter_mut().zip(pairs) {
+        *out = std::array::from_fn(|i| polyhedra[i].vertex_labels[pair[i] as usize]);
+    }
+}
+
+/// The unit vector of a direction, scaled first so that no square leaves the range of doubles.
+pub fn normalised(direction: &Vector) -> [f64; 3] {
+    let scaled = direction / direction.amax();
+    (scaled / scaled.norm()).into()
+}
+
+/// A feature in the caller's numbering; `point` is the witness point in centred coordinates.
+#[inline(always)]
+fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
+    match feature {
+        FeatureId::Vertex(v) => Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[v as usize], 0] },
+        FeatureId::Edge(e) => {
+            let ids = match polyhedron.edges.get(e as usize) {
+                Some(edge) => edge.labels,
+                // A segment has no table of edges.
+                None => [polyhedron.vertex_labels[0], polyhedron.vertex_labels[1]],
+            };
+            Feature { kind: FeatureKind::Edge, ids }
+        }
+        FeatureId::Face(f) => {
+            let label = polyhedron.faces[f as usize].label;
+            let id = if label == NONE { polyhedron.polygon_at(f, point) } else { label };
+            Feature { kind: FeatureKind::Face, ids: [id, 0] }
+        }
+    }
+}
+
+/// The features that hold the given points (centred) of a simplex of vertex pairs: one vertex, the edge of two, else the face that
+/// holds the point; of several the one that looks most towards the other body.
+pub fn features_of_pairs(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    points: &[Vector; 2],
+    direction: &Vector,
+) -> [FeatureId; 2] {
+    features(polyhedra, poses, pairs, points, direction, None)
+}
+
+/// The features of a contact: those that hold the points; of a deep one the faces at the vertices that reach farthest into the
+/// other body along the overlap's direction, which look most towards it.
+pub fn features_of_overlap(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    points: &[Vector; 2],
+    overlap: &Overlap,
+) -> [FeatureId; 2] {
+    let size = polyhedra[0].radius.min(polyhedra[1].radius);
+    let between = poses[0].translation() - poses[1].translation();
+    let reach = |polyhedron: &Polyhedron| polyhedron.radius + polyhedron.centre.norm();
+    let rounding = 64.0 * UNIT_ROUNDOFF * (reach(polyhedra[0]) + reach(polyhedra[1]) + between.norm());
+    let ends = (overlap.depth > DEEP * size + rounding).then_some(overlap.ends);
+    features(polyhedra, poses, pairs, points, &overlap.direction, ends)
+}
+
+/// As a multiple of the smaller radius, the depth from which on a point common to both bodies tells nothing of the faces that meet.
+/// Touching bodies overlap by rounding.
+const DEEP: f64 = 1e-6;
+
+fn features(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    points: &[Vector; 2],
+    direction: &Vector,
+    ends: Option<VertexPair>,
+) -> [FeatureId; 2] {
+    std::array::from_fn(|i| {
+        let towards = poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
+        let mut vertices = [0; 4];
+        let mut count = 0;
+        for pair in pairs.iter().take(4) {
+            if !vertices[..count].contains(&pair[i]) {
+                vertices[count] = pair[i];
+                count += 1;
+            }
+        }
+        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards, ends.map(|pair| pair[i]))
+    })
+}
+
+/// `end` is the vertex that reaches farthest into the other body, if it is deep in it.
+fn feature_of_vertices(
+    polyhedron: &Polyhedron,
+    vertices: &[u32],
+    point: &Vector,
+    towards: &Vector,
+    end: Option<u32>,
+) -> FeatureId {
+    if let Some(face) = end.and_then(|end| steepest_face(polyhedron, end, towards)) {
+        return FeatureId::Face(face);
+    }
+    let &[first, ref others @ ..] = vertices else { return FeatureId::Vertex(0) };
+    if others.is_empty() {
+        return FeatureId::Vertex(first);
+    }
+    if polyhedron.dimension == 1 {
+        return FeatureId::Edge(0);
+    }
+    if let &[second] = others {
+        let joins = |e: u32| {
+            let edge = &polyhedron.edges[e as usize];
+            [edge.tail(), edge.head()] == [first, second] || [edge.head(), edge.tail()] == [first, second]
+        };
+        if let Some(edge) = edges_at(polyhedron, first).find(|&e| joins(e)) {
+            return FeatureId::Edge(edge);
+        }
+    }
+    // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
+    // The face that holds a convex combination holds all its vertices, so those with many faces around them can be left out.
+    let has_few = |v: &&u32| polyhedron.neighbour_capacity(**v) <= MOST_NEIGHBOURS;
+    let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));
+    let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
+    face.map_or(FeatureId::Vertex(first), FeatureId::Face)
+}
+
+/// The face at a vertex that looks most in a direction.
+fn steepest_face(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
+    let slope = |face: &u32| polyhedron.faces[*face as usize].normal.dot(towards);
+    faces_at(polyhedron, vertex).max_by(|face, other| slope(face).total_cmp(&slope(other)))
+}
+
+/// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
+fn face_holding(
+    polyhedron: &Polyhedron,
+    faces: impl Iterator<Item = u32>,
+    point: &Vector,
+    towards: &Vector,
+) -> Option<u32> {
+    let (mut best, mut steepest) = (None, f64::NEG_INFINITY);
+    for face in faces {
+        let slope = polyhedron.faces[face as usize].normal.dot(towards);
+        // The plane tells first of most that do not hold it.
+        let is_on_plane = polyhedron.faces[face as usize].planes.value(0, point).abs() <= rounding(polyhedron);
+        if is_on_plane && slope > steepest && misses_face(polyhedron, face, point) == 0.0 {
+            (best, steepest) = (Some(face), slope);
+        }
+    }
+    best
+}
+
+/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose
+/// plane is nearest: the foot on it lies in the body, so in the face. Where rounding leaves several planes, the distances tell.
+fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Option<u32> {
+    let height = |face: &Face| face.planes.value(0, point);
+    let highest = polyhedron.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
+    let (mut best, mut least, mut steepest) = (None, f64::INFINITY, f64::NEG_INFINITY);
+    for (face, record) in (0..).zip(&polyhedron.faces) {
+        if height(record) >= highest - 2.0 * rounding(polyhedron) {
+            let (misses, slope) = (misses_face(polyhedron, face, point), record.normal.dot(towards));
+            if misses < least || (misses == least && slope > steepest) {
+                (best, least, steepest) = (Some(face), misses, slope);
+            }
+        }
+    }
+    best
+}
+
+/// What a point of a face may miss its plane and its sides' planes by.
+fn rounding(polyhedron: &Polyhedron) -> f64 {
+    64.0 * UNIT_ROUNDOFF * polyhedron.radius
+}
+
+/// The edges at a vertex.
+fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
+    polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|&edge| edge != NONE)
+}
+
+/// The faces at a vertex, each twice.
+fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
+    edges_at(polyhedron, vertex).flat_map(|edge| {
+        let edge = &polyhedron.edges[edge as usize];
+        [edge.left(), edge.right()]
+    })
+}
+
+/// The distance of a point from a face; 0 within the rounding of its planes. At the sharp corner of a sliver a point may
+/// violate the sides by next to nothing and still be far away, so that the sides only tell whether it is inside.
+fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
+    let record = &polyhedron.faces[face as usize];
+    let first = (1..4).map(|lane| record.planes.value(lane, point));
+    let further = polyhedron.further_sides(record).iter();
+    let mut sides = first.chain(further.flat_map(|block| (0..4).map(|lane| block.value(lane, point))));
+    let misses = if sides.all(|value| value >= 0.0) {
+        record.planes.value(0, point).abs()
+    } else {
+        let range = record.first_side as usize..(record.first_side + record.side_count) as usize;
+        let edges = polyhedron.sides[range].iter().map(|&side| &polyhedron.edges[side as usize]);
+        edges.map(|edge| distance_to_edge(polyhedron, edge, point)).fold(f64::INFINITY, f64::min)
+    };
+    if misses <= rounding(polyhedron) { 0.0 } else { misses }
+}
+
+fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64 {
+    let from_tail = point - polyhedron.vertices[edge.tail() as usize].position;
+    let direction = edge_direction(&edge.planes);
+    let t = clamp(from_tail.dot(&direction), 0.0, edge.length);
+    (from_tail - direction * t).norm()
+}
+
+/// Convex weights of an enclosing tetrahedron made better by iterative refinement: those from its determinants lose digits where it
+/// is thin, and the two witness points of a contact are to be one.
+pub fn refined_weights(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    mut weights: [f64; 4],
+) -> [f64; 4] {
+    let &[p0, p1, p2, p3] = pairs else { return weights };
+    let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
+    if !frame.usual {
+        return weights;
+    }
+    let corners = [p0, p1, p2, p3].map(|[v, w]| {
+        let [vertex1, vertex2] = [&polyhedra[0].vertices[v as usize], &polyhedra[1].vertices[w as usize]];
+        frame.difference(&vertex1.position, &vertex2.position).to_vector()
+    });
+    let sides = Matrix::from_columns(&[corners[1] - corners[0], corners[2] - corners[0], corners[3] - corners[0]]);
+    let Some(inverse) = sides.try_inverse() else { return weights };
+    let missed = |weights: &[f64; 4]| -> Vector { (0..4).map(|k| corners[k] * weights[k]).sum() };
+    for _ in 0..MOST_REFINEMENTS {
+        let step = inverse * missed(&weights);
+        let mut better = weights;
+        for k in 0..3 {
+            better[k + 1] -= step[k];
+        }
+        better[0] = 1.0 - better[1] - better[2] - better[3];
+        // Refinement ends where rounding does not let it gain; a weight that leaves [0, 1] would leave the bodies.
+        let is_convex = better.iter().all(|weight| (0.0..=1.0).contains(weight));
+        if !is_convex || missed(&better).norm() >= missed(&weights).norm() {
+            break;
+        }
+        weights = better;
+    }
+    weights
+}

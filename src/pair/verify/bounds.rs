@@ -1,0 +1,158 @@
+//! Bounds of the distance in double-double arithmetic: from below by the gap along a normal, from above by a point of each body.
+//! They hold to the last bit; where they do not suffice, nothing is said, and integers tell.
+
+use super::length;
+use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, power_of_two};
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
+use crate::solve::exact::VertexPair;
+
+/// The error of any length computed here, as a multiple of the size of the pair. A coordinate of R₁·x − R₂·y + Δ takes twelve
+/// products, off by 8u² each. It takes as many sums, off by 3u² of at most the size. Together they are below 2⁻¹⁰⁰, and so is what
+/// a product with a unit vector adds.
+const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
+
+/// A pair of placed bodies whose magnitudes double-double arithmetic covers.
+pub struct Bounds<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    /// From the centred origin of body 2 to that of body 1, in the world.
+    between: WideVector,
+    /// The most by which a length is off.
+    error: f64,
+}
+
+/// A gap along a normal.
+pub struct Gap {
+    value: DoubleDouble,
+    /// Vertices that face each other across the gap.
+    pub vertices: VertexPair,
+}
+
+impl<'a> Bounds<'a> {
+    /// `None` where products may over- or underflow.
+    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2]) -> Option<Bounds<'a>> {
+        let [translation1, translation2] = poses.map(Pose::translation);
+        let apart = wide_difference(&translation1, &translation2);
+        // The 1-norm of R·p is at most 1.8|p|, for an accepted R.
+        let reach = polyhedra.map(|polyhedron| polyhedron.centre.lp_norm(1) + polyhedron.radius);
+        let size = apart.iter().map(|x| x.hi.abs()).sum::<f64>() + 2.0 * (reach[0] + reach[1]);
+        if !(SMALLEST..=LARGEST).contains(&size) {
+            return None;
+        }
+        let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&polyhedra[i].centre)));
+        let between = [0, 1, 2].map(|k| apart[k] + (centre1[k] - centre2[k]));
+        Some(Bounds { polyhedra, poses, between, error: ERROR * size })
+    }
+
+    /// The gap along a normal from body 2 to body 1: the lowest vertex of body 1 over the highest of body 2.
+    pub fn gap(&self, normal: &Vector) -> Gap {
+        let wide = widen(normal);
+        let (below1, vertex1) = highest(self.polyhedra[0], &rotate_back(self.poses[0], &widen(&-normal)));
+        let (above2, vertex2) = highest(self.polyhedra[1], &rotate_back(self.poses[1], &wide));
+        let value = wide_dot(&wide, &self.between) - below1 - above2;
+        Gap { value, vertices: [vertex1, vertex2] }
+    }
+
+    /// Whether the gap along a normal proves the distance to be at least `lower`: it is at least gap/|normal|.
+    pub fn prove_lower(&self, gap: &Gap, normal: &Vector, lower: f64) -> bool {
+        let wide = widen(normal);
+        // √(1 + x) ≤ 1 + x/2 for every x.
+        let excess = (wide_dot(&wide, &wide) - 1.0.into()) * 0.5.into();
+        let needed = (excess + 1.0.into()) * lower.into();
+        (gap.value - needed).hi > self.error
+    }
+
+    /// Whether a point of each body proves the distance to be at most `upper`.
+    pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
+        let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i])));
+        let difference = [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]));
+        let (square, most) = (wide_dot(&difference, &difference), two_product(upper, upper));
+        let length: f64 = difference.iter().map(|x| x.hi.abs()).sum();
+        // A difference off by e in each coordinate is longer by less than 2e, its square by 4e·|D| + 4e²; squares err by 2⁻¹⁰⁰.
+        let rounding = self.error * (5.0 * length + 5.0 * self.error) + power_of_two(-96) * (square.hi + most.hi);
+        (most - square).hi > rounding
+    }
+}
+
+/// R·p.
+fn rotate(pose: &Pose, p: &WideVector) -> WideVector {
+    pose.rows.map(|[x, y, z, _]| wide_dot(&widen(&Vector::new(x, y, z)), p))
+}
+
+/// Rᵀ·d.
+fn rotate_back(pose: &Pose, d: &WideVector) -> WideVector {
+    let r = &pose.rows;
+    [0, 1, 2].map(|k| wide_dot(&widen(&Vector::new(r[0][k], r[1][k], r[2][k])), d))
+}
+
+/// The largest value of `direction` over all vertices, and a vertex that has it. Doubles tell which vertices may have it.
+fn highest(polyhedron: &Polyhedron, direction: &WideVector) -> (DoubleDouble, u32) {
+    let rounded = narrow(direction);
+    let value = |vertex: &Vertex| rounded.dot(&vertex.position);
+    let most = polyhedron.vertices.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+    // Each value is off by u for the rounded direction and 3u for product and sums, of |g|₁·ρ.
+    let rounding = 8.0 * U * rounded.lp_norm(1) * polyhedron.radius;
+    let mut best = (DoubleDouble::from(f64::NEG_INFINITY), 0);
+    for (index, vertex) in (0..).zip(&polyhedron.vertices) {
+        if value(vertex) >= most - 2.0 * rounding {
+            let wide = wide_dot(direction, &widen(&vertex.position));
+            if wide.hi > best.0.hi || (wide.hi == best.0.hi && wide.lo > best.0.lo) {
+                best = (wide, index);
+            }
+        }
+    }
+    best
+}
+
+/// A convex combination of up to three vertices: v₀ + w₁(v₁ − v₀) + w₂(v₂ − v₀), the weights from 0, their sum at most 1.
+#[derive(Clone, Copy)]
+pub struct PointInside {
+    /// v₀, v₁, v₂; those without weight repeat v₀.
+    pub vertices: [u32; 3],
+    weights: [f64; 2],
+}
+
+impl PointInside {
+    /// A vertex.
+    pub fn vertex(vertex: u32) -> PointInside {
+        PointInside { vertices: [vertex; 3], weights: [0.0; 2] }
+    }
+
+    /// About the point of a segment that is nearest to `point`.
+    pub fn on_segment(polyhedron: &Polyhedron, [tail, head]: [u32; 2], point: &Vector) -> PointInside {
+        let [from, to] = [tail, head].map(|v| polyhedron.vertices[v as usize].position);
+        let along = to - from;
+        let weight = clamp((point - from).dot(&along) / along.norm_squared(), 0.0, 1.0);
+        PointInside { vertices: [tail, head, tail], weights: [weight, 0.0] }
+    }
+
+    /// About where `point` is over a triangle, if it is.
+    pub fn on_triangle(polyhedron: &Polyhedron, corners: [u32; 3], point: &Vector) -> PointInside {
+        let [a, b, c] = corners.map(|v| polyhedron.vertices[v as usize].position);
+        let (u, v, r) = (b - a, c - a, point - a);
+        let (uu, uv, vv, ur, vr) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&r), v.dot(&r));
+        let determinant = uu * vv - uv * uv;
+        let weight = |numerator: f64| clamp(numerator / determinant, 0.0, 1.0);
+        let weights = [weight(vv * ur - uv * vr), weight(uu * vr - uv * ur)];
+        let sum = weights[0] + weights[1];
+        // So much less than 1 that the exact sum is no more.
+        let most = 1.0 - 4.0 * U;
+        let scale = if sum > most { most / sum * most } else { 1.0 };
+        PointInside { vertices: corners, weights: weights.map(|weight| weight * scale) }
+    }
+
+    /// About how far it is from a point.
+    pub fn distance(&self, polyhedron: &Polyhedron, point: &Vector) -> f64 {
+        length(&(narrow(&self.position(polyhedron)) - point))
+    }
+
+    fn position(&self, polyhedron: &Polyhedron) -> WideVector {
+        let [a, b, c] = self.vertices.map(|v| polyhedron.vertices[v as usize].position);
+        let (u, v) = (wide_difference(&b, &a), wide_difference(&c, &a));
+        [0, 1, 2].map(|k| {
+            let share = u[k] * self.weights[0].into() + v[k] * self.weights[1].into();
+            share + a[k].into()
+        })
+    }
+}

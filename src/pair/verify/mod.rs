@@ -1,0 +1,325 @@
+//! The independent check of an answer, trusting nothing of the solver that made it: bounds of the distance over all vertices, the
+//! witness points on their features, an intersection's proof in integers, and so whatever rounding hides of a distance.
+
+mod bounds;
+mod witness;
+
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::simd::environment::with_default;
+use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+use crate::solve::exact::{self, VertexPair};
+use bounds::{Bounds, PointInside};
+use witness::Witness;
+
+/// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
+///
+/// The verdict and the interval are proved for the exact objects R·v + T, with no tolerance:
+///
+/// | outcome | what is proved, d the true distance |
+/// |---|---|
+/// | [`Outcome::Separated`] | d > 0; `lower` ≤ d ≤ `upper`; `lower` > 0, or d is below the smallest double |
+/// | [`Outcome::Beyond`] | d > 0; `lower` ≤ d |
+/// | [`Outcome::Intersecting`] | the differences of the proof's vertex pairs hold the origin in their hull |
+/// | [`Outcome::Undecided`] | d ≤ `upper`; `lower` is 0 |
+///
+/// `lower` ≤ `distance` ≤ `upper` holds for every outcome. `upper` is +∞ and `distance` is `lower` for [`Outcome::Beyond`]; all
+/// three are 0 for [`Outcome::Intersecting`].
+///
+/// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂|). There ρ is a body's radius
+/// about its centre c, and Δ joins the centres in the world.
+///
+/// | member | what is checked |
+/// |---|---|
+/// | `normal` | a unit vector up to 8u; disjoint objects are at least `lower` − a apart along it |
+/// | `local1`, `local2` | the point is at most a out of its object |
+/// | `world1`, `world2` | R·local + T up to 64u·(ρ + \|c\| + \|T\|) |
+/// | both points | `lower` − a ≤ their distance ≤ `upper` + a; of a contact their distance is at most a |
+/// | `feature1`, `feature2` | the object has it; of a separated answer the point is on it up to a + 64uρ + `upper` − `lower` |
+///
+/// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them. The
+/// status and the statistics tell of the search, and are not checked; of a contact's normal no more is checked than its length.
+///
+/// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
+///
+/// # Errors
+/// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an
+/// answer that holds no outcome or vertex indices that the shapes do not have, and for a normal or points of objects so large or
+/// far apart that doubles cannot tell.
+pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
+    with_default(|| check_answer(shape1, pose1, shape2, pose2, answer))
+}
+
+fn check_answer(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
+    let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
+    let poses = [pose1, pose2];
+    for pose in poses {
+        pose.check(ROTATION_LIMIT)?;
+    }
+    if answer.outcome != Outcome::Intersecting && answer.proof_count != 0 {
+        return Err(unverified("a proof of intersection of objects that are not said to intersect".into()));
+    }
+    match answer.outcome {
+        Outcome::None => Err(Error::Argument("the answer holds no outcome".into())),
+        Outcome::Separated => verify_separated(polyhedra, poses, answer),
+        Outcome::Beyond => verify_beyond(polyhedra, poses, answer),
+        Outcome::Intersecting => verify_intersecting(polyhedra, poses, answer),
+        Outcome::Undecided => verify_undecided(polyhedra, poses, answer),
+    }
+}
+
+fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    let PairAnswer { lower, upper, distance, .. } = *answer;
+    // A distance below the smallest double leaves `lower` at 0.
+    if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper) {
+        return Err(unverified(format!(
+            "not 0 ≤ lower ≤ distance ≤ upper, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
+        )));
+    }
+    let allowed = verify_disjoint(polyhedra, poses, answer)?;
+    let witnesses = witnesses(polyhedra, poses, answer);
+    if !are_said(&witnesses) {
+        return Ok(());
+    }
+    for witness in &witnesses {
+        witness.check_point(allowed, &[])?;
+        // A point is on the surface as far as the interval tells that it is nearest.
+        witness.check_on_feature(allowed + (upper - lower))?;
+    }
+    let apart = distance_between(polyhedra, poses, &witnesses);
+    if !(apart >= lower - allowed && apart <= upper + allowed) {
+        return Err(unverified(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}]")));
+    }
+    Ok(())
+}
+
+fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    let PairAnswer { lower, upper, distance, .. } = *answer;
+    if !(lower >= 0.0 && distance == lower && upper == f64::INFINITY) {
+        return Err(unverified(format!("not 0 ≤ lower = distance, upper = ∞: {lower:e}, {distance:e}, {upper:e}")));
+    }
+    check_no_points(polyhedra, poses, answer)?;
+    verify_disjoint(polyhedra, poses, answer).map(|_| ())
+}
+
+/// An interval says no more than that the objects are not farther apart.
+fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    let PairAnswer { lower, upper, distance, .. } = *answer;
+    if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {
+        return Err(unverified(format!("not 0 = lower ≤ distance ≤ upper: {lower:e}, {distance:e}, {upper:e}")));
+    }
+    check_no_points(polyhedra, poses, answer)?;
+    check_no_normal(answer)?;
+    if upper == f64::INFINITY {
+        return Ok(());
+    }
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    if truth.compare(upper).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
+}
+
+/// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
+fn verify_disjoint(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<f64> {
+    let normal = Vector::from(answer.normal);
+    check_unit(&normal)?;
+    let proof = prove_interval(polyhedra, poses, answer);
+    if !(proof.lower && proof.upper) {
+        prove_interval_exactly(polyhedra, poses, answer, &proof.near)?;
+    }
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
+    if !proof.lower {
+        check_normal(polyhedra, poses, &normal, &between, answer.lower - allowed)?;
+    }
+    Ok(allowed)
+}
+
+/// What of an interval is proved, and vertex pairs near where the objects are nearest.
+struct Proof {
+    lower: bool,
+    upper: bool,
+    near: Vec<VertexPair>,
+}
+
+/// What double-double arithmetic proves of the interval of a disjoint pair: by the gap along the normal from below, from above by
+/// the witness points where they are said, else by the vertices that face each other.
+fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Proof {
+    let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
+    let Some(bounds) = Bounds::new(polyhedra, poses) else { return nothing };
+    let normal = Vector::from(answer.normal);
+    let gap = bounds.gap(&normal);
+    let witnesses = witnesses(polyhedra, poses, answer);
+    let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
+    let mut near: Vec<VertexPair> =
+        points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])).collect();
+    near.sort_unstable();
+    near.dedup();
+    Proof {
+        // A gap of 0 is none.
+        lower: answer.lower > 0.0 && bounds.prove_lower(&gap, &normal, answer.lower),
+        upper: nothing.upper || bounds.prove_upper(&points, answer.upper),
+        near,
+    }
+}
+
+/// Proves the interval of a disjoint pair in integers, or refutes it.
+fn prove_interval_exactly(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    answer: &PairAnswer,
+    near: &[VertexPair],
+) -> Result<()> {
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
+    let holds = truth.compare(answer.lower).is_ge() && truth.compare(answer.upper).is_le();
+    if truth.is_zero() || !holds {
+        return Err(not_in_interval(&truth, answer));
+    }
+    let least = f64::from_bits(1);
+    if answer.outcome == Outcome::Separated && answer.lower == 0.0 && truth.compare(least).is_ge() {
+        return Err(unverified(format!("a lower end of 0, though the objects are at least {least:e} apart")));
+    }
+    Ok(())
+}
+
+fn not_in_interval(truth: &exact::ExactDistance, answer: &PairAnswer) -> Error {
+    let PairAnswer { lower: said_lower, upper: said_upper, .. } = answer;
+    let (lower, upper) = truth.bounds();
+    unverified(match truth.is_zero() {
+        true => format!("the objects intersect, they are not [{said_lower:e}, {said_upper:e}] apart"),
+        false => format!("their distance is in [{lower:e}, {upper:e}], not in [{said_lower:e}, {said_upper:e}]"),
+    })
+}
+
+/// Along the normal the bodies are at least `least` apart, as far as doubles tell.
+fn check_normal(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    normal: &Vector,
+    between: &Vector,
+    least: f64,
+) -> Result<()> {
+    let reach = |i: usize, direction: Vector| {
+        let local = poses[i].rotate_back(&direction);
+        polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let gap = normal.dot(between) - reach(0, -normal) - reach(1, *normal);
+    if gap >= least {
+        return Ok(());
+    }
+    Err(unverified(format!("along the normal the bodies are {gap:e} apart, not {least:e}")))
+}
+
+/// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
+fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
+    (poses[0].translation() - poses[1].translation())
+        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
+}
+
+/// What rounding may make of a length as it is checked here; `None` where sums of eight such lengths may overflow.
+fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> Option<f64> {
+    let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
+    let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres;
+    // Some hundred operations, each with at most half the least double where its result is subnormal.
+    let underflow = 128.0 * f64::from_bits(1);
+    (all <= f64::MAX / 8.0).then_some(64.0 * U * all + underflow)
+}
+
+fn too_large() -> Error {
+    Error::Argument("the objects are too large or too far apart to be checked in doubles".into())
+}
+
+/// The distance of the witness points.
+fn distance_between(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> f64 {
+    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
+    length(&(between_origins(polyhedra, poses) + first - second))
+}
+
+fn check_no_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    if are_said(&witnesses(polyhedra, poses, answer)) {
+        return Err(unverified(format!("points or features of an answer that is {:?}", answer.outcome)));
+    }
+    Ok(())
+}
+
+fn check_no_normal(answer: &PairAnswer) -> Result<()> {
+    if answer.normal.iter().all(|x| x.is_nan()) {
+        return Ok(());
+    }
+    Err(unverified(format!("a normal of an answer that says no points: {:?}", answer.normal)))
+}
+
+fn check_unit(normal: &Vector) -> Result<()> {
+    if (normal.norm_squared() - 1.0).abs() <= 16.0 * U {
+        return Ok(());
+    }
+    Err(unverified(format!("the normal is not a unit vector: {normal:?}")))
+}
+
+/// What the answer says of each object.
+fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &PairAnswer) -> [Witness<'a>; 2] {
+    let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
+    std::array::from_fn(|i| {
+        let (local, world, feature) = said[i];
+        let (polyhedron, pose) = (polyhedra[i], poses[i]);
+        Witness { object: i + 1, polyhedron, pose, local: local.into(), world: world.into(), feature }
+    })
+}
+
+/// Whether any witness point or feature is said.
+fn are_said(witnesses: &[Witness; 2]) -> bool {
+    witnesses.iter().any(|witness| {
+        let mut coordinates = witness.local.iter().chain(&witness.world);
+        coordinates.any(|x| !x.is_nan()) || witness.feature.kind != FeatureKind::None
+    })
+}
+
+fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    let count = answer.proof_count as usize;
+    if !(1..=4).contains(&count) {
+        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
+    }
+    if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
+        return Err(unverified("an intersection with a distance that is not 0".into()));
+    }
+    let mut pairs = [[0; 2]; 4];
+    for (pair, labels) in pairs.iter_mut().zip(answer.proof).take(count) {
+        for i in 0..2 {
+            let found = polyhedra[i].vertex_labels.iter().position(|&label| label == labels[i]);
+            let index = found.ok_or_else(|| {
+                Error::Argument(format!("vertex {} of object {} is no vertex of its hull", labels[i], i + 1))
+            })?;
+            pair[i] = index as u32;
+        }
+    }
+    if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
+        return Err(unverified("the proof's vertex differences do not hold the origin in their hull".into()));
+    }
+    let witnesses = witnesses(polyhedra, poses, answer);
+    if !are_said(&witnesses) {
+        return check_no_normal(answer);
+    }
+    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses)).ok_or_else(too_large)?;
+    check_unit(&Vector::from(answer.normal))?;
+    for (i, witness) in witnesses.iter().enumerate() {
+        // The point is a convex combination of the proof's vertices.
+        let around = pairs.map(|pair| pair[i]);
+        witness.check_point(allowed, &around[..count])?;
+        witness.check_feature()?;
+    }
+    let apart = distance_between(polyhedra, poses, &witnesses);
+    if !(apart <= allowed) {
+        return Err(unverified(format!("the witness points of a contact are {apart:e} apart")));
+    }
+    Ok(())
+}
+
+/// The length of a vector whose squares may leave the range of doubles.
+fn length(v: &Vector) -> f64 {
+    let scale = v.amax();
+    if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
+}
+
+fn unverified(what: String) -> Error {
+    Error::Unverified(format!("the answer does not hold: {what}"))
+}

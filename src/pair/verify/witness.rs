@@ -1,0 +1,187 @@
+//! What an answer says of one object: its witness point, in both frames, and the feature that holds it.
+
+use super::bounds::PointInside;
+use super::{length, unverified};
+use crate::base::error::Result;
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::build::assembly::build;
+use crate::pair::answer::{Feature, FeatureKind};
+use crate::polyhedron::{Face, Polyhedron};
+use crate::solve::exact;
+
+/// A witness point as an answer says it.
+pub struct Witness<'a> {
+    /// 1 or 2, for messages.
+    pub object: usize,
+    /// The object.
+    pub polyhedron: &'a Polyhedron,
+    /// Where it is.
+    pub pose: &'a Pose,
+    /// The point in the object's frame.
+    pub local: Vector,
+    /// The same in the world.
+    pub world: Vector,
+    /// The feature it is said to be on.
+    pub feature: Feature,
+}
+
+impl Witness<'_> {
+    /// In centred coordinates.
+    pub fn centred(&self) -> Vector {
+        self.local - self.polyhedron.centre
+    }
+
+    /// A point that is in the object for sure, near the witness point on its feature; `None` if the object has no such feature.
+    pub fn point_inside(&self) -> Option<PointInside> {
+        let (polyhedron, point) = (self.polyhedron, &self.centred());
+        let [first, second] = self.feature.ids;
+        match self.feature.kind {
+            FeatureKind::None => None,
+            FeatureKind::Vertex => Some(PointInside::vertex(self.vertex(first)?)),
+            FeatureKind::Edge => {
+                Some(PointInside::on_segment(polyhedron, [self.vertex(first)?, self.vertex(second)?], point))
+            }
+            FeatureKind::Face => {
+                let triangles = self.faces(first).flat_map(|face| triangles_of_face(polyhedron, face));
+                let inside = triangles.map(|corners| PointInside::on_triangle(polyhedron, corners, point));
+                let missed = inside.map(|inside| (inside, inside.distance(polyhedron, point)));
+                missed.reduce(|best, other| if other.1 < best.1 { other } else { best }).map(|(inside, _)| inside)
+            }
+        }
+    }
+
+    /// The vertex that the caller calls `label`.
+    fn vertex(&self, label: u32) -> Option<u32> {
+        let index = self.polyhedron.vertex_labels.iter().position(|&other| other == label)?;
+        Some(index as u32)
+    }
+
+    /// The faces that the caller's polygon `label` is part of.
+    fn faces(&self, label: u32) -> impl Iterator<Item = u32> {
+        (0..self.polyhedron.faces.len() as u32)
+            .filter(move |&face| self.polyhedron.labels_of_face(face).contains(&label))
+    }
+
+    /// The point is in the object, up to `allowed`, and the same in both frames; `around` are vertices whose hull may hold it.
+    pub fn check_point(&self, allowed: f64, around: &[u32]) -> Result<()> {
+        let Witness { object, polyhedron, pose, local, world, .. } = self;
+        if local.iter().any(|x| !x.is_finite()) {
+            return Err(unverified(format!("witness point {object} is {local:?}")));
+        }
+        self.check_inside(allowed, around)?;
+        // An eighth of everything, so that terms which cancel cannot overflow.
+        let [local, world, translation, centre] =
+            [*local, *world, pose.translation(), polyhedron.centre].map(|v| 0.125 * v);
+        let apart = length(&(pose.rotate(&local) + translation - world));
+        // Two ways to compute R·p + T, some ten roundings each, of a point between vertices that the body's size rounds; |R| ≤ 1.8.
+        let rounding = 64.0 * U * (0.125 * polyhedron.radius + length(&centre) + length(&translation));
+        if !(apart <= rounding + 64.0 * f64::from_bits(1)) {
+            let apart = 8.0 * apart;
+            return Err(unverified(format!("witness point {object} in the world is {apart:e} off the local one")));
+        }
+        Ok(())
+    }
+
+    /// The point is in the object, up to `allowed`: near a point of its feature, else integers tell.
+    fn check_inside(&self, allowed: f64, around: &[u32]) -> Result<()> {
+        let Witness { object, polyhedron, local, .. } = self;
+        if self.point_inside().is_some_and(|inside| inside.distance(polyhedron, &self.centred()) <= allowed) {
+            return Ok(());
+        }
+        let at_point = Pose::new(&Matrix::identity(), local);
+        let probe = build(&[Vector::zeros()], None)?;
+        let near: Vec<_> = around.iter().map(|&vertex| [vertex, 0]).collect();
+        let outside = exact::distance(polyhedron, &Pose::IDENTITY, &probe, &at_point, &near);
+        if outside.compare(allowed).is_le() {
+            return Ok(());
+        }
+        Err(unverified(format!("witness point {object} lies {:e} out of its object", outside.bounds().0)))
+    }
+
+    /// The object has the feature.
+    pub fn check_feature(&self) -> Result<()> {
+        self.distance_from_feature().map(|_| ())
+    }
+
+    /// The object has the feature, and the point is on it, up to `allowed` and what faces and edges were merged within.
+    pub fn check_on_feature(&self, allowed: f64) -> Result<()> {
+        let distance = self.distance_from_feature()?;
+        if distance <= allowed + 64.0 * U * self.polyhedron.radius {
+            return Ok(());
+        }
+        Err(unverified(format!("witness point {} lies {distance:e} off {:?}", self.object, self.feature)))
+    }
+
+    /// How far the point is from the feature, which the object must have.
+    fn distance_from_feature(&self) -> Result<f64> {
+        let none = || unverified(format!("object {} has no {:?}", self.object, self.feature));
+        self.distance_if_there().ok_or_else(none)
+    }
+
+    /// The same; `None` if the object has no such feature.
+    fn distance_if_there(&self) -> Option<f64> {
+        let (polyhedron, point) = (self.polyhedron, &self.centred());
+        let [first, second] = self.feature.ids;
+        let vertex = |label: u32| Some(polyhedron.vertices[self.vertex(label)? as usize].position);
+        match self.feature.kind {
+            FeatureKind::None => None,
+            FeatureKind::Vertex => Some(length(&(point - vertex(first)?))),
+            FeatureKind::Edge => {
+                let ids = |labels: [u32; 2]| labels == [first, second] || labels == [second, first];
+                let is_edge = match polyhedron.dimension {
+                    1 => ids([polyhedron.vertex_labels[0], polyhedron.vertex_labels[1]]),
+                    _ => polyhedron.edges.iter().any(|edge| ids(edge.labels)),
+                };
+                is_edge.then_some(())?;
+                Some(distance_from_segment(&[vertex(first)?, vertex(second)?], point))
+            }
+            FeatureKind::Face => {
+                let distance = |face: u32| distance_from_face(polyhedron, &polyhedron.faces[face as usize], point);
+                let distances = self.faces(first).map(distance);
+                distances.reduce(f64::min)
+            }
+        }
+    }
+}
+
+/// A face as triangles from its first corner.
+fn triangles_of_face(polyhedron: &Polyhedron, face: u32) -> impl Iterator<Item = [u32; 3]> {
+    let record = &polyhedron.faces[face as usize];
+    let corner = move |side: u32| {
+        let edge = &polyhedron.edges[polyhedron.side(record, side) as usize];
+        if edge.left() == face { edge.tail() } else { edge.head() }
+    };
+    (2..record.side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
+}
+
+fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
+    let along = ends[1] - ends[0];
+    let whole = length(&along);
+    if whole == 0.0 {
+        return length(&(point - ends[0]));
+    }
+    let direction = along / whole;
+    let t = clamp((point - ends[0]).dot(&direction) / whole, 0.0, 1.0);
+    length(&(point - ends[0] - along * t))
+}
+
+/// The distance from the plane, less what that misses the face by, over the polygon, else from the nearest side.
+fn distance_from_face(polyhedron: &Polyhedron, face: &Face, point: &Vector) -> f64 {
+    let sides = &polyhedron.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
+    let is_over = |i: usize| {
+        let (block, lane) = match i {
+            0..3 => (&face.planes, 1 + i),
+            _ => (&polyhedron.further_sides(face)[(i - 3) / 4], (i - 3) % 4),
+        };
+        block.value(lane, point) >= 0.0
+    };
+    if (0..sides.len()).all(is_over) {
+        return face.planes.value(0, point).abs() - face.slack;
+    }
+    let of_side = |side: &u32| {
+        let edge = &polyhedron.edges[*side as usize];
+        let ends = [edge.tail(), edge.head()].map(|v| polyhedron.vertices[v as usize].position);
+        distance_from_segment(&ends, point)
+    };
+    sides.iter().map(of_side).fold(f64::INFINITY, f64::min)
+}

@@ -1,0 +1,10 @@
+//! A convex polyhedron as queries run on it: features beside the numbers that their tests need, and the tables that say where to
+//! start. It is data; who makes it is in [`crate::build`] and [`crate::tables`].
+
+#[doc(hidden)]
+pub mod lookup;
+mod layout;
+pub(crate) mod triangulation;
+pub(crate) mod surface_walk;
+
+pub use layout::*;

@@ -1,0 +1,346 @@
+//! Objects of a scene: shapes with a pose, and the ids that name them.
+//!
+//! An id is a small value: a slot in the scene's table, the slot's generation, and the scene's tag. The generation
+//! changes with every reuse of a slot, so an id outlives its object without ever naming another one.
+
+use std::fmt;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use crate::base::error::{Error, Result};
+use crate::base::math::Pose;
+use crate::base::memory::reserve;
+use crate::shape::Shape;
+
+const SLOT_BITS: u32 = 24;
+const GENERATION_BITS: u32 = 20;
+const SCENE_BITS: u32 = 20;
+/// A slot whose generation has reached this is not used again.
+const LAST_GENERATION: u32 = (1 << GENERATION_BITS) - 1;
+
+/// Names an object of a scene. Zero ([`ObjectId::NULL`], the default) names none; the id of a removed object is refused
+/// for ever, that of another scene unless about a million scenes were made in between.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
+#[repr(transparent)]
+pub struct ObjectId(u64);
+
+impl ObjectId {
+    /// Names no object.
+    pub const NULL: ObjectId = ObjectId(0);
+
+    fn new(slot: usize, generation: u32, scene: u32) -> ObjectId {
+        let upper = u64::from(scene) << GENERATION_BITS | u64::from(generation);
+        ObjectId(upper << SLOT_BITS | slot as u64)
+    }
+
+    /// The id as a number, for C or for storage beside the caller's data. Opaque but for this: zero is null.
+    pub fn to_bits(self) -> u64 {
+        self.0
+    }
+
+    /// The inverse of [`ObjectId::to_bits`]. Any number is safe: a scene refuses those it has not given out.
+    pub fn from_bits(bits: u64) -> ObjectId {
+        ObjectId(bits)
+    }
+
+    fn slot(self) -> usize {
+        (self.0 & ((1 << SLOT_BITS) - 1)) as usize
+    }
+
+    fn generation(self) -> u32 {
+        (self.0 >> SLOT_BITS) as u32 & LAST_GENERATION
+    }
+
+    fn scene(self) -> u32 {
+        (self.0 >> (SLOT_BITS + GENERATION_BITS)) as u32
+    }
+}
+
+impl fmt::Display for ObjectId {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:#x}", self.0)
+    }
+}
+
+/// How an object begins.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ObjectOptions {
+    /// Where it stands: world point = R·(local point) + T.
+    pub pose: Pose,
+    /// Two fixed objects are never tested against each other. A fixed object may still be moved on its own.
+    pub fixed: bool,
+    /// The caller's own; it comes back in every result.
+    pub user_data: u64,
+}
+
+impl Default for ObjectOptions {
+    fn default() -> Self {
+        ObjectOptions { pose: Pose::IDENTITY, fixed: false, user_data: 0 }
+    }
+}
+
+/// When a word on the activation of pairs was said, and which: of two stamps the greater is the later.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
+pub(crate) struct Stamp(u64);
+
+impl Stamp {
+    /// A later stamp than this.
+    pub(crate) fn next(self, active: bool) -> Stamp {
+        Stamp(((self.0 >> 1) + 1) << 1 | u64::from(active))
+    }
+
+    /// Whether the word was "active".
+    pub(crate) fn active(self) -> bool {
+        self.0 & 1 == 1
+    }
+}
+
+/// One or several convex pieces that move together.
+#[derive(Debug, Clone)]
+pub struct Object {
+    /// Convex pieces in one local frame, shared; at least one. They are never tested against each other.
+    pub(crate) pieces: Vec<Arc<Shape>>,
+    pub(crate) pose: Pose,
+    pub(crate) fixed: bool,
+    pub(crate) user_data: u64,
+    /// The last word on the activation of its pairs.
+    pub(crate) activation: Stamp,
+    /// How many objects the scene had created before this one: the order of everything that is listed.
+    serial: u64,
+    id: ObjectId,
+}
+
+impl Object {
+    /// Its id.
+    pub fn id(&self) -> ObjectId {
+        self.id
+    }
+
+    /// Its convex pieces.
+    pub fn pieces(&self) -> &[Arc<Shape>] {
+        &self.pieces
+    }
+
+    /// Where it stands.
+    pub fn pose(&self) -> &Pose {
+        &self.pose
+    }
+
+    /// Whether it is fixed.
+    pub fn fixed(&self) -> bool {
+        self.fixed
+    }
+
+    /// The caller's own number.
+    pub fn user_data(&self) -> u64 {
+        self.user_data
+    }
+
+    /// Its place in the order of creation.
+    pub(crate) fn serial(&self) -> u64 {
+        self.serial
+    }
+}
+
+#[derive(Debug)]
+struct Slot {
+    /// That of the object in it, or of the last one; 0 before the first.
+    generation: u32,
+    object: Option<Object>,
+}
+
+/// The objects of one scene, by id and in order of creation.
+#[derive(Debug)]
+pub(crate) struct ObjectTable {
+    scene: u32,
+    slots: Vec<Slot>,
+    /// Slots to be used again, the last one first; with room for all slots, so that removing needs no memory.
+    free: Vec<u32>,
+    /// Slots of the living objects in order of creation.
+    order: Vec<u32>,
+    created: u64,
+}
+
+impl ObjectTable {
+    pub(crate) fn new() -> ObjectTable {
+        static SCENES: AtomicU64 = AtomicU64::new(0);
+        let count = SCENES.fetch_add(1, Ordering::Relaxed);
+        // Tags repeat after 2²⁰ − 1 scenes; zero is left to the null id.
+        let scene = (count % ((1 << SCENE_BITS) - 1)) as u32 + 1;
+        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), created: 0 }
+    }
+
+    /// Adds an object; the caller has checked the pieces and the pose.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] when there are no ids left, [`Error::Memory`]; nothing is added then.
+    pub(crate) fn insert(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
+        reserve(&mut self.order, 1)?;
+        let slot = match self.free.pop() {
+            Some(slot) => slot as usize,
+            None if self.slots.len() < 1 << SLOT_BITS => {
+                reserve(&mut self.slots, 1)?;
+                reserve(&mut self.free, self.slots.len() + 1)?;
+                self.slots.push(Slot { generation: 0, object: None });
+                self.slots.len() - 1
+            }
+            None => {
+                return Err(Error::Limit(format!("a scene holds at most {} objects", 1 << SLOT_BITS)));
+            }
+        };
+        self.slots[slot].generation += 1;
+        let id = ObjectId::new(slot, self.slots[slot].generation, self.scene);
+        let ObjectOptions { pose, fixed, user_data } = *options;
+        let activation = Stamp::default();
+        self.slots[slot].object = Some(Object { pieces, pose, fixed, user_data, activation, serial: self.created, id });
+        self.created += 1;
+        self.order.push(slot as u32);
+        Ok(id)
+    }
+
+    /// Removes an object; its id is stale from now on.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] as [`ObjectTable::get`].
+    pub(crate) fn remove(&mut self, id: ObjectId) -> Result<()> {
+        let serial = self.get(id)?.serial;
+        let slot = id.slot();
+        // The order is that of the serials: found by halving, as a scene may be emptied object by object.
+        let serial_at = |&slot: &u32| self.slots[slot as usize].object.as_ref().map(Object::serial);
+        if let Ok(place) = self.order.binary_search_by_key(&Some(serial), serial_at) {
+            self.order.remove(place);
+        }
+        self.slots[slot].object = None;
+        if self.slots[slot].generation < LAST_GENERATION {
+            self.free.push(slot as u32);
+        }
+        Ok(())
+    }
+
+    /// The object of an id.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub(crate) fn get(&self, id: ObjectId) -> Result<&Object> {
+        match self.slots.get(id.slot()).and_then(|slot| slot.object.as_ref()) {
+            Some(object) if object.id == id => Ok(object),
+            _ => Err(self.refusal(id)),
+        }
+    }
+
+    /// As [`ObjectTable::get`], for changing it.
+    pub(crate) fn get_mut(&mut self, id: ObjectId) -> Result<&mut Object> {
+        // The shared borrow ends before the exclusive one begins; a match on the exclusive one would hold it too long.
+        self.get(id)?;
+        self.slots[id.slot()].object.as_mut().ok_or_else(|| Error::Bug(format!("object id {id} has no object")))
+    }
+
+    /// Why an id that names no object of this scene does not.
+    #[cold]
+    fn refusal(&self, id: ObjectId) -> Error {
+        Error::Handle(if id == ObjectId::NULL {
+            "the object id is null".into()
+        } else if id.scene() != self.scene {
+            format!("object id {id} is not of this scene")
+        } else if self.slots.get(id.slot()).is_some_and(|slot| (1..=slot.generation).contains(&id.generation())) {
+            format!("object id {id} is stale: its object was removed")
+        } else {
+            format!("object id {id} was never given out")
+        })
+    }
+
+    /// The objects in order of creation.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &Object> + Clone {
+        self.order.iter().filter_map(|&slot| self.slots[slot as usize].object.as_ref())
+    }
+
+    /// The objects in order of creation, for changing them.
+    pub(crate) fn for_each_mut(&mut self, mut change: impl FnMut(&mut Object)) {
+        for &slot in &self.order {
+            if let Some(object) = &mut self.slots[slot as usize].object {
+                change(object);
+            }
+        }
+    }
+
+    /// How many there are.
+    pub(crate) fn len(&self) -> usize {
+        self.order.len()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A table with `count` objects that have no pieces: the table does not look at them.
+    fn table(count: usize) -> (ObjectTable, Vec<ObjectId>) {
+        let mut table = ObjectTable::new();
+        let ids = (0..count).map(|_| insert(&mut table)).collect();
+        (table, ids)
+    }
+
+    fn insert(table: &mut ObjectTable) -> ObjectId {
+        table.insert(Vec::new(), &ObjectOptions::default()).unwrap()
+    }
+
+    fn message(table: &ObjectTable, id: ObjectId) -> String {
+        match table.get(id) {
+            Err(Error::Handle(message)) => message,
+            other => panic!("{id}: {other:?}"),
+        }
+    }
+
+    #[test]
+    fn an_id_survives_its_bits_and_is_never_zero() {
+        let (table, ids) = table(3);
+        for id in ids {
+            assert_ne!(id.to_bits(), 0);
+            assert_eq!(ObjectId::from_bits(id.to_bits()), id);
+            assert_eq!(table.get(id).unwrap().id(), id);
+        }
+        assert_eq!(ObjectId::default(), ObjectId::NULL);
+    }
+
+    #[test]
+    fn every_refusal_says_why() {
+        let (mut table, ids) = table(2);
+        let (other, foreign) = self::table(2);
+        table.remove(ids[0]).unwrap();
+        assert!(message(&table, ObjectId::NULL).contains("null"));
+        assert!(message(&table, ids[0]).contains("stale"));
+        assert!(message(&table, foreign[1]).contains("not of this scene"));
+        assert!(message(&other, ids[1]).contains("not of this scene"));
+        let unborn = ObjectId::new(7, 1, table.scene);
+        assert!(message(&table, unborn).contains("never given out"));
+        let future = ObjectId::new(1, 2, table.scene);
+        assert!(message(&table, future).contains("never given out"));
+        assert!(matches!(table.remove(ids[0]), Err(Error::Handle(_))));
+        assert!(matches!(table.get_mut(ids[0]), Err(Error::Handle(_))));
+    }
+
+    #[test]
+    fn a_slot_used_again_gives_another_id_and_the_last_place_in_order() {
+        let (mut table, ids) = table(3);
+        table.remove(ids[0]).unwrap();
+        let again = insert(&mut table);
+        assert_eq!(again.slot(), ids[0].slot());
+        assert_ne!(again, ids[0]);
+        assert!(message(&table, ids[0]).contains("stale"));
+        let order: Vec<ObjectId> = table.iter().map(Object::id).collect();
+        assert_eq!(order, [ids[1], ids[2], again]);
+        assert!(table.get(again).unwrap().serial() > table.get(ids[2]).unwrap().serial());
+    }
+
+    #[test]
+    fn a_slot_without_generations_left_is_retired() {
+        let (mut table, ids) = table(1);
+        table.remove(ids[0]).unwrap();
+        table.slots[0].generation = LAST_GENERATION - 1;
+        let last = insert(&mut table);
+        assert_eq!((last.slot(), last.generation()), (0, LAST_GENERATION));
+        table.remove(last).unwrap();
+        assert_eq!(insert(&mut table).slot(), 1);
+        assert!(message(&table, last).contains("stale"));
+    }
+}

@@ -1,0 +1,360 @@
+//! Shapes in files: saved once, loaded as they were, levels of detail included; what is made on first need is made again.
+//!
+//! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
+//! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels) or takes long to find
+//! (the levels' vertices). A checksum finds damage, not intent, so nothing that an answer's certainty rests on is believed: the
+//! hulls are proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and
+//! measured. A file of any content gives a sound shape or an error.
+
+use std::path::Path;
+
+use crate::base::enumerator::Enumerator;
+use crate::base::error::{Error, Result};
+use crate::base::files::{read_whole, write_whole};
+use crate::base::math::Vector;
+use crate::base::memory::{collected, copied, extend, push, with_capacity};
+use crate::base::progress::Progress;
+use crate::base::simd::environment::with_default;
+use crate::build::assembly::{Labels, build_in_steps};
+use crate::build::check::check_hull_in_steps;
+use crate::build::hull::{Hull, convex_hull_in_steps};
+use crate::levels::hierarchy::{Hierarchy, HierarchyKind, Links};
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron::lookup::Plan;
+use crate::shape::Shape;
+use crate::solve::state::FeatureId;
+use crate::tables::{LookupKind, LookupOptions, plan_lookup};
+
+/// What a shape file begins with. The last byte keeps it from passing for text.
+const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
+
+/// The version that is written, and the only one that is read.
+const VERSION: u32 = 1;
+
+/// Saves a shape in a file, replacing what was there.
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be written or is no regular one; the message names it and says why. [`Error::Memory`]: the file is as it was.
+pub fn save(shape: &Shape, path: &Path) -> Result<()> {
+    write_whole(path, &to_bytes(shape)?)
+}
+
+/// Loads a shape that was [saved](save).
+///
+/// # Errors
+/// [`Error::File`] if the file cannot be read, is no regular file, is larger than [`MOST_FILE_BYTES`](crate::base::files::MOST_FILE_BYTES),
+/// is no shape file, is of another version or damaged; the message names it and says what is wrong. [`Error::Memory`].
+pub fn load(path: &Path) -> Result<Shape> {
+    load_in_steps(path, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`load`], saying how far it is.
+///
+/// # Errors
+/// As [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
+    let bytes = read_whole(path, &path.display().to_string())?;
+    from_bytes_in_steps(&bytes, progress).map_err(|error| match error {
+        Error::Cancelled(_) | Error::Memory(_) => error,
+        _ => Error::File(format!("{}: {}", path.display(), error.message())),
+    })
+}
+
+/// What [`save`] writes.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
+    let mut writer = Writer { bytes: Vec::new() };
+    writer.raw(MAGIC)?;
+    writer.number(VERSION)?;
+    let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
+    writer.polyhedron(polyhedron)?;
+    let (kind, resolution, factor) = match polyhedron.lookup.plan {
+        Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
+        Plan::AllVertices { .. } => (LookupKind::Automatic, 0, LookupOptions::DEFAULT.radius_factor),
+        Plan::Shells { resolution } => (LookupKind::Shells, resolution, LookupOptions::DEFAULT.radius_factor),
+        Plan::Spherical { resolution, radius_factor } => (LookupKind::Spherical, resolution, radius_factor),
+    };
+    writer.number(kind as u32)?;
+    writer.number(resolution as u32)?;
+    writer.real(factor)?;
+    writer.number(hierarchy.kind as u32)?;
+    // Automatic levels are made anew, whether they are made here or not.
+    let levels = if hierarchy.kind == HierarchyKind::Automatic { &[] } else { &hierarchy.levels[..] };
+    writer.number(levels.len() as u32)?;
+    for level in levels {
+        writer.polyhedron(&level.polyhedron)?;
+        writer.links(&level.children)?;
+        writer.links(&level.parents)?;
+    }
+    let checksum = checksum(&writer.bytes);
+    writer.raw(checksum.to_le_bytes())?;
+    Ok(writer.bytes)
+}
+
+/// What [`load`] makes of a file's bytes.
+///
+/// # Errors
+/// [`Error::File`] if they are no shape, of another version or damaged; [`Error::Memory`].
+pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
+    from_bytes_in_steps(bytes, &mut Progress::new(&mut |_| true))
+}
+
+/// As [`from_bytes`], saying how far it is.
+///
+/// # Errors
+/// As [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
+pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
+    with_default(|| read(bytes, progress))
+}
+
+fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
+    /// What reading and proving the bodies takes of the time: 0.95 without levels, 0.65 with 32, and this with five.
+    const SHARE_OF_BODIES: f64 = 0.8;
+    progress.report(0.0)?;
+    let mut bodies = progress.part(0.0, SHARE_OF_BODIES);
+    let mut reader = Reader { whole: bytes.len(), rest: bytes };
+    if reader.take(8).ok() != Some(&MAGIC[..]) {
+        return Err(Error::File("this is no shape file".into()));
+    }
+    let version = reader.number()?;
+    if version != VERSION {
+        return Err(Error::File(format!("a shape file of version {version}; this library reads version {VERSION}")));
+    }
+    let Some((content, sum)) = bytes.split_last_chunk::<8>() else {
+        return damaged("it is cut off");
+    };
+    if checksum(content) != u64::from_le_bytes(*sum) {
+        return damaged("its checksum is wrong");
+    }
+    reader.rest = content.get(12..).unwrap_or_default();
+    let mut polyhedron = reader.polyhedron(None, &mut bodies)?;
+    let kind = reader.number()?;
+    let Some(kind) = read_kind(kind) else {
+        return damaged("an unknown kind of look-up table");
+    };
+    let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
+    polyhedron.lookup = sound(plan_lookup(&polyhedron, &lookup))?;
+    let kind = reader.number()?;
+    let Some(kind) = read_kind(kind) else {
+        return damaged("an unknown kind of levels");
+    };
+    let count = reader.number()?;
+    if matches!(kind, HierarchyKind::Automatic | HierarchyKind::None) && count > 0 {
+        return damaged("levels where none are saved");
+    }
+    let mut levels = Vec::new();
+    for _ in 0..count {
+        let level = (reader.polyhedron(Some(polyhedron.centre), &mut bodies)?, reader.links()?, reader.links()?);
+        push(&mut levels, level)?;
+    }
+    if !reader.rest.is_empty() {
+        return damaged("there is more behind its end");
+    }
+    let hierarchy = sound(Hierarchy::restored(&polyhedron, kind, levels, &mut progress.part(SHARE_OF_BODIES, 1.0)))?;
+    Ok(Shape::from_parts(polyhedron, hierarchy))
+}
+
+fn read_kind<T: Enumerator>(number: u32) -> Option<T> {
+    T::from_number(i32::try_from(number).ok()?)
+}
+
+fn damaged<T>(what: &str) -> Result<T> {
+    Err(Error::File(format!("the shape file is damaged: {what}")))
+}
+
+/// Whatever is wrong with what was read is damage; a load that is cancelled is not, nor memory that is not there.
+fn sound<T>(result: Result<T>) -> Result<T> {
+    result.or_else(|error| match error {
+        Error::Cancelled(_) | Error::Memory(_) => Err(error),
+        _ => damaged(error.message()),
+    })
+}
+
+/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
+fn checksum(bytes: &[u8]) -> u64 {
+    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
+}
+
+struct Writer {
+    bytes: Vec<u8>,
+}
+
+impl Writer {
+    fn raw<const N: usize>(&mut self, bytes: [u8; N]) -> Result<()> {
+        extend(&mut self.bytes, bytes)
+    }
+
+    fn number(&mut self, x: u32) -> Result<()> {
+        self.raw(x.to_le_bytes())
+    }
+
+    fn real(&mut self, x: f64) -> Result<()> {
+        self.raw(x.to_le_bytes())
+    }
+
+    fn numbers(&mut self, list: &[u32]) -> Result<()> {
+        self.number(list.len() as u32)?;
+        list.iter().try_for_each(|x| self.number(*x))
+    }
+
+    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>) -> Result<()> {
+        self.number(list.len() as u32)?;
+        list.try_for_each(|v| v.iter().try_for_each(|x| self.real(*x)))
+    }
+
+    /// Centre and centred coordinates, so that a level, whose sums are not exact, comes back as it was.
+    fn polyhedron(&mut self, polyhedron: &Polyhedron) -> Result<()> {
+        self.number(u32::from(polyhedron.dimension))?;
+        polyhedron.centre.iter().try_for_each(|x| self.real(*x))?;
+        self.vectors(polyhedron.vertices.iter().map(|v| v.position))?;
+        self.numbers(polyhedron.triangles.as_flattened())?;
+        // The labels, as `Labels` has them.
+        self.numbers(&polyhedron.vertex_labels)?;
+        self.numbers(&polyhedron.face_labels)?;
+        self.numbers(&polyhedron.face_label_starts)?;
+        self.vectors(polyhedron.polygon_corners.iter().copied())?;
+        self.numbers(&polyhedron.polygon_starts)
+    }
+
+    fn links(&mut self, links: &Links) -> Result<()> {
+        for list in [&links.vertices, &links.edges, &links.faces] {
+            self.number(list.len() as u32)?;
+            for feature in list {
+                let (kind, index) = match *feature {
+                    FeatureId::Vertex(v) => (0, v),
+                    FeatureId::Edge(e) => (1, e),
+                    FeatureId::Face(f) => (2, f),
+                };
+                self.raw([kind])?;
+                self.number(index)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// Reads what is left of a file.
+struct Reader<'a> {
+    /// Bytes of the file.
+    whole: usize,
+    rest: &'a [u8],
+}
+
+impl<'a> Reader<'a> {
+    /// The fraction of the file that is read.
+    fn done(&self) -> f64 {
+        1.0 - self.rest.len() as f64 / self.whole as f64
+    }
+
+    fn take(&mut self, count: usize) -> Result<&'a [u8]> {
+        match self.rest.split_at_checked(count) {
+            Some((taken, rest)) => {
+                self.rest = rest;
+                Ok(taken)
+            }
+            None => damaged("it is cut off"),
+        }
+    }
+
+    fn number(&mut self) -> Result<u32> {
+        let bytes = self.take(4)?;
+        Ok(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
+    }
+
+    fn real(&mut self) -> Result<f64> {
+        let bytes = self.take(8)?.first_chunk().copied().unwrap_or_default();
+        Ok(f64::from_le_bytes(bytes))
+    }
+
+    /// A list of items of so many bytes each; its length is checked against what is left before anything is allocated.
+    fn list<T>(&mut self, size: usize, item: impl Fn(&mut Reader<'a>) -> Result<T>) -> Result<Vec<T>> {
+        let count = self.number()? as usize;
+        if count > self.rest.len() / size {
+            return damaged("it is cut off");
+        }
+        let mut list = with_capacity(count)?;
+        for _ in 0..count {
+            list.push(item(self)?);
+        }
+        Ok(list)
+    }
+
+    fn numbers(&mut self) -> Result<Vec<u32>> {
+        self.list(4, Reader::number)
+    }
+
+    fn vector(&mut self) -> Result<Vector> {
+        let vector = Vector::new(self.real()?, self.real()?, self.real()?);
+        if vector.iter().all(|x| x.is_finite()) { Ok(vector) } else { damaged("a coordinate is not finite") }
+    }
+
+    /// A polyhedron in a frame of its own, or a level in the centred coordinates of a body whose centre is given. It takes the part
+    /// of `progress` that its bytes are of the file.
+    fn polyhedron(&mut self, body: Option<Vector>, progress: &mut Progress) -> Result<Polyhedron> {
+        /// Of the time that a body takes, what proving its hull does, about; laying it out takes the rest.
+        const SHARE_OF_PROOF: f64 = 0.15;
+        let start = self.done();
+        let dimension = self.number()?;
+        let centre = self.vector()?;
+        let positions = self.list(24, Reader::vector)?;
+        let corners = self.numbers()?;
+        let (triangles, []) = corners.as_chunks::<3>() else {
+            return damaged("a triangle is incomplete");
+        };
+        let labels = Labels {
+            vertex_labels: self.numbers()?,
+            face_labels: self.numbers()?,
+            face_label_starts: self.numbers()?,
+            polygon_corners: self.list(24, Reader::vector)?,
+            polygon_starts: self.numbers()?,
+        };
+        let mut progress = progress.part(start, self.done());
+        progress.report(0.0)?;
+        // What a body is stored as are exact sums; those of a level are not, and its hull is that of its centred coordinates.
+        let points = match body {
+            None => collected(positions.iter().map(|p| p + centre))?,
+            Some(_) => copied(&positions)?,
+        };
+        let hull = match dimension {
+            3 => {
+                let vertices = collected(0..positions.len() as u32)?;
+                let hull = Hull { dimension: 3, vertices, triangles: copied(triangles)? };
+                sound(check_hull_in_steps(&points, &hull, &mut progress.part(0.0, SHARE_OF_PROOF)))?;
+                hull
+            }
+            // Of a flat hull the triangulation is known.
+            _ => sound(convex_hull_in_steps(&points, &mut progress.part(0.0, SHARE_OF_PROOF)))?,
+        };
+        if u32::from(hull.dimension) != dimension || hull.vertices.len() != positions.len() {
+            return damaged("the vertices are not those of a hull");
+        }
+        progress.report(SHARE_OF_PROOF)?;
+        let mut polyhedron = sound(build_in_steps(&points, hull, None, None, &mut progress.part(SHARE_OF_PROOF, 1.0)))?;
+        let expected = if body.is_some() { Vector::zeros() } else { centre };
+        let is_same = polyhedron.vertices.iter().zip(&positions).all(|(vertex, p)| vertex.position == *p);
+        if !(is_same && polyhedron.centre == expected && body.is_none_or(|body| body == centre)) {
+            return damaged("vertices are not in the order or the frame in which they are saved");
+        }
+        if !labels.give_to(&mut polyhedron)? {
+            return damaged("labels that do not fit");
+        }
+        progress.report(1.0)?;
+        Ok(polyhedron)
+    }
+
+    fn links(&mut self) -> Result<Links> {
+        let feature = |reader: &mut Reader<'a>| {
+            let kind = reader.take(1)?[0];
+            let index = reader.number()?;
+            match kind {
+                0 => Ok(FeatureId::Vertex(index)),
+                1 => Ok(FeatureId::Edge(index)),
+                2 => Ok(FeatureId::Face(index)),
+                _ => damaged("an unknown kind of feature"),
+            }
+        };
+        Ok(Links { vertices: self.list(5, feature)?, edges: self.list(5, feature)?, faces: self.list(5, feature)? })
+    }
+}

@@ -1,0 +1,443 @@
+//! A shape: geometry that any number of objects, scenes and threads share.
+
+pub mod file;
+
+use std::path::Path;
+
+use crate::base::double_double::{DoubleDouble, two_product};
+use crate::base::error::{Error, Result, check_range};
+use crate::base::locality::{along_curve, in_order};
+use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::memory::{OnNeed, copied, found, with_capacity};
+use crate::base::progress::Progress;
+use crate::base::simd::environment::with_default;
+use crate::build::assembly::build_in_steps;
+use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
+use crate::build::hull::{check_points, convex_hull_in_steps};
+use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
+use crate::mesh::io::read_mesh;
+use crate::mesh::{Numbers, PolygonMesh, check_vertex};
+use crate::polyhedron::Polyhedron;
+pub use crate::tables::{LookupKind, LookupOptions};
+use crate::tables::{insist_on_table, plan_lookup};
+
+/// Default of [`ShapeOptions::convexity_tolerance`].
+const CONVEXITY_TOLERANCE: f64 = 1e-9;
+
+/// The same for meshes that went through single precision.
+const SINGLE_PRECISION_CONVEXITY_TOLERANCE: f64 = 1e-6;
+
+/// What to do with input that is not a closed convex mesh with interior.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum InputPolicy {
+    /// Refuse it with a message that says where.
+    #[default]
+    Strict = 0,
+    /// Admit bodies without interior (a two-sided polygon); otherwise as strict.
+    Flat = 1,
+    /// Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
+    /// mesh; otherwise they are ignored, and a face's label is its own index.
+    Hull = 2,
+}
+
+/// How a shape is made.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ShapeOptions {
+    /// What to do with input that is not a closed convex mesh with interior.
+    pub input: InputPolicy,
+    /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
+    /// the rotation of a pose ([`ROTATION_LIMIT`]).
+    pub rotation: Matrix,
+    /// See `rotation`.
+    pub translation: Vector,
+    /// See `rotation`; positive and finite.
+    pub scale: f64,
+    /// Largest distance of a vertex outside a face of accepted input, relative to the bounding-box diagonal. `None`: 1e-9, or
+    /// 1e-6 for meshes that went through single precision.
+    pub convexity_tolerance: Option<f64>,
+    /// Levels of detail.
+    pub hierarchy: HierarchyOptions,
+    /// The table of vertices from which marching starts when the last query tells nothing. It is made by the first query that
+    /// looks into it.
+    pub lookup: LookupOptions,
+}
+
+impl Default for ShapeOptions {
+    fn default() -> Self {
+        ShapeOptions {
+            input: InputPolicy::Strict,
+            rotation: Matrix::identity(),
+            translation: Vector::zeros(),
+            scale: 1.0,
+            convexity_tolerance: None,
+            hierarchy: HierarchyOptions::default(),
+            lookup: LookupOptions::default(),
+        }
+    }
+}
+
+impl ShapeOptions {
+    /// Which part of building the shape, about, the body itself is.
+    fn share_of_body(&self) -> f64 {
+        match self.hierarchy.kind {
+            HierarchyKind::None | HierarchyKind::Given | HierarchyKind::Automatic => 1.0,
+            HierarchyKind::Quadric | HierarchyKind::OuterCuts => 0.4,
+            HierarchyKind::DobkinKirkpatrick => 0.06,
+        }
+    }
+}
+
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
+/// tables of the body and of its levels and automatic levels, is all that is ever added.
+#[derive(Debug, Clone)]
+pub struct Shape {
+    polyhedron: Polyhedron,
+    /// Empty while automatic levels are not made.
+    hierarchy: OnNeed<Hierarchy>,
+}
+
+/// Tables and automatic levels do not count: equal shapes make equal ones.
+impl PartialEq for Shape {
+    fn eq(&self, other: &Shape) -> bool {
+        let [levels, others] = [self.hierarchy(), other.hierarchy()];
+        let are_automatic = [levels, others].map(|levels| levels.kind == HierarchyKind::Automatic);
+        self.polyhedron == other.polyhedron && (are_automatic == [true; 2] || levels == others)
+    }
+}
+
+impl Shape {
+    /// From a mesh in the caller's numbering.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of range, [`Error::Mesh`] for a mesh that the policy does not admit, with the face,
+    /// edge or vertex where.
+    pub fn from_mesh(mesh: &PolygonMesh, options: &ShapeOptions) -> Result<Shape> {
+        Shape::from_mesh_in_steps(mesh, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_mesh`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_mesh_in_steps(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| Shape::of_mesh(mesh, options, progress))
+    }
+
+    fn of_mesh(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        if mesh.vertices.is_empty() {
+            return Err(Error::Mesh("the mesh has no vertices".into()));
+        }
+        let mesh = PolygonMesh {
+            vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
+            indices: copied(&mesh.indices)?,
+            starts: copied(&mesh.starts)?,
+            single_precision: mesh.single_precision,
+        };
+        let tolerance = match options.convexity_tolerance {
+            Some(tolerance) => {
+                check_range("convexity_tolerance", tolerance, 0.0..=f64::MAX)?;
+                tolerance
+            }
+            None if mesh.single_precision => SINGLE_PRECISION_CONVEXITY_TOLERANCE,
+            None => CONVEXITY_TOLERANCE,
+        };
+        let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
+        check_points(&mesh.vertices)?;
+        let mut of_body = progress.part(0.0, options.share_of_body());
+        let allow_flat = options.input != InputPolicy::Strict;
+        let check_as_given = |progress: &mut Progress| check_mesh_in_steps(&mesh, tolerance, allow_flat, progress);
+        // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
+        let order = along_curve(&mesh.vertices, &mut of_body.part(0.0, 0.02))?;
+        let Some((ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {
+            return match options.input {
+                InputPolicy::Strict | InputPolicy::Flat => {
+                    check_as_given(&mut of_body).and(Err(Error::Bug("faces that are none passed the check".into())))
+                }
+                InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, &mut progress.part(0.05, 1.0)),
+            };
+        };
+        let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.05, 0.25))?;
+        let closed = check_surface(&ordered, &mut of_body.part(0.25, 0.36));
+        let checked = closed
+            .and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat, &mut of_body.part(0.36, 0.45)));
+        let is_as_promised = found(checked)?.is_some();
+        let polygons = match options.input {
+            // A message is about the caller's numbers. A face may pass by a plane that the search meets in one order only: that is
+            // good enough, as the plane is one of the hull whichever way led there.
+            InputPolicy::Strict | InputPolicy::Flat => {
+                if !is_as_promised {
+                    check_as_given(&mut of_body.part(0.45, 0.45))?;
+                }
+                Some(&ordered)
+            }
+            InputPolicy::Hull => is_as_promised.then_some(&ordered),
+        };
+        let building = &mut of_body.part(0.45, 1.0);
+        let polyhedron = build_in_steps(&ordered.vertices, hull, polygons, Some(&numbers), building)?;
+        Shape::admitted(polyhedron, options, progress)
+    }
+
+    /// The convex hull of points. A face's label is its own index.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for options out of range and no points; [`Error::Mesh`] for a point that is not finite and a hull whose
+    /// dimension the policy does not admit.
+    pub fn from_points(points: &[Vector], options: &ShapeOptions) -> Result<Shape> {
+        Shape::from_points_in_steps(points, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_points`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| {
+            let points = transformed(points, options, &mut progress.part(0.0, 0.0))?;
+            check_points(&points)?;
+            Shape::of_points(&points, options, progress)
+        })
+    }
+
+    /// From finite points that went through the input transform.
+    fn of_points(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let mut of_body = progress.part(0.0, options.share_of_body());
+        let order = along_curve(points, &mut of_body.part(0.0, 0.04))?;
+        let ordered = in_order(points, &order, &mut of_body.part(0.04, 0.05))?;
+        let numbers = Numbers { vertices: order, faces: Vec::new() };
+        let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.05, 0.3))?;
+        let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
+        Shape::admitted(polyhedron, options, progress)
+    }
+
+    /// From a mesh file ([`read_mesh`]).
+    ///
+    /// # Errors
+    /// As [`read_mesh`] and [`Shape::from_mesh`]; the message names the file.
+    pub fn from_file(path: &Path, options: &ShapeOptions) -> Result<Shape> {
+        Shape::from_file_in_steps(path, options, &mut Progress::new(&mut |_| true))
+    }
+
+    /// As [`Shape::from_file`], saying how far it is.
+    ///
+    /// # Errors
+    /// As [`Shape::from_file`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn from_file_in_steps(path: &Path, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        Shape::from_mesh_in_steps(&read_mesh(path)?, options, progress).map_err(|error| match error {
+            Error::Mesh(message) => Error::Mesh(format!("{}: {message}", path.display())),
+            other => other,
+        })
+    }
+
+    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in
+    /// [`Shape::from_mesh`]; of each further one the convex hull of its vertices counts, moved and scaled until it bounds the
+    /// body ([`Hierarchy::from_levels`]). All go through the same input transform.
+    ///
+    /// # Errors
+    /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks
+    /// for levels to be built.
+    pub fn from_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| Shape::of_levels(meshes, options, progress))
+    }
+
+    fn of_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let Some((mesh, levels)) = meshes.split_first() else {
+            return Err(Error::Argument("no level is given, not even the body itself".into()));
+        };
+        if !matches!(options.hierarchy.kind, HierarchyKind::None | HierarchyKind::Automatic) {
+            return Err(Error::Argument(
+                "levels are given, and the options ask for others to be built: their hierarchy must be None or Automatic \
+                 (SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_AUTOMATIC)"
+                    .into(),
+            ));
+        }
+        let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
+        let mut points = with_capacity(levels.len())?;
+        for (i, level) in levels.iter().enumerate() {
+            let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
+            let in_level = |message: String| format!("level {}: {message}", i + 1);
+            points.push(moved.map_err(|error| match error {
+                Error::Mesh(message) => Error::Mesh(in_level(message)),
+                Error::Cancelled(_) | Error::Memory(_) => error,
+                other => Error::Argument(in_level(other.to_string())),
+            })?);
+        }
+        let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
+        Ok(Shape::from_parts(polyhedron, hierarchy))
+    }
+
+    /// From parts that belong together; automatic levels are left to be made.
+    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Shape {
+        let made = if hierarchy.kind == HierarchyKind::Automatic { None } else { Some(hierarchy) };
+        Shape { polyhedron, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) }
+    }
+
+    /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
+    ///
+    /// # Errors
+    /// As [`Hierarchy::build`].
+    pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
+        with_default(|| options.check())?;
+        let Shape { polyhedron, .. } = self;
+        let hierarchy = match options.kind {
+            HierarchyKind::Automatic => {
+                progress.report(1.0)?;
+                Hierarchy::AUTOMATIC
+            }
+            _ => Hierarchy::build(&polyhedron, options, progress)?,
+        };
+        Ok(Shape::from_parts(polyhedron, hierarchy))
+    }
+
+    /// The polyhedron that queries run on: P₀ of the levels of detail.
+    #[inline]
+    pub fn polyhedron(&self) -> &Polyhedron {
+        &self.polyhedron
+    }
+
+    /// The levels of detail that are made, without P₀.
+    #[inline]
+    pub fn hierarchy(&self) -> &Hierarchy {
+        static NOT_MADE: Hierarchy = Hierarchy::AUTOMATIC;
+        self.hierarchy.get().unwrap_or(&NOT_MADE)
+    }
+
+    /// Whether it would have automatic levels if they were made.
+    #[inline]
+    pub(crate) fn lacks_levels(&self) -> bool {
+        self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES)
+    }
+
+    /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait. Where
+    /// memory is lacking there are none, and bodies answer themselves.
+    #[inline]
+    pub(crate) fn need_levels(&self) {
+        if self.lacks_levels() {
+            self.make_levels();
+        }
+    }
+
+    #[cold]
+    fn make_levels(&self) {
+        self.hierarchy.make(|| or_none(self.build_levels(&mut Progress::new(&mut |_| true))));
+    }
+
+    fn build_levels(&self, progress: &mut Progress) -> Result<Hierarchy> {
+        Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), progress)
+    }
+
+    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables, a small part of the work
+    /// (of needles up to a third) which is not interrupted, and automatic levels. After that no query of this shape allocates
+    /// or waits, but for the integer arithmetic.
+    ///
+    /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
+    ///
+    /// # Errors
+    /// [`Error::Cancelled`] when the caller does not want to go on, [`Error::Memory`]: no levels are made then, and the shape can be
+    /// used as before.
+    pub fn prepare(&self, progress: &mut Progress) -> Result<()> {
+        with_default(|| self.make_ready(progress))
+    }
+
+    fn make_ready(&self, progress: &mut Progress) -> Result<()> {
+        /// Of the time that both take, about, at 100,000 and 200,000 vertices.
+        const SHARE_OF_TABLE: f64 = 0.06;
+        progress.report(0.0)?;
+        insist_on_table(&self.polyhedron)?;
+        if self.lacks_levels() {
+            progress.report(SHARE_OF_TABLE)?;
+            let levels = match self.build_levels(&mut progress.part(SHARE_OF_TABLE, 1.0)) {
+                Err(Error::Cancelled(message)) => return Err(Error::Cancelled(message)),
+                built => or_none(built)?,
+            };
+            // Another thread may have been first.
+            self.hierarchy.set(levels);
+        } else {
+            progress.report(1.0)?;
+        }
+        self.hierarchy().levels.iter().try_for_each(|level| insist_on_table(&level.polyhedron))
+    }
+
+    /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
+    pub fn bytes(&self) -> usize {
+        size_of::<Shape>() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
+    }
+
+    /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
+    fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let least = match options.input {
+            InputPolicy::Strict => 3,
+            InputPolicy::Flat => 2,
+            InputPolicy::Hull => 0,
+        };
+        if polyhedron.dimension < least {
+            let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];
+            let dimension = usize::from(polyhedron.dimension);
+            let hint = [HULL_HINT, HULL_HINT, FLAT_HINT][dimension];
+            return Err(Error::Mesh(format!("the body has no interior: {}; {hint}", what[dimension])));
+        }
+        let share = options.share_of_body();
+        progress.report(share)?;
+        polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
+        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)
+            .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
+    }
+}
+
+/// Automatic levels that were built: without them the bodies answer themselves.
+///
+/// # Errors
+/// [`Error::Memory`].
+fn or_none(built: Result<Hierarchy>) -> Result<Hierarchy> {
+    debug_assert!(matches!(built, Ok(_) | Err(Error::Memory(_))), "{built:?}");
+    Ok(found(built)?.unwrap_or(Hierarchy::AUTOMATIC))
+}
+
+/// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
+/// itself and 2⁻⁹⁶ of the largest term.
+fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Vec<Vector>> {
+    let ShapeOptions { rotation, translation, scale, .. } = options;
+    if !(*scale > 0.0 && scale.is_finite()) {
+        return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
+    }
+    Pose::new(rotation, translation)
+        .check(ROTATION_LIMIT)
+        .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
+    if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
+        return copied(points);
+    }
+    let coordinate = |p: &Vector, row: usize| {
+        let mut rotated = DoubleDouble::default();
+        for column in 0..3 {
+            rotated = rotated + two_product(rotation[(row, column)], p[column]);
+        }
+        (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
+    };
+    let mut transform = |(v, p): (usize, &Vector)| {
+        progress.step(v, points.len())?;
+        check_vertex(v, p)?;
+        let image = Vector::from_fn(|row, _| coordinate(p, row));
+        if image.iter().all(|x| x.is_finite()) {
+            Ok(image)
+        } else {
+            Err(Error::Argument(format!("the input transform moves vertex {v} out of the range of doubles")))
+        }
+    };
+    let mut images = with_capacity(points.len())?;
+    for point in points.iter().enumerate() {
+        images.push(transform(point)?);
+    }
+    Ok(images)
+}
+
+/// Half the diagonal of the bounding box, which cannot overflow where the whole one would; 0 without points.
+fn half_diagonal(points: &[Vector]) -> f64 {
+    let corner = |pick: fn(f64, f64) -> f64| points.iter().copied().reduce(|a, b| a.zip_map(&b, pick));
+    match (corner(f64::min), corner(f64::max)) {
+        (Some(lower), Some(upper)) => {
+            let half = 0.5 * upper - 0.5 * lower;
+            half.x.hypot(half.y).hypot(half.z)
+        }
+        _ => 0.0,
+    }
+}

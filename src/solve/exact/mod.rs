@@ -1,0 +1,354 @@
+//! The exact tier: Gilbert-Johnson-Keerthi on integers (Gilbert, Johnson & Keerthi 1988). Every double is a dyadic
+//! rational, so every world vertex R·v + T is one, too; over a common power of two they are integers and nothing is ever
+//! rounded.
+//!
+//! The nearest point P of a simplex of vertex differences is carried as an integer multiple of itself. A support vertex w of
+//! the difference body in direction −P either proves that P is nearest (P·w ≥ P·P) or makes |P| fall strictly. So no
+//! simplex comes back, there are finitely many, and the descent ends, without tolerance and without a cap on iterations (which
+//! could only turn a proof into a guess): at P = 0, a common point of the closed sets, or at a plane that separates them.
+//! Typically (1,002 vertices, 2026-11, a shared AMD EPYC core) 30–70 µs from a cold start, 7–17 µs from the right pairs. It
+//! allocates.
+
+mod body;
+mod dyadic;
+mod simplex;
+
+use std::cmp::Ordering;
+
+use body::Body;
+use dashu_int::IBig;
+use dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits};
+use simplex::{Corner, Simplex};
+
+use crate::base::math::{Pose, Vector};
+use crate::polyhedron::Polyhedron;
+
+/// A pair of vertices, one of each polyhedron (indices into `vertices`): a vertex of the difference body A − B.
+pub type VertexPair = [u32; 2];
+
+/// What integer arithmetic found, for the objects R·v + T exactly as the doubles give them.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ExactAnswer {
+    /// Whether the closed sets have a common point (touching included).
+    pub intersecting: bool,
+    /// 0 when intersecting, else lower ≤ distance ≤ upper: neighbouring doubles, or both the distance itself. A separated
+    /// pair has lower 0 only if its distance is smaller than any positive double, upper +∞ only if it exceeds all of them.
+    pub lower: f64,
+    /// Upper end.
+    pub upper: f64,
+    /// Vertex pairs (1 to 4): intersecting: their differences hold the origin in their hull; separated: the nearest point of
+    /// their hull is the nearest point of A − B.
+    pub pairs: Vec<VertexPair>,
+    /// Convex weights of the pairs, rounded down: the witness points are Σ weightₖ·vertexₖ (one point if intersecting).
+    pub weights: Vec<f64>,
+    /// Separated: the unit vector from B to A along the shortest connection, rounded; zero when intersecting.
+    pub direction: Vector,
+    /// Iterations, at least 1: one for the start, and one for each support vertex of the difference body that was asked for.
+    pub iterations: u32,
+}
+
+/// Decides the pair exactly, for any finite poses. `start` is a hint: any pairs, best those of the last answer; it may be
+/// empty, and pairs with an index out of range are passed over.
+pub fn solve(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start: &[VertexPair]) -> ExactAnswer {
+    let difference = DifferenceBody { a: Body::new(a, pose_a), b: Body::new(b, pose_b) };
+    let (simplex, iterations) = difference.descend(start);
+    answer(&simplex, iterations)
+}
+
+/// The distance of a pair, proved over all vertices: which of them are neighbours only guides the search. Arguments as of
+/// [`solve`]. Time in proportion to the vertices, once the descent has come to the nearest point.
+pub fn distance(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start: &[VertexPair]) -> ExactDistance {
+    let difference = DifferenceBody { a: Body::new(a, pose_a), b: Body::new(b, pose_b) };
+    let (mut simplex, _) = difference.descend(start);
+    while !simplex.holds_origin() && simplex.improve(&difference.support_of_all(&simplex)) {}
+    let square = dot(&simplex.direction, &simplex.direction);
+    ExactDistance { exponent: simplex.exponent(), square, height: simplex.height }
+}
+
+/// A distance, height / √square · 2^exponent, without any rounding.
+#[derive(Debug, Clone)]
+pub struct ExactDistance {
+    height: IBig,
+    /// Not used when the distance is 0.
+    square: IBig,
+    exponent: i32,
+}
+
+impl ExactDistance {
+    /// Whether the closed sets have a common point.
+    pub fn is_zero(&self) -> bool {
+        self.height.is_zero()
+    }
+
+    /// The distance against a double that is not negative, by their squares.
+    pub fn compare(&self, other: f64) -> Ordering {
+        if other == f64::INFINITY {
+            return Ordering::Less;
+        }
+        let (mantissa, exponent) = decode(other);
+        if self.is_zero() || mantissa == 0 {
+            return (!self.is_zero()).cmp(&(mantissa != 0));
+        }
+        let mantissa = IBig::from(mantissa);
+        let (mut own, mut others) = (&self.height * &self.height, &mantissa * &mantissa * &self.square);
+        let shift = 2 * self.exponent.abs_diff(exponent) as usize;
+        if self.exponent > exponent {
+            own <<= shift;
+        } else {
+            others <<= shift;
+        }
+        own.cmp(&others)
+    }
+
+    /// The doubles next to it, below and above; both the same when it is one.
+    pub fn bounds(&self) -> (f64, f64) {
+        if self.is_zero() { (0.0, 0.0) } else { bounds_of_quotient_by_root(&self.height, &self.square, self.exponent) }
+    }
+}
+
+/// Whether the differences of the given pairs hold the origin in their convex hull, exactly. Pairs with an index out of range
+/// are passed over.
+pub fn encloses_origin(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, pairs: &[VertexPair]) -> bool {
+    let difference = DifferenceBody { a: Body::new(a, pose_a), b: Body::new(b, pose_b) };
+    let corners = difference.corners(pairs);
+    corners.first().is_some_and(|first| nearest_of_hull(first.clone(), &corners).holds_origin())
+}
+
+/// The body of all differences (point of A) − (point of B); it holds the origin exactly when A and B have a common point, and
+/// its point nearest to the origin is the shortest vector from B to A.
+struct DifferenceBody<'a> {
+    a: Body<'a>,
+    b: Body<'a>,
+}
+
+impl DifferenceBody<'_> {
+    fn corner(&self, pair: VertexPair) -> Corner {
+        let position = self.a.world_vertex(pair[0]).difference(self.b.world_vertex(pair[1]));
+        Corner { pair, position }
+    }
+
+    /// The corners of those pairs whose indices are in range.
+    fn corners(&self, pairs: &[VertexPair]) -> Vec<Corner> {
+        let in_range =
+            |p: &&VertexPair| (p[0] as usize) < self.a.vertex_count() && (p[1] as usize) < self.b.vertex_count();
+        pairs.iter().filter(in_range).map(|&p| self.corner(p)).collect()
+    }
+
+    /// From the hinted pairs to the nearest point, and the iterations made.
+    fn descend(&self, start: &[VertexPair]) -> (Simplex, u32) {
+        let hints = self.corners(start);
+        let first = hints.first().cloned().unwrap_or_else(|| self.corner([0, 0]));
+        let mut simplex = nearest_of_hull(first, &hints);
+        let mut iterations = 1;
+        while !simplex.holds_origin() {
+            iterations += 1;
+            let support = self.support_towards_origin(&simplex);
+            if !simplex.improve(&support) {
+                break;
+            }
+        }
+        (simplex, iterations)
+    }
+
+    /// A vertex of least value along P, climbed to from the simplex's latest pair.
+    fn support_towards_origin(&self, simplex: &Simplex) -> Corner {
+        let along = &simplex.direction;
+        let against = [0, 1, 2].map(|k| -&along[k]);
+        let [from_a, from_b] = simplex.corners[0].pair;
+        let vertex_a = self.a.support(from_a, &self.a.local_direction(&against));
+        let vertex_b = self.b.support(from_b, &self.b.local_direction(along));
+        self.corner([vertex_a, vertex_b])
+    }
+
+    /// The same of all vertices, whatever their neighbours.
+    fn support_of_all(&self, simplex: &Simplex) -> Corner {
+        let along = &simplex.direction;
+        let against = [0, 1, 2].map(|k| -&along[k]);
+        let vertex_a = self.a.support_of_all(&self.a.local_direction(&against));
+        let vertex_b = self.b.support_of_all(&self.b.local_direction(along));
+        self.corner([vertex_a, vertex_b])
+    }
+}
+
+/// The nearest point of the hull of a few corners: the same descent, with the corners themselves as the support. They may
+/// coincide or be coplanar; what brings nothing is never added.
+fn nearest_of_hull(first: Corner, corners: &[Corner]) -> Simplex {
+    let mut simplex = Simplex::new(first);
+    while corners.iter().any(|corner| simplex.improve(corner)) {}
+    simplex
+}
+
+fn answer(simplex: &Simplex, iterations: u32) -> ExactAnswer {
+    let total: IBig = simplex.weights.iter().sum();
+    let intersecting = simplex.holds_origin();
+    let (lower, upper, direction) = if intersecting {
+        (0.0, 0.0, Vector::zeros())
+    } else {
+        // |P| = P·corner/|P|, with the multiple of P on both sides.
+        let square = dot(&simplex.direction, &simplex.direction);
+        let (lower, upper) = bounds_of_quotient_by_root(&simplex.height, &square, simplex.exponent());
+        (lower, upper, leading_bits(&simplex.direction).normalize())
+    };
+    ExactAnswer {
+        intersecting,
+        lower,
+        upper,
+        pairs: simplex.corners.iter().map(|c| c.pair).collect(),
+        weights: simplex.weights.iter().map(|w| fraction_to_double(w, &total)).collect(),
+        direction,
+        iterations,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::power_of_two;
+    use crate::build::assembly::build;
+    use crate::polyhedron::{NONE, NeighbourBlock, Vertex};
+
+    fn hull(points: &[[f64; 3]]) -> Polyhedron {
+        let points = points.iter().map(|p| Vector::from(*p)).collect::<Vec<_>>();
+        build(&points, None).unwrap()
+    }
+
+    fn at(x: f64, y: f64, z: f64) -> Pose {
+        Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]] }
+    }
+
+    /// [-1, 1]³ with a vertex 8 in the middle of its top, joined to the top's corners only.
+    fn cube_with_flat_vertex() -> Polyhedron {
+        let corner = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
+        let mut points = (0..8).map(|k| [corner(k, 0), corner(k, 1), corner(k, 2)]).collect::<Vec<_>>();
+        points.push([0.0, 0.0, 1.0]);
+        let along_edges = |k: u32| vec![k ^ 1, k ^ 2, k ^ 4];
+        let mut heads = (0..8).map(along_edges).collect::<Vec<_>>();
+        heads.push(vec![4, 5, 6, 7]);
+        (4..8).for_each(|k: usize| heads[k].push(8));
+        let block = |heads: &Vec<u32>| {
+            let head = std::array::from_fn(|lane| *heads.get(lane).unwrap_or(&heads[0]));
+            NeighbourBlock { x: [0.0; 8], y: [0.0; 8], z: [0.0; 8], head, edge: [NONE; 8] }
+        };
+        let vertex = |(p, heads): (&[f64; 3], _)| Vertex {
+            position: Vector::from(*p),
+            first_more: 0,
+            more: 0,
+            neighbours: block(heads),
+        };
+        Polyhedron {
+            centre: Vector::zeros(),
+            vertices: points.iter().zip(&heads).map(vertex).collect(),
+            more_neighbours: Vec::new(),
+            ..hull(&points)
+        }
+    }
+
+    #[test]
+    fn a_climb_leaves_a_flat_vertex_that_ties_with_all_neighbours() {
+        let (cube, point) = (cube_with_flat_vertex(), hull(&[[0.0; 3]]));
+        // Below the cube, begun at the flat vertex on its top: the first direction is perpendicular to the top.
+        let below = solve(&cube, &Pose::IDENTITY, &point, &at(0.0, 0.0, -3.0), &[[8, 0]]);
+        assert_eq!((below.lower, below.upper), (2.0, 2.0));
+        assert_eq!(below.direction, Vector::z());
+        let above = solve(&cube, &Pose::IDENTITY, &point, &at(0.0, 0.0, 3.0), &[[8, 0]]);
+        assert_eq!((above.lower, above.upper, above.iterations), (2.0, 2.0, 2));
+    }
+
+    #[test]
+    fn touching_is_intersecting_and_the_next_double_is_not() {
+        let (cube, point) = (cube_with_flat_vertex(), hull(&[[0.0; 3]]));
+        for (x, y) in [(0.0, 0.0), (0.3, -0.7), (1.0, 0.1), (1.0, -1.0)] {
+            let touching = solve(&cube, &Pose::IDENTITY, &point, &at(x, y, 1.0), &[]);
+            assert!(touching.intersecting);
+            assert_eq!((touching.lower, touching.upper), (0.0, 0.0));
+            let apart = solve(&cube, &Pose::IDENTITY, &point, &at(x, y, 1.0_f64.next_up()), &touching.pairs);
+            assert!(!apart.intersecting);
+            assert_eq!((apart.lower, apart.upper), (f64::EPSILON, f64::EPSILON));
+        }
+    }
+
+    #[test]
+    fn distances_beyond_the_range_of_doubles() {
+        // The rotation takes y = 2⁻⁵⁰⁰ to x = 2⁻¹⁵⁰⁰: apart, by less than any double.
+        let tiny = hull(&[[0.0, power_of_two(-500), 0.0]]);
+        let mut skewed = Pose::IDENTITY;
+        skewed.rows[0][1] = power_of_two(-1000);
+        let close = solve(&tiny, &skewed, &tiny, &Pose::IDENTITY, &[]);
+        assert!(!close.intersecting);
+        assert_eq!((close.lower, close.upper, close.direction), (0.0, 5e-324, Vector::x()));
+
+        let origin = hull(&[[0.0; 3]]);
+        let far = solve(&origin, &at(f64::MAX, 0.0, 0.0), &origin, &at(-f64::MAX, 0.0, 0.0), &[]);
+        assert_eq!((far.lower, far.upper, far.direction), (f64::MAX, f64::INFINITY, Vector::x()));
+    }
+
+    #[test]
+    fn distances_compare_with_doubles_exactly() {
+        let origin = hull(&[[0.0; 3]]);
+        let to = |x: f64, y: f64| distance(&origin, &Pose::IDENTITY, &origin, &at(x, y, 0.0), &[]);
+        for scale in [5e-324, 1e-200, 1.0, power_of_two(1000)] {
+            let five = to(3.0 * scale, 4.0 * scale);
+            assert_eq!(five.bounds(), (5.0 * scale, 5.0 * scale));
+            assert_eq!(five.compare((5.0 * scale).next_down()), Ordering::Greater);
+            assert_eq!(five.compare(5.0 * scale), Ordering::Equal);
+            assert_eq!(five.compare((5.0 * scale).next_up()), Ordering::Less);
+        }
+        let root = to(1.0, 1.0);
+        let (lower, upper) = root.bounds();
+        assert_eq!(
+            (upper, root.compare(lower), root.compare(upper)),
+            (lower.next_up(), Ordering::Greater, Ordering::Less)
+        );
+        assert_eq!((root.compare(0.0), root.compare(f64::INFINITY)), (Ordering::Greater, Ordering::Less));
+        let none = to(0.0, 0.0);
+        assert!(none.is_zero());
+        assert_eq!((none.compare(0.0), none.compare(5e-324)), (Ordering::Equal, Ordering::Less));
+        assert_eq!(to(f64::MAX, f64::MAX).compare(f64::MAX), Ordering::Greater);
+    }
+
+    /// A vertex without its neighbours is passed over by a climb, not by the proof.
+    #[test]
+    fn a_distance_is_proved_over_all_vertices() {
+        let mut needle = hull(&[[0.0; 3], [1.0, 0.0, -1.0], [0.0, 1.0, -1.0], [0.0, 0.0, 9.0]]);
+        let tip = needle.vertices.iter().position(|v| v.position.z == 9.0).unwrap() as u32;
+        for (own, vertex) in (0..).zip(&mut needle.vertices) {
+            let known = (0..4).find(|&v| v != tip && v != own).unwrap();
+            let block = &mut vertex.neighbours;
+            block.head = block.head.map(|head| if head == tip { known } else { head });
+        }
+        let point = hull(&[[0.0; 3]]);
+        let start = [[(tip + 1) % 4, 0]];
+        let above = at(0.0, 0.0, 10.0);
+        assert_eq!(solve(&needle, &Pose::IDENTITY, &point, &above, &start).lower, 10.0);
+        let proved = distance(&needle, &Pose::IDENTITY, &point, &above, &start);
+        assert_eq!(proved.bounds(), (1.0, 1.0));
+    }
+
+    #[test]
+    fn pairs_enclose_the_origin_or_not() {
+        let octahedron = hull(&[
+            [1.0, 0.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 0.0, 1.0],
+            [-1.0, 0.0, 0.0],
+            [0.0, -1.0, 0.0],
+            [0.0, 0.0, -1.0],
+        ]);
+        let origin = hull(&[[0.0; 3]]);
+        let index =
+            |p: [f64; 3]| octahedron.vertices.iter().position(|v| v.position == Vector::from(p)).unwrap() as u32;
+        let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|p| [index(p), 0]);
+        let [minus_x, minus_y] = [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|p| [index(p), 0]);
+        let encloses =
+            |pairs: &[VertexPair]| encloses_origin(&octahedron, &Pose::IDENTITY, &origin, &Pose::IDENTITY, pairs);
+        assert!(encloses(&[x, minus_x]));
+        assert!(encloses(&[y, x, minus_x]));
+        assert!(encloses(&[x, y, minus_x, minus_y]));
+        assert!(encloses(&[x, x, z, minus_x]));
+        assert!(!encloses(&[x, y, z]));
+        assert!(!encloses(&[x, x]));
+        assert!(!encloses(&[]));
+        assert!(!encloses(&[[6, 0], [0, 1]]));
+        assert!(encloses(&[[u32::MAX, 0], x, minus_x]));
+    }
+}

@@ -1,0 +1,124 @@
+//! Voronoi marching between two convex polyhedra: from a pair of features to the pair that holds the nearest points.
+//!
+//! A state moves to the neighbour across the most violated plane (Ehmann & Lin 2000, §5.1; Lin & Canny 1991; Mirtich 1998),
+//! all planes of a state being tested in one short vector chain. In a minimum the optimality conditions hold: each nearest
+//! point lies in its feature, and the direction between them in the normal cones of both features.
+//!
+//! Marching proposes. What it finds is accepted by the certificate alone, which is fused with the last step; what it cannot
+//! finish (a suspected penetration, a cycle, the step limit) is decided elsewhere.
+
+mod ahead;
+mod shortcuts;
+mod states;
+mod walks;
+
+use crate::base::simd::Lanes;
+use crate::solve::certificate::Certify;
+use crate::solve::frame::Frame;
+use crate::solve::state::{Kind, State};
+use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
+
+/// What marching came to.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum March {
+    /// A minimum at this state; the judge has seen it.
+    Minimum(State),
+    /// The step limit was met on the way to this state.
+    Limit(State),
+    /// A penetration is suspected, or a cycle was met, at this state.
+    Open(State),
+}
+
+/// What one state's tests say. No enum that holds the state: that would be handed on in memory, not in registers.
+pub struct Step {
+    /// How to go on.
+    pub way: Way,
+    /// From which state.
+    pub at: State,
+}
+
+/// How marching goes on from a state.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Way {
+    /// To another state.
+    Move,
+    /// Not at all: a minimum; the judge has seen it.
+    Minimum,
+    /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Elsewhere.
+    Behind,
+    /// An edge of one body crosses a face of the other.
+    Crossing,
+    /// Not at all: the bodies have no such features.
+    Nowhere,
+}
+
+impl Step {
+    #[inline(always)]
+    fn to(at: State) -> Step {
+        Step { way: Way::Move, at }
+    }
+
+    #[inline(always)]
+    fn minimum(at: State) -> Step {
+        Step { way: Way::Minimum, at }
+    }
+
+    #[inline(always)]
+    fn crossing(at: State) -> Step {
+        Step { way: Way::Crossing, at }
+    }
+
+    #[inline(always)]
+    fn nowhere() -> Step {
+        Step { way: Way::Nowhere, at: State::vertex_vertex([0, 0]) }
+    }
+}
+
+/// Tests one state; a minimum goes to `judge`.
+#[inline(always)]
+pub fn visit<L: Lanes, J: Certify<L>>(frame: &Frame<L>, state: State, judge: &mut J) -> Step {
+    let State { first, second, .. } = state;
+    match state.kind {
+        Kind::VertexVertex => vertex_vertex(frame, [first, second], judge),
+        Kind::VertexEdge => vertex_edge::<L, J, 0>(frame, first, second, judge),
+        Kind::EdgeVertex => vertex_edge::<L, J, 1>(frame, second, first, judge),
+        Kind::VertexFace => vertex_face::<L, J, 0>(frame, first, second, judge),
+        Kind::FaceVertex => vertex_face::<L, J, 1>(frame, second, first, judge),
+        Kind::EdgeEdge => edge_edge(frame, [first, second], judge),
+    }
+}
+
+/// Marches from `start`; a minimum goes to `judge`. Returns the number of states visited too.
+#[inline(always)]
+pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit: u32, judge: &mut J) -> (March, u32) {
+    let mut state = start;
+    // Brent's cycle detection: a state seen at a power of two and met again.
+    let mut mark = start;
+    let mut steps = 0;
+    let mut jumped = false;
+    loop {
+        steps += 1;
+        let Step { way, at: next } = visit(frame, state, judge);
+        if way == Way::Minimum {
+            return (March::Minimum(next), steps);
+        }
+        if way != Way::Move {
+            // A local minimum of Voronoi marching (Mirtich 1998, §4.3) is left once; the second time penetration is likely, and
+            // decided elsewhere.
+            if way != Way::Behind || jumped {
+                return (March::Open(next), steps);
+            }
+            jumped = true;
+        }
+        if next == mark {
+            return (March::Open(next), steps);
+        }
+        if steps >= step_limit {
+            return (March::Limit(next), steps);
+        }
+        if steps.is_power_of_two() {
+            mark = next;
+        }
+        state = next;
+    }
+}

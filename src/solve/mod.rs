@@ -1,0 +1,21 @@
+//! One pair of placed polyhedra: floating point proposes nearest points or an overlap, a certificate accepts, integers decide what is
+//! left. It keeps nothing from one query to the next.
+
+#[doc(hidden)]
+pub mod state;
+pub(crate) mod side_search;
+#[doc(hidden)]
+pub mod voronoi;
+#[doc(hidden)]
+pub mod frame;
+#[doc(hidden)]
+pub mod certificate;
+pub(crate) mod separating_axis;
+#[doc(hidden)]
+pub mod marching;
+#[doc(hidden)]
+pub mod exact;
+pub(crate) mod gjk;
+#[doc(hidden)]
+pub mod enclosure;
+pub(crate) mod decide;

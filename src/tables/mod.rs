@@ -1,0 +1,456 @@
+//! Says which look-up table a body gets, and builds it.
+
+pub mod nearest_vertex;
+
+use nalgebra::SymmetricEigen;
+
+use crate::base::enumerator::enumerator;
+use crate::base::error::{Error, Result};
+use crate::base::math::{Matrix, Vector};
+use crate::base::memory::{OnNeed, collected, filled, found, push};
+use crate::polyhedron::lookup::{Lookup, Plan, Shells, Spherical, Table};
+use crate::polyhedron::surface_walk::{Surface, nearest_of};
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
+
+/// Which look-up table a body has.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum LookupKind {
+    /// Shells if the body has enough vertices for them to pay, else none: beside a body with shells all vertices are looked at.
+    #[default]
+    Automatic = 0,
+    /// None.
+    None = 1,
+    /// Vertices near points on several spheres, looked up on both bodies for what was found on the other.
+    Shells = 2,
+    /// That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass.
+    Spherical = 3,
+}
+
+enumerator!(LookupKind { Automatic, None, Shells, Spherical });
+
+/// How a body's look-up table is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LookupOptions {
+    /// Which.
+    pub kind: LookupKind,
+    /// Shells: cells along a side of the square that all directions are mapped to, a power of two from 4 to 512. Spherical:
+    /// increments from pole to pole, from 2 to 512; 32, 16 and 8 are 5.625°, 11.25° and 22.5°. 0 (the default): what the body's
+    /// number of vertices asks for, or 32.
+    pub resolution: u32,
+    /// Spherical: radius of the sphere of sample points as a multiple of the body's, at least 1 (2 by default).
+    pub radius_factor: f64,
+}
+
+impl LookupOptions {
+    /// The defaults.
+    pub const DEFAULT: LookupOptions = LookupOptions { kind: LookupKind::Automatic, resolution: 0, radius_factor: 2.0 };
+}
+
+impl Default for LookupOptions {
+    fn default() -> Self {
+        LookupOptions::DEFAULT
+    }
+}
+
+/// Fewest corners of a body that is given a table on its own account; with twice as many vertices it is given one, too, as it would
+/// take long to look at all of them.
+pub const LEAST_VERTICES: usize = 32;
+
+/// The radii of the shells as multiples of the body's. Points of another body come nearer to the centre of mass than the
+/// bounding sphere only where this body is thin.
+const RADII: [f64; 8] = [0.3, 0.5, 0.8, 1.15, 1.5, 2.0, 3.0, 6.0];
+
+/// Which table a body gets, by the options.
+///
+/// # Errors
+/// [`Error::Argument`] for a resolution or radius factor out of range.
+pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<Lookup> {
+    let LookupOptions { kind, resolution, radius_factor } = *options;
+    if !(radius_factor >= 1.0 && radius_factor.is_finite()) {
+        return Err(Error::Argument(format!("the look-up table's radius factor {radius_factor:e} is not at least 1")));
+    }
+    // Vertices inside merged faces or edges are no features.
+    let vertex_count = polyhedron.corner_count();
+    let resolution = resolution as usize;
+    let plan = match kind {
+        LookupKind::None => Plan::None,
+        LookupKind::Automatic | LookupKind::Shells => {
+            let resolution = if resolution == 0 { resolution_for(vertex_count) } else { resolution };
+            if !(4..=512).contains(&resolution) || !resolution.is_power_of_two() {
+                return Err(Error::Argument(format!(
+                    "the look-up table's resolution {resolution} is not a power of two from 4 to 512"
+                )));
+            }
+            Plan::Shells { resolution }
+        }
+        LookupKind::Spherical => {
+            let resolution = if resolution == 0 { 32 } else { resolution };
+            if !(2..=512).contains(&resolution) {
+                return Err(Error::Argument(format!(
+                    "the look-up table's resolution {resolution} is not from 2 to 512"
+                )));
+            }
+            Plan::Spherical { resolution, radius_factor }
+        }
+    };
+    // Squares of distances over- or underflow in bodies of other sizes. Points are among the small ones.
+    if plan == Plan::None || !(SMALLEST..=LARGEST).contains(&polyhedron.radius) {
+        return Ok(Lookup::none());
+    }
+    // Neighbours are that far apart, but for a factor.
+    let spacing = 1.0 / (vertex_count as f64).sqrt();
+    if kind == LookupKind::Automatic && vertex_count < LEAST_VERTICES && polyhedron.vertices.len() < 2 * LEAST_VERTICES
+    {
+        if polyhedron.faces.is_empty() {
+            return Ok(Lookup::none());
+        }
+        let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
+        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, REACH_WITHOUT_TABLE * spacing));
+    }
+    let reach = match plan {
+        Plan::Shells { .. } if rounds(&Thickness::of(polyhedron), vertex_count) == 1 => REACH_OF_ROUND,
+        Plan::Shells { .. } => REACH_OF_THIN,
+        _ => REACH_OF_SPHERICAL,
+    };
+    Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnNeed::new() })
+}
+
+/// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
+pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
+    let (kind, radius_factor) = match body.lookup.plan {
+        Plan::None => (LookupKind::None, LookupOptions::DEFAULT.radius_factor),
+        Plan::Shells { .. } | Plan::AllVertices { .. } => (LookupKind::Automatic, LookupOptions::DEFAULT.radius_factor),
+        Plan::Spherical { radius_factor, .. } => (LookupKind::Spherical, radius_factor),
+    };
+    // The options are in range.
+    plan_lookup(level, &LookupOptions { kind, resolution: 0, radius_factor }).unwrap_or_else(|_| Lookup::none())
+}
+
+/// The table of a body. The first to look makes it; others who come meanwhile wait. Where memory is lacking there is none.
+#[inline(always)]
+pub fn table(polyhedron: &Polyhedron) -> &Table {
+    match polyhedron.lookup.made.get() {
+        Some(table) => table,
+        None => make_table(polyhedron),
+    }
+}
+
+/// The tables of two bodies if they are of one kind; else none is made.
+#[inline(always)]
+pub fn tables(polyhedra: [&Polyhedron; 2]) -> Option<[&Table; 2]> {
+    match polyhedra.map(|polyhedron| polyhedron.lookup.plan) {
+        [Plan::Shells { .. }, Plan::Shells { .. }] | [Plan::Spherical { .. }, Plan::Spherical { .. }] => {
+            Some([table(polyhedra[0]), table(polyhedra[1])])
+        }
+        _ => None,
+    }
+}
+
+#[cold]
+#[inline(never)]
+fn make_table(polyhedron: &Polyhedron) -> &Table {
+    static NO_TABLE: Table = Table::None;
+    polyhedron.lookup.made.make(|| build_table(polyhedron)).unwrap_or(&NO_TABLE)
+}
+
+/// Makes the table of a body if it is not made, also where memory was lacking before.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn insist_on_table(polyhedron: &Polyhedron) -> Result<()> {
+    polyhedron.lookup.made.insist(|| build_table(polyhedron))
+}
+
+/// The table of a body, made anew.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn build_table(polyhedron: &Polyhedron) -> Result<Table> {
+    Ok(match polyhedron.lookup.plan {
+        Plan::None | Plan::AllVertices { .. } => Table::None,
+        Plan::Shells { resolution } => Table::Shells(shells(polyhedron, resolution)?),
+        Plan::Spherical { resolution, radius_factor } => {
+            Table::Spherical(spherical(polyhedron, resolution, radius_factor)?)
+        }
+    })
+}
+
+/// Over √n, how far (as an angle) a pair of round bodies may have moved and turned before a query begins from the tables and no
+/// longer from the last features: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. Chosen by time, of
+/// pairs of like bodies of 1,002 and 10,002 vertices.
+const REACH_OF_ROUND: f64 = 3.1;
+
+/// The same for thin bodies: on the smallest of three orbits 3.1 would be better for long ones, on the largest 5 and more for both.
+const REACH_OF_THIN: f64 = 4.0;
+
+/// The same for the table of Ehmann & Lin (2000), looked up once, to a start that may be far from the nearest features.
+const REACH_OF_SPHERICAL: f64 = 5.7;
+
+/// The same for a pair of which one body has few vertices, of the other's number: only that one's features change fast. Chosen by
+/// time, of a box beside round, flat and long bodies: best were 14, 20 and 20 of 1,002 vertices, 25, 19 and 15 of 10,002.
+const REACH_BESIDE_FEW: f64 = 18.0;
+
+/// The same for two bodies of few vertices: those of 31 are better begun anew from somewhere between 45° and 90° on, boxes
+/// not on any orbit of the benchmark.
+const REACH_WITHOUT_TABLE: f64 = 8.0;
+
+/// Cells along a side such that a shell has a few for every vertex.
+fn resolution_for(vertex_count: usize) -> usize {
+    ((4 * vertex_count).isqrt().next_power_of_two()).clamp(16, 128)
+}
+
+/// Smaller than the real radius if the centre of mass is no inner point, and then 0; 0 of bodies without faces.
+fn inner_radius(polyhedron: &Polyhedron, centre: &Vector) -> f64 {
+    let depths = polyhedron.faces.iter().map(|face| -face.planes.value(0, centre));
+    depths.reduce(f64::min).map_or(0.0, |least| least.max(0.0))
+}
+
+fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
+    let search = Search::new(polyhedron)?;
+    let thickness = Thickness::of(polyhedron);
+    let surface = if thickness.is_needle() { found(Surface::new(polyhedron))? } else { None };
+    let inner = inner_radius(polyhedron, &search.centre) / search.radius;
+    let radii: Vec<f64> = RADII.into_iter().filter(|r| *r > 1.0 || *r > inner).collect();
+    let direction = |cell: usize| Shells::direction(resolution, cell / resolution, cell % resolution);
+    let directions: Vec<Vector> = collected((0..resolution * resolution).map(direction))?;
+    let mut cells = filled(0, radii.len() * directions.len())?;
+    // From the outermost shell inwards: far away nearest is farthest along a direction, which walking finds without fail.
+    let mut outer: Vec<u32> = filled(0, directions.len())?;
+    for (shell, factor) in cells.chunks_exact_mut(directions.len()).zip(&radii).rev() {
+        for (cell, direction) in directions.iter().enumerate() {
+            let left = if cell % resolution > 0 { shell[cell - 1] } else { outer[cell] };
+            let above = if cell >= resolution { shell[cell - resolution] } else { outer[cell] };
+            let sample = search.sample(*factor, direction);
+            shell[cell] = search.near(&sample, [outer[cell], left, above]);
+            // A walk from a vertex with very many neighbours looks at all of them, in every cell.
+            if let Some(surface) = &surface
+                && !search.has_many_neighbours(shell[cell])
+            {
+                let corners = surface.corners(surface.nearest(&sample, shell[cell]).place);
+                shell[cell] = nearest_of(polyhedron, &sample, &corners);
+            }
+        }
+        outer.copy_from_slice(shell);
+    }
+    let position = |v: &Vector| {
+        let p = (v - search.centre) / search.radius;
+        [p.x as f32, p.y as f32, p.z as f32, 0.0]
+    };
+    let positions = collected(search.positions.iter().map(position))?;
+    let rounds = rounds(&thickness, polyhedron.corner_count());
+    Shells::new(resolution, radii, positions, &cells, inner, thickness.outward(), rounds)
+}
+
+/// How often to look up, see [`Shells::rounds`]. Round bodies once: what another body's centre of mass sees is what is nearest. A
+/// look-up takes half the time of a step of marching. The second and third save plates and needles of 1:10 four and seven steps of
+/// eight and eleven, round bodies none; the fourth saves plates half a step; the fifth is for 10,002 vertices, where plates need
+/// eight steps after three and six after five, and for thinner bodies.
+fn rounds(thickness: &Thickness, vertex_count: usize) -> u32 {
+    match thickness.thin_directions() {
+        0 => 1,
+        _ if vertex_count > MANY_VERTICES || thickness.spreads.min() < NEEDLE => 5,
+        1 => 4,
+        _ => 3,
+    }
+}
+
+/// Beyond so many vertices there are more rounds.
+const MANY_VERTICES: usize = 4_000;
+
+/// How the vertices spread around the centre of mass.
+struct Thickness {
+    /// The axes of the covariance, in columns.
+    axes: Matrix,
+    /// The standard deviations along them, as multiples of the largest.
+    spreads: Vector,
+}
+
+impl Thickness {
+    fn of(polyhedron: &Polyhedron) -> Thickness {
+        let centre = polyhedron.mass.centre_of_mass - polyhedron.centre;
+        let square = |vertex: &Vertex| {
+            let relative = (vertex.position - centre) / polyhedron.mass.radius;
+            relative * relative.transpose()
+        };
+        let covariance = polyhedron.vertices.iter().map(square).sum::<Matrix>();
+        // Eight iterations are the most that was seen; without a result the body counts as round.
+        match SymmetricEigen::try_new(covariance, f64::EPSILON, 64) {
+            Some(SymmetricEigen { eigenvectors, eigenvalues }) => {
+                let largest = eigenvalues.amax();
+                Thickness { axes: eigenvectors, spreads: eigenvalues.map(|value| (value.max(0.0) / largest).sqrt()) }
+            }
+            None => Thickness { axes: Matrix::identity(), spreads: Vector::repeat(1.0) },
+        }
+    }
+
+    /// Whether the body is thin in two directions. The vertices nearest to a point are then those next to it along the needle, on
+    /// whatever side, while the nearest feature, which reaches farther along it, is on the near side. A vertex of that is the
+    /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 18, 22 and 23 steps of 31, 56 and 61.
+    /// Finding it takes thirty times as long (12 ms), of 10,002 vertices twenty times (55 ms), of 100,002 ten times (180 ms).
+    fn is_needle(&self) -> bool {
+        self.spreads.iter().filter(|spread| **spread < NEEDLE).count() == 2
+    }
+
+    /// In how many directions the body is thinner than round: in one like a plate, in two like a needle.
+    fn thin_directions(&self) -> usize {
+        self.spreads.iter().filter(|spread| **spread < ROUND).count()
+    }
+
+    /// The inverse root of the covariance, which turns a vertex half-way from the direction away from the centre of mass to the
+    /// normal of an ellipsoid so thick. Of both, and what is between, it mistakes the fewest pairs that are disjoint for
+    /// overlapping: of needles a third of those that the former does, of wafers half of those that the latter does.
+    fn outward(&self) -> [[f32; 3]; 3] {
+        let reciprocals = self.spreads.map(|spread| LEAST_SPREAD / spread.max(LEAST_SPREAD));
+        let matrix = self.axes * Matrix::from_diagonal(&reciprocals) * self.axes.transpose();
+        [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)] as f32))
+    }
+}
+
+/// Bodies with no spread of less than this are round. Of ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, of
+/// (1, 1, 0.6) it is worse by more than a step.
+const ROUND: f64 = 0.75;
+
+/// Bodies with two spreads of less than this are needles. Those of 1:10 gain a tenth of the steps, which does not pay.
+const NEEDLE: f64 = 1.0 / 30.0;
+
+/// Positions are not rounder than this in single precision.
+const LEAST_SPREAD: f64 = 1e-6;
+
+fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> Result<Spherical> {
+    let search = Search::new(polyhedron)?;
+    let mut cells = filled(0, Spherical::cell_count(resolution))?;
+    let mut vertex = 0;
+    for (cell, entry) in cells.iter_mut().enumerate() {
+        vertex = search.nearest(&search.sample(radius_factor, &Spherical::direction(resolution, cell)), vertex);
+        *entry = vertex;
+    }
+    Spherical::new(resolution, radius_factor, &cells, search.positions.len())
+}
+
+/// Finds nearest vertices of a body.
+struct Search<'a> {
+    polyhedron: &'a Polyhedron,
+    /// The centre of mass, in centred coordinates as the positions.
+    centre: Vector,
+    radius: f64,
+    positions: Vec<Vector>,
+    tree: BoxTree,
+}
+
+impl Search<'_> {
+    fn new(polyhedron: &Polyhedron) -> Result<Search<'_>> {
+        let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
+        Ok(Search {
+            polyhedron,
+            centre: polyhedron.mass.centre_of_mass - polyhedron.centre,
+            radius: polyhedron.mass.radius,
+            tree: BoxTree::new(&positions)?,
+            positions,
+        })
+    }
+
+    fn sample(&self, factor: f64, direction: &Vector) -> Vector {
+        self.centre + direction * (factor * self.radius)
+    }
+
+    /// A vertex that no neighbour of it is nearer than, by walking from the best of some vertices to nearer and nearer ones. Mostly
+    /// it is the nearest of all; the nearest of all everywhere would save 0.1 steps of marching from 4 and take twenty times as
+    /// long. Where a vertex has very many neighbours the nearest of all is searched.
+    fn near(&self, point: &Vector, from: [u32; 3]) -> u32 {
+        let square = |v: u32| (self.positions[v as usize] - point).norm_squared();
+        let (mut vertex, mut least) = (from[0], square(from[0]));
+        for &other in &from[1..] {
+            if other != vertex && square(other) < least {
+                (vertex, least) = (other, square(other));
+            }
+        }
+        loop {
+            let before = vertex;
+            if self.has_many_neighbours(before) {
+                return self.nearest(point, before);
+            }
+            for block in self.polyhedron.neighbour_blocks(before) {
+                for &head in &block.head {
+                    let other = square(head);
+                    if other < least {
+                        (vertex, least) = (head, other);
+                    }
+                }
+            }
+            if vertex == before {
+                return vertex;
+            }
+        }
+    }
+
+    fn has_many_neighbours(&self, vertex: u32) -> bool {
+        self.polyhedron.vertices[vertex as usize].more > MANY_BLOCKS
+    }
+
+    /// The nearest vertex, found by walking from another one and then excluding the rest; of several the one that the walk met,
+    /// else the lowest.
+    fn nearest(&self, point: &Vector, from: u32) -> u32 {
+        let mut best = (from, (self.positions[from as usize] - point).norm_squared());
+        self.tree.nearest(&self.positions, point, &mut best);
+        best.0
+    }
+}
+
+/// A vertex with more blocks of neighbours than this beyond the first is not walked from.
+const MANY_BLOCKS: u32 = 3;
+
+/// Boxes around runs of eight vertices, eight such boxes, and so on: consecutive vertices are near one another.
+struct BoxTree {
+    /// Lower and upper corners; the first level holds runs of vertices, the last one box.
+    levels: Vec<Vec<[Vector; 2]>>,
+}
+
+impl BoxTree {
+    fn new(positions: &[Vector]) -> Result<BoxTree> {
+        let around = |boxes: &[[Vector; 2]]| {
+            let join = |a: [Vector; 2], b: &[Vector; 2]| [a[0].inf(&b[0]), a[1].sup(&b[1])];
+            boxes.iter().fold([Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)], join)
+        };
+        let points: Vec<[Vector; 2]> = collected(positions.iter().map(|p| [*p, *p]))?;
+        let mut levels: Vec<Vec<[Vector; 2]>> = vec![collected(points.chunks(8).map(around))?];
+        while let Some(last) = levels.last()
+            && last.len() > 1
+        {
+            let next = collected(last.chunks(8).map(around))?;
+            push(&mut levels, next)?;
+        }
+        Ok(BoxTree { levels })
+    }
+
+    /// Puts a vertex nearer than `best` there, if there is one, with its squared distance.
+    fn nearest(&self, positions: &[Vector], point: &Vector, best: &mut (u32, f64)) {
+        // Depth first; of each level at most seven boxes wait.
+        let mut waiting = [(0, 0); 8 * 12];
+        let mut count = 1;
+        waiting[0] = (self.levels.len() - 1, 0);
+        while count > 0 {
+            count -= 1;
+            let (level, index) = waiting[count];
+            let [low, high] = &self.levels[level][index];
+            let outside = (low - point).sup(&(point - high)).sup(&Vector::zeros());
+            if outside.norm_squared() >= best.1 {
+                continue;
+            }
+            if level == 0 {
+                for (v, position) in positions.iter().enumerate().skip(8 * index).take(8) {
+                    let square = (position - point).norm_squared();
+                    if square < best.1 {
+                        *best = (v as u32, square);
+                    }
+                }
+            } else {
+                let children = 8 * index..self.levels[level - 1].len().min(8 * index + 8);
+                for child in children.rev() {
+                    waiting[count] = (level - 1, child);
+                    count += 1;
+                }
+            }
+        }
+    }
+}
