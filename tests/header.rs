@@ -8,15 +8,15 @@ use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
 const SOURCES: [&str; 10] = [
-    "src/lookup_build.rs",
-    "src/hierarchy/mod.rs",
-    "src/shape.rs",
-    "src/descent.rs",
-    "src/answer.rs",
+    "src/tables/mod.rs",
+    "src/levels/hierarchy/mod.rs",
+    "src/shape/mod.rs",
+    "src/pair/descent.rs",
+    "src/pair/answer.rs",
     "src/pair/cache.rs",
     "src/pair/config.rs",
-    "src/object.rs",
-    "src/scene.rs",
+    "src/scene/object.rs",
+    "src/scene/mod.rs",
     "src/ffi/mod.rs",
 ];
 

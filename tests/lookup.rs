@@ -15,15 +15,18 @@ use swiftprox::error::Error;
 use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::start::{self, Guess};
+use swiftprox::pair::start::policy::{self, StartFrom};
+use swiftprox::pair::start::{Guess, start_pair};
 use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::polyhedron::lookup::{Cells, Plan, Shells, Spherical, Table};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::solve::frame::{Frame, Marker};
+use swiftprox::solve::state::State;
 use swiftprox::tables::nearest_vertex::{AllVertices, NearestVertex};
-use swiftprox::tables::{LEAST_VERTICES, LookupKind, LookupOptions, build_table, table};
+use swiftprox::tables::tuning::LEAST_VERTICES;
+use swiftprox::tables::{LookupKind, LookupOptions, build_table, table};
 use swiftprox::verify::verify;
 
 fn options(kind: LookupKind, resolution: u32) -> ShapeOptions {
@@ -542,46 +545,32 @@ fn how_far_a_pair_has_moved_is_told() {
     }
 }
 
-/// The farther a pair has moved the more rounds, whichever axis it has turned about: a roll of body 2 about its own first axis,
-/// which does not count as a jump, tells that its last vertex is elsewhere.
+/// The farther a pair has moved the less its last features say: first they are where the search starts, then their vertices with ever
+/// more rounds of look-ups, in the end the centres of mass.
 #[test]
-fn the_way_since_the_last_vertices_tells_how_many_rounds() {
+fn the_farther_a_pair_has_moved_the_less_its_last_features_say() {
     let body = shape(&ellipsoid([1.0, 0.1, 0.1], 1_002).unwrap(), LookupKind::Automatic, 0);
-    let (polyhedra, reach) = ([body.polyhedron(); 2], body.polyhedron().lookup.reach);
+    let polyhedra = [body.polyhedron(); 2];
     let mut random = Random::new(8);
-    let world = random.rotation();
-    let there = Pose::new(&world, &(random.direction() * 3.0));
-    for axis in [Vector::x(), Vector::y(), Vector::z()] {
-        let turned = |reaches: f64| {
-            let pose = Pose::new(&(there.rotation() * rotation(&axis, reaches * reach)), &there.translation());
-            let here = Pose::IDENTITY;
-            let frame = |pose: &Pose| {
-                let mut marker = Marker::default();
-                let poses = [&here, pose];
-                Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT).mark(&mut marker);
-                marker
-            };
-            let (last, poses) = (frame(&there), [&here, &pose]);
-            let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
-            (frame.rounds_from_last(&last), frame.has_jumped(&last))
+    let there = Pose::new(&random.rotation(), &(random.direction() * 3.0));
+    let frame = |pose: &Pose| Frame::<Portable>::new(polyhedra, [&Pose::IDENTITY, pose], ROTATION_LIMIT);
+    let mut last = Marker::default();
+    frame(&there).mark(&mut last);
+    for axis in [Vector::y(), Vector::z()] {
+        let rank = |degrees: u32| {
+            let turn = rotation(&axis, f64::from(degrees).to_radians());
+            let turned = Pose::new(&(there.rotation() * turn), &there.translation());
+            match policy::choose(&frame(&turned), &last, State::vertex_vertex([0, 0])) {
+                None => 0,
+                Some(StartFrom::LastVertices { rounds, .. }) => rounds,
+                Some(StartFrom::Centres) => u32::MAX,
+                Some(StartFrom::Farthest) => panic!("tables are there"),
+            }
         };
-        let sees_jump = axis != Vector::x();
-        assert_eq!(turned(0.9), (1, false));
-        assert_eq!(turned(1.5), (1, sees_jump));
-        assert_eq!(turned(3.0), (2, sees_jump));
-        assert_eq!(turned(5.0), (start::FROM_CENTRES, sees_jump));
+        let ranks: Vec<u32> = (0..90).map(rank).collect();
+        assert!(ranks.is_sorted() && ranks[0] == 0 && ranks[89] == u32::MAX, "{ranks:?}");
+        assert!(ranks.iter().any(|rank| (1..u32::MAX).contains(rank)), "{ranks:?}");
     }
-}
-
-#[test]
-fn thin_bodies_are_looked_up_more_often_and_later() {
-    let all = [([1.0; 3], 1_002), ([1.0, 0.1, 0.1], 1_002), ([1.0, 1.0, 0.1], 1_002), ([1.0, 1.0, 0.1], 4_002)];
-    let all = all.map(|(half_axes, n)| {
-        let shape = shape(&ellipsoid(half_axes, n).unwrap(), LookupKind::Automatic, 0);
-        (shells(shape.polyhedron()).rounds, shape.polyhedron().lookup.reach * (n as f64).sqrt())
-    });
-    assert_eq!(all.map(|(rounds, _)| rounds), [1, 3, 4, 5]);
-    assert!(all[1..].iter().all(|(_, reach)| *reach > all[0].1), "{all:?}");
 }
 
 /// One round from the last vertices is one look-up of each in the other's table; round bodies are not asked for it.
@@ -598,9 +587,9 @@ fn after_a_short_jump_look_ups_begin_at_the_last_vertices() {
         for numbers in &poses {
             let placed = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
             let last = polyhedra.map(|polyhedron| random.below(polyhedron.vertices.len()) as u32);
-            let after = |rounds| start::anew_after(polyhedra, [&placed[0], &placed[1]], true, last, rounds);
-            let anew = start::anew(polyhedra, [&placed[0], &placed[1]], true);
-            assert_eq!(after(start::FROM_CENTRES), anew);
+            let from = |from| start_pair(polyhedra, [&placed[0], &placed[1]], from);
+            let after = |rounds| from(StartFrom::LastVertices { vertices: last, rounds });
+            let anew = from(StartFrom::Centres);
             assert_eq!(after(tables[0].rounds.max(tables[1].rounds)), anew);
             let after = after(1);
             assert!(is_thin || after == anew);

@@ -1,4 +1,4 @@
-//! The C interface: with `simd` the only unsafe code. One file per noun; this one holds what every entry
+//! The C interface: with `base/simd/` the only unsafe code. One file per noun; this one holds what every entry
 //! point shares: the guard that turns errors and caught panics into a [`StatusCode`], the message of the last failure, and the
 //! checks of pointers.
 //!

@@ -1,9 +1,10 @@
 //! What of a minimum that marching finds is good enough an answer, at a quick look or a closer one.
 
-use super::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Query, Status, set_interval};
+use super::contact;
+use super::query::{Query, set_interval};
+use super::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status};
 use crate::base::math::{Pose, ROTATION_LIMIT, divisor};
 use crate::base::simd::{Kernel, Lanes};
-use crate::pair::contact;
 use crate::polyhedron::Polyhedron;
 use crate::solve::certificate::{Certify, CloserLook, Gap, Interval, Minimum};
 use crate::solve::frame::Frame;
@@ -66,7 +67,7 @@ impl Acceptance<'_> {
     fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
         let answer = &mut *self.answer;
         let normal = minimum.direction.mul(L::splat(minimum.inverse));
-        self.cache.remember_state(state);
+        self.cache.remember_features(state);
         answer.status = Status::Marched;
         set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
         if self.query != Query::Intersection && answer.outcome == Outcome::Separated {

@@ -2,19 +2,69 @@
 //! as it is found.
 
 use super::acceptance::{Acceptance, AtFirst};
-use super::{Attempt, PairQuery, Start, Statistics};
-use crate::base::simd::{Kernel, Lanes, Work};
-use crate::pair::descent::TRIAL_STEPS;
-use crate::pair::start::{self, Beginning, FROM_CENTRES, Guess};
+use super::descent::TRIAL_STEPS;
+use super::query::{Attempt, Open, PairQuery};
+use super::start::policy::{self, StartFrom};
+use super::start::{Guess, StartPair, start_pair};
+use super::{Start, Statistics};
+use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::polyhedron::Polyhedron;
-use crate::solve::frame::{Frame, Marker};
-use crate::solve::marching::{self, March, Way};
+use crate::solve::frame::Frame;
+use crate::solve::marching::{self, March, Way, step_limit};
 use crate::solve::state::State;
 
-/// The common case, for [ordinary](Polyhedron::ordinary) bodies: the cached features still are the nearest. One state, straight
-/// through to the answer, without the loop that would keep so much in registers.
-pub(super) struct Coherent<'a, 'b> {
-    pub(super) pair: &'a mut PairQuery<'b>,
+impl PairQuery<'_> {
+    /// Marching from the last features, of bodies that are [simple](PairQuery::is_simple).
+    #[inline(always)]
+    pub(super) fn march_from_last_features(&mut self) -> Attempt {
+        simd::dispatch(&mut Coherent { pair: self })
+    }
+
+    /// Marching of any bodies, from the features that the cache holds; else from `start`, if that is known.
+    pub(super) fn march(&mut self, start: Option<StartPair>) -> Attempt {
+        simd::dispatch(&mut General { pair: self, start })
+    }
+
+    /// Marching on at the bodies themselves from a state that a search among levels came to.
+    pub(super) fn march_on(&mut self, start: State, steps: u32, leg: Leg) -> Attempt {
+        simd::dispatch(&mut FromState { pair: self, start, steps, leg })
+    }
+
+    /// Marching of segments and points has no faces to go over.
+    #[inline(always)]
+    fn have_faces(&self) -> bool {
+        let [body1, body2] = self.polyhedra();
+        body1.dimension.min(body2.dimension) >= 2
+    }
+}
+
+/// How long marching may go on from where it starts.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Leg {
+    /// From the features of an earlier query: a few steps, then a new start, as the pair has jumped.
+    Trial,
+    /// To the end.
+    Whole,
+    /// So many steps.
+    Budget(u32),
+}
+
+impl Leg {
+    /// The most steps.
+    #[inline(always)]
+    pub(super) fn limit(self, polyhedra: [&Polyhedron; 2]) -> u32 {
+        match self {
+            Leg::Trial => TRIAL_STEPS,
+            Leg::Whole => step_limit(polyhedra),
+            Leg::Budget(steps) => step_limit(polyhedra).min(steps),
+        }
+    }
+}
+
+/// The common case: the cached features still are the nearest. One state, straight through to the answer, without the loop that would
+/// keep so much in registers.
+struct Coherent<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
 }
 
 impl Kernel for Coherent<'_, '_> {
@@ -22,37 +72,36 @@ impl Kernel for Coherent<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
-        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let frame = Frame::<L>::of_rigid(self.pair.polyhedra(), self.pair.poses());
+        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
         if !frame.usual {
-            return Attempt::Unusual;
+            return Attempt::Untried;
         }
-        let Some(state) = State::unchecked(cache.kind, cache.indices) else { return Attempt::Cold };
+        let Some(state) = cache.features() else { return Attempt::Untried };
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
         let step = marching::visit(&frame, state, &mut AtFirst(&mut judge));
         if judge.accepted {
             judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
-            return Attempt::Done;
+            return Attempt::Answered;
         }
         match step.way {
-            Way::Minimum => return Attempt::Open { at: state, is_minimum: true, steps: 1 },
-            Way::Nowhere => return Attempt::Cold,
+            Way::Minimum => return Attempt::Open(Open { at: state, is_minimum: true, steps: 1 }),
+            Way::Nowhere => return Attempt::Untried,
             Way::Move | Way::Behind | Way::Crossing => {}
         }
         // In line: the frame stays in registers.
-        MarchOn { pair: self.pair, frame, start: step.at, steps: 1, limit: TRIAL_STEPS }.run()
+        MarchOn { pair: self.pair, frame, start: step.at, steps: 1, leg: Leg::Trial }.run()
     }
 }
 
 /// Marching from a state to the end.
-pub(super) struct MarchOn<'a, 'b, L> {
-    pub(super) pair: &'a mut PairQuery<'b>,
-    pub(super) frame: Frame<'b, L>,
-    pub(super) start: State,
+struct MarchOn<'a, 'b, L> {
+    pair: &'a mut PairQuery<'b>,
+    frame: Frame<'b, L>,
+    start: State,
     /// Those made before.
-    pub(super) steps: u32,
-    /// For the first leg: [`TRIAL_STEPS`] from a cache, else [`step_limit`].
-    pub(super) limit: u32,
+    steps: u32,
+    leg: Leg,
 }
 
 impl<L: Lanes> Work for MarchOn<'_, '_, L> {
@@ -60,47 +109,48 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Attempt {
-        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, ref mut answer } = self.pair;
+        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
         let mut judge = Acceptance { query, config, cache, answer, accepted: false };
-        let (mut state, mut steps, mut limit) = (self.start, self.steps, self.limit);
+        let (mut state, mut steps, mut leg) = (self.start, self.steps, self.leg);
         let frame = self.frame;
-        if limit == TRIAL_STEPS && frame.has_jumped(&judge.cache.marker) && config.start != Start::Cache {
-            let rounds = frame.rounds_from_last(&judge.cache.marker);
-            let last = if rounds == FROM_CENTRES { [0; 2] } else { state.vertices(polyhedra) };
-            let beginning = start::anew_after(polyhedra, poses, true, last, rounds);
-            state = State::vertex_vertex(beginning.vertices());
-            limit = step_limit(polyhedra);
-            if beginning.guess == Guess::Overlapping {
-                return Attempt::Open { at: state, is_minimum: false, steps };
+        if (leg == Leg::Trial) & (config.start != Start::Cache)
+            && let Some(from) = policy::choose(&frame, &judge.cache.marker, state)
+        {
+            let start = start_pair(polyhedra, poses, from);
+            state = State::vertex_vertex(start.vertices());
+            leg = Leg::Whole;
+            if start.guess == Guess::Overlapping {
+                return Attempt::Open(Open { at: state, is_minimum: false, steps });
             }
         }
         let (at, is_minimum) = loop {
-            let (march, more) = marching::march(&frame, state, limit, &mut judge);
+            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut judge);
             steps += more;
             state = match march {
                 March::Minimum(at) => break (at, true),
                 March::Open(at) => break (at, false),
-                March::Limit(at) if limit != TRIAL_STEPS => break (at, false),
+                March::Limit(at) if leg != Leg::Trial => break (at, false),
                 March::Limit(at) if config.start == Start::Cache => at,
-                March::Limit(_) => State::vertex_vertex(start::anew(polyhedra, poses, true).vertices()),
+                March::Limit(_) => State::vertex_vertex(start_pair(polyhedra, poses, StartFrom::Centres).vertices()),
             };
-            limit = step_limit(polyhedra);
+            leg = Leg::Whole;
         };
         if !judge.accepted {
-            return Attempt::Open { at, is_minimum, steps };
+            return Attempt::Open(Open { at, is_minimum, steps });
         }
         judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
         frame.mark(&mut judge.cache.marker);
-        Attempt::Done
+        Attempt::Answered
     }
 }
 
 /// The general case: any bodies, poses and caches.
-pub(super) struct General<'a, 'b> {
-    pub(super) pair: &'a mut PairQuery<'b>,
+struct General<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
     /// Where to start if the cache holds no features, if that is known.
-    pub(super) beginning: Option<Beginning>,
+    start: Option<StartPair>,
 }
 
 impl Kernel for General<'_, '_> {
@@ -108,53 +158,51 @@ impl Kernel for General<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit);
+        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let frame = Frame::<L>::new(polyhedra, poses, self.pair.config.rotation_limit);
         if !frame.usual {
-            return Attempt::Unusual;
+            return Attempt::Untried;
         }
-        let (start, limit) = match State::checked(cache.kind, cache.indices, polyhedra) {
-            Some(state) => (state, TRIAL_STEPS),
+        let (state, leg) = match self.pair.cache.features_of(polyhedra) {
+            Some(state) => (state, Leg::Trial),
             None => {
-                let beginning = match self.beginning {
-                    Some(beginning) => beginning,
-                    None => start::anew(polyhedra, poses, config.start != Start::Cold),
-                };
-                let state = State::vertex_vertex(beginning.vertices());
-                if beginning.guess == Guess::Overlapping {
-                    return Attempt::Open { at: state, is_minimum: false, steps: 0 };
+                let from = if self.pair.asks_tables() { StartFrom::Centres } else { StartFrom::Farthest };
+                let start = self.start.unwrap_or_else(|| start_pair(polyhedra, poses, from));
+                let state = State::vertex_vertex(start.vertices());
+                if start.guess == Guess::Overlapping {
+                    return Attempt::Open(Open { at: state, is_minimum: false, steps: 0 });
                 }
-                (state, step_limit(polyhedra))
+                (state, Leg::Whole)
             }
         };
-        // A segment or a point has no faces to march over.
-        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
-            return Attempt::Open { at: start, is_minimum: false, steps: 0 };
+        if !self.pair.have_faces() {
+            return Attempt::Open(Open { at: state, is_minimum: false, steps: 0 });
         }
-        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps: 0, limit })
+        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: state, steps: 0, leg })
     }
 }
 
-/// More steps than any start needs; only cycles that the cycle detection misses meet it.
-#[inline(always)]
-pub(super) fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
-    64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
+/// From a given state.
+struct FromState<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+    start: State,
+    steps: u32,
+    leg: Leg,
 }
 
-/// Whether the pair has moved so far that a tetrahedron around the origin is no better to begin with than a pair from the tables:
-/// by about half a radian. (Of fat bodies at random poses the pair saves a tenth of the instructions, at 10° it costs a tenth.)
-#[inline(always)]
-pub(super) fn has_turned_away<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
-    frame.has_moved(last, 0.25)
-}
+impl Kernel for FromState<'_, '_> {
+    type Output = Attempt;
 
-/// Whether a pair that intersected has moved so far that it may be apart, and nearest where the tables say: farther than one that
-/// was apart has to (on the deep orbit that takes plates 3 to 12 % less time at 5° to 10°, long bodies 8 % more at 7°, and round
-/// ones within 3 % of the same).
-#[inline(always)]
-pub(super) fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, last: &Marker) -> bool {
-    frame.has_moved_reaches(last, 3.0)
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let &mut FromState { start, steps, leg, .. } = self;
+        let frame = Frame::<L>::new(self.pair.polyhedra(), self.pair.poses(), self.pair.config.rotation_limit);
+        if !frame.usual {
+            return Attempt::Untried;
+        }
+        if !self.pair.have_faces() {
+            return Attempt::Open(Open { at: start, is_minimum: false, steps });
+        }
+        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps, leg })
+    }
 }
-
-/// The square of an angle of about 72°.
-pub(super) const FAR: f64 = 1.6;

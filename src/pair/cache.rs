@@ -1,8 +1,16 @@
-//! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand.
+//! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand. Here alone it is packed and
+//! unpacked.
+//!
+//! | it holds | first word | indices | vertex pairs |
+//! |---|---|---|---|
+//! | nothing | 0, or any other number | | |
+//! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
+//! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
+//! | a place in levels | 16 and the kind of state | of the features | the levels, and the steps spent |
 
+use super::descent::{Leveled, Place};
 use super::{PairConfig, Start};
 use crate::base::math::Vector;
-use crate::pair::descent::{Leveled, Place};
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::Pairs;
 use crate::solve::exact::VertexPair;
@@ -15,90 +23,125 @@ use crate::solve::state::State;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct PairCache {
-    /// 0: nothing; 1 to 6: a feature pair, the number of its kind; 8 + n: n vertex pairs of an intersection; 16 + the number of
-    /// its kind: a feature pair of two levels of detail, which are `pairs[0]`.
-    pub(super) kind: u32,
-    /// The indices of a feature pair.
-    pub(super) indices: [u32; 2],
-    /// Vertex pairs. With a feature pair, after a query for the verdict alone: the vertices of a separating axis, its direction
-    /// as the bits of single-precision numbers, and [`AXIS`].
-    pub(super) pairs: [VertexPair; 4],
-    /// With a feature pair: where body 1 saw body 2 when it was found. With vertex pairs: when they last proved an intersection.
+    tag: u32,
+    indices: [u32; 2],
+    pairs: [VertexPair; 4],
+    /// Where body 1 saw body 2 when the features were found, or when the enclosure last proved an intersection.
     pub(super) marker: Marker,
 }
 
-/// `PairCache::kind` of no vertex pairs.
-const PAIRS: u32 = 8;
+/// What the first word says that a cache holds.
+enum Content {
+    Nothing,
+    /// The kind of the state.
+    Features(u32),
+    /// How many vertex pairs.
+    Enclosure(usize),
+    /// The kind of the state.
+    Place(u32),
+}
 
-/// What `PairCache::kind` of a feature pair of levels has more.
-const LEVELS: u32 = 16;
+/// What the first word of an enclosure and of a place have more than the number in [`Content`].
+const ENCLOSURE: u32 = 8;
+const PLACE: u32 = 16;
 
-/// Marks a separating axis in `PairCache::pairs`. Where other pairs happen to look like one no harm is done.
+/// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
 
 impl PairCache {
-    /// The vertex pairs of an intersection, if the cache holds any that the polyhedra have.
     #[inline(always)]
-    pub(super) fn recall_pairs(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        if !self.holds_pairs() {
-            return None;
+    fn content(&self) -> Content {
+        match self.tag {
+            tag @ 1..=6 => Content::Features(tag),
+            tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
+            tag @ 17..=22 => Content::Place(tag - PLACE),
+            _ => Content::Nothing,
         }
-        let pairs = &self.pairs[..(self.kind - PAIRS) as usize];
-        let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
-        let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
-        pairs.iter().all(known).then(|| Pairs::new(pairs))
     }
 
-    /// Whether it holds vertex pairs of an intersection, be they any that the bodies have or not.
+    // --- Features, and the axis beside them -----------------------------------------------------------------------------------------
+
+    /// The last features, be they any that the bodies have or not.
     #[inline(always)]
-    pub(super) fn holds_pairs(&self) -> bool {
-        (PAIRS + 1..=PAIRS + 4).contains(&self.kind)
+    pub(super) fn features(&self) -> Option<State> {
+        State::unchecked(self.tag, self.indices)
+    }
+
+    /// The last features, if the polyhedra have them.
+    #[inline(always)]
+    pub(super) fn features_of(&self, polyhedra: [&Polyhedron; 2]) -> Option<State> {
+        State::checked(self.tag, self.indices, polyhedra)
     }
 
     #[inline(always)]
-    pub(super) fn remember_state(&mut self, state: State) {
-        self.kind = state.kind as u32;
+    pub(super) fn remember_features(&mut self, state: State) {
+        self.tag = state.kind as u32;
         self.indices = state.indices();
     }
 
     /// The separating axis of the last verdict, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
-    pub(super) fn recall_axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
+    pub(super) fn axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
         let [vertices @ [v, w], [x, y], [z, mark], _] = self.pairs;
         let is_known = (mark == AXIS)
-            & ((1..=6).contains(&self.kind))
+            & matches!(self.content(), Content::Features(_))
             & ((v as usize) < polyhedra[0].vertices.len())
             & ((w as usize) < polyhedra[1].vertices.len());
         is_known.then_some(Axis { vertices, direction: [x, y, z].map(f32::from_bits) })
     }
 
+    /// Beside features.
     #[inline(always)]
     pub(super) fn remember_axis(&mut self, vertices: [u32; 2], direction: Vector) {
         let [x, y, z] = bits(direction);
         [self.pairs[0], self.pairs[1], self.pairs[2]] = [vertices, [x, y], [z, AXIS]];
     }
 
-    pub(super) fn remember_pairs(&mut self, pairs: &[VertexPair]) {
-        self.kind = PAIRS + pairs.len() as u32;
+    /// The same axis, from other vertices.
+    #[inline(always)]
+    pub(super) fn move_axis(&mut self, vertices: [u32; 2]) {
+        self.pairs[0] = vertices;
+    }
+
+    // --- An enclosure ---------------------------------------------------------------------------------------------------------------
+
+    /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
+    #[inline(always)]
+    pub(super) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
+        let Content::Enclosure(count) = self.content() else { return None };
+        let pairs = &self.pairs[..count];
+        let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
+        let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
+        pairs.iter().all(known).then(|| Pairs::new(pairs))
+    }
+
+    /// Whether it holds an enclosure, be it of vertices that the bodies have or not.
+    #[inline(always)]
+    pub(super) fn holds_enclosure(&self) -> bool {
+        matches!(self.content(), Content::Enclosure(_))
+    }
+
+    pub(super) fn remember_enclosure(&mut self, pairs: &[VertexPair]) {
+        self.tag = ENCLOSURE + pairs.len() as u32;
         self.pairs[..pairs.len()].copy_from_slice(pairs);
     }
 
+    // --- A place in levels ----------------------------------------------------------------------------------------------------------
+
     /// Whether the last answer came from levels of detail.
     #[inline(always)]
-    pub(super) fn holds_levels(&self) -> bool {
-        self.kind > LEVELS
+    pub(super) fn holds_place(&self) -> bool {
+        matches!(self.content(), Content::Place(_))
     }
 
-    /// From where a pair may have jumped, unless it is to begin at its last features all the same.
+    /// A place among levels, if the bodies have it. Features without levels are one, too.
     #[inline(always)]
-    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<&Marker> {
-        (config.start != Start::Cache).then_some(&self.marker)
-    }
-
-    /// A place among levels, if the bodies have it. A feature pair without levels is one, too.
-    #[inline(always)]
-    pub(super) fn recall_place(&self, bodies: &Leveled) -> Option<Place> {
-        let (kind, levels) = if self.kind > LEVELS { (self.kind - LEVELS, self.pairs[0]) } else { (self.kind, [0, 0]) };
+    pub(super) fn place(&self, bodies: &Leveled) -> Option<Place> {
+        let (kind, levels) = match self.content() {
+            Content::Place(kind) => (kind, self.pairs[0]),
+            Content::Features(kind) => (kind, [0, 0]),
+            Content::Nothing | Content::Enclosure(_) => return None,
+        };
         let coarsest = bodies.coarsest();
         let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];
         if levels[0] > coarsest[0] || levels[1] > coarsest[1] {
@@ -107,18 +150,25 @@ impl PairCache {
         State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| Place { levels, state })
     }
 
+    /// `spent`: steps that queries whose budget ran out have made on the way to this place.
     #[inline(always)]
-    pub(super) fn remember_place(&mut self, place: Place) {
-        self.kind = LEVELS + place.state.kind as u32;
+    pub(super) fn remember_place(&mut self, place: Place, spent: u32) {
+        self.tag = PLACE + place.state.kind as u32;
         self.indices = place.state.indices();
         self.pairs[0] = place.levels.map(u32::from);
-        self.pairs[1] = [0; 2];
+        self.pairs[1] = [spent, 0];
     }
 
-    /// Steps that queries whose budget ran out have made on the way to this place.
+    /// Steps that queries whose budget ran out have made on the way to the place that it holds.
     #[inline(always)]
     pub(super) fn spent_before(&self) -> u32 {
-        if self.kind > LEVELS { self.pairs[1][0] } else { 0 }
+        if self.holds_place() { self.pairs[1][0] } else { 0 }
+    }
+
+    /// From where a pair may have jumped, unless it is to begin at its last features all the same.
+    #[inline(always)]
+    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<&Marker> {
+        (config.start != Start::Cache).then_some(&self.marker)
     }
 }
 

@@ -1,8 +1,8 @@
 //! What a pair query is asked for.
 
+use super::descent::{Accuracy, Refinement};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
-use crate::pair::descent::{Accuracy, Refinement};
 use crate::solve::frame::RIGID_TOGETHER;
 
 /// Which interval a query computes.

@@ -1,9 +1,9 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
+use super::answer::{Feature, FeatureKind, PairAnswer};
+use super::contact_direction::Overlap;
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::simd::{Lanes, Portable};
-use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
-use crate::pair::contact_direction::Overlap;
 use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;

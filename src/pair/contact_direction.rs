@@ -6,8 +6,8 @@
 //! overlap, the same candidates at the vertices that reach farthest make a descent to a local minimum of the overlap; it is
 //! no least depth.
 
+use super::normal_cone::separating_direction;
 use crate::base::math::{Pose, Vector};
-use crate::pair::normal_cone::separating_direction;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 

@@ -6,14 +6,15 @@
 //! sides, for sure. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a
 //! start.
 
+use super::placed::Placed;
+use super::start::policy;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Kernel, Lanes};
 use crate::levels::hierarchy::Level;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::certificate::{Certify, CloserLook, Minimum};
 use crate::solve::frame::{Frame, Marker};
-use crate::solve::marching::{self, March, Step, Way};
+use crate::solve::marching::{self, March, Step, Way, step_limit};
 use crate::solve::state::{FeatureId, State};
 
 /// Which object goes to a finer level, and by how many, when a pair of levels is too coarse.
@@ -76,12 +77,11 @@ pub struct Place {
 impl<'a> Leveled<'a> {
     /// The shapes with the levels that they have now.
     #[inline(always)]
-    pub fn new(shapes: [&'a Shape; 2], poses: [&'a Pose; 2]) -> Leveled<'a> {
-        let [shape1, shape2] = shapes;
+    pub fn new([first, second]: [Placed<'a>; 2]) -> Leveled<'a> {
         Leveled {
-            bodies: [shape1.polyhedron(), shape2.polyhedron()],
-            levels: [&shape1.hierarchy().levels, &shape2.hierarchy().levels],
-            poses,
+            bodies: [first.shape.polyhedron(), second.shape.polyhedron()],
+            levels: [&first.shape.hierarchy().levels, &second.shape.hierarchy().levels],
+            poses: [first.pose, second.pose],
         }
     }
 
@@ -228,7 +228,7 @@ pub struct Descent<'a> {
     pub place: Place,
     /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
     pub is_trial: bool,
-    /// Where a trial is given up at once if the pair has [jumped](Frame::has_jumped) since it had this marker.
+    /// Where a trial is given up at once if the pair has [jumped](has_jumped) since it had this marker.
     pub marker: Option<Marker>,
     /// Steps of marching that it may make, at least 1.
     pub step_limit: u32,
@@ -255,8 +255,8 @@ impl Kernel for Descent<'_> {
                 if self.is_trial && has_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
                 }
-                let all = 64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32;
-                let limit = if self.is_trial { TRIAL_STEPS } else { all }.min(self.step_limit - self.steps);
+                let limit =
+                    if self.is_trial { TRIAL_STEPS } else { step_limit(polyhedra) }.min(self.step_limit - self.steps);
                 let mut keep = Keep::nothing();
                 let (march, more) = marching::march(&frame, state, limit, &mut keep);
                 self.steps += more;
@@ -322,7 +322,7 @@ fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Mark
     // The levels' lever is that of the bodies. (A closure would be compiled without the lanes' instructions if it is not inlined.)
     let frame = Frame { size: bodies.size(), ..*frame };
     match marker {
-        Some(marker) => frame.has_jumped(marker),
+        Some(marker) => policy::has_jumped(&frame, marker),
         None => false,
     }
 }
@@ -386,7 +386,7 @@ fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
 mod tests {
     use super::*;
     use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
-    use crate::shape::ShapeOptions;
+    use crate::shape::{Shape, ShapeOptions};
     use crate::solve::exact;
     use swiftprox::random::Random;
 
@@ -404,6 +404,10 @@ mod tests {
         [shape(&large, HierarchyKind::Quadric, 0.5), shape(&small, HierarchyKind::OuterCuts, 0.25)]
     }
 
+    fn leveled<'a>(shapes: [&'a Shape; 2], poses: [&'a Pose; 2]) -> Leveled<'a> {
+        Leveled::new([0, 1].map(|i| Placed { shape: shapes[i], pose: poses[i] }))
+    }
+
     /// The level pairs from the coarsest to P₀/P₀.
     fn path(bodies: &Leveled, refinement: Refinement) -> Vec<[u16; 2]> {
         let next = |&levels: &[u16; 2]| (levels != [0, 0]).then(|| bodies.refined(levels, refinement));
@@ -415,14 +419,14 @@ mod tests {
     fn refinement_goes_as_documented() {
         let [large, small] = shapes();
         let poses = [&Pose::IDENTITY; 2];
-        let bodies = Leveled::new([&large, &small], poses);
+        let bodies = leveled([&large, &small], poses);
         assert_eq!(bodies.coarsest(), [5, 2]);
         let single = [[5, 2], [4, 2], [3, 2], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
         assert_eq!(path(&bodies, Refinement::Single), single);
         assert_eq!(path(&bodies, Refinement::SingleSingle), [[5, 2], [4, 1], [3, 0], [2, 0], [1, 0], [0, 0]]);
         assert_eq!(path(&bodies, Refinement::DoubleDouble), [[5, 2], [3, 0], [1, 0], [0, 0]]);
         // The other way round: object 1 goes first where both are at the same level.
-        let swapped = Leveled::new([&small, &large], poses);
+        let swapped = leveled([&small, &large], poses);
         let single = [[2, 5], [2, 4], [2, 3], [2, 2], [1, 2], [1, 1], [0, 1], [0, 0]];
         assert_eq!(path(&swapped, Refinement::Single), single);
         assert_eq!(path(&swapped, Refinement::SingleSingle), [[2, 5], [1, 4], [0, 3], [0, 2], [0, 1], [0, 0]]);
@@ -434,7 +438,7 @@ mod tests {
     fn adaptive_refinement_leaves_the_largest_deviation() {
         let [large, small] = shapes();
         for shapes in [[&large, &small], [&small, &large], [&large, &large]] {
-            let bodies = Leveled::new(shapes, [&Pose::IDENTITY; 2]);
+            let bodies = leveled(shapes, [&Pose::IDENTITY; 2]);
             // Whatever the levels, and where both are the same object 1 goes first.
             for level1 in 0..=bodies.coarsest()[0] {
                 for level2 in 0..=bodies.coarsest()[1] {
@@ -462,7 +466,7 @@ mod tests {
     #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn climbing_stops_before_levels_would_meet_or_stand_off_too_far() {
         let [large, small] = shapes();
-        let bodies = Leveled::new([&large, &small], [&Pose::IDENTITY; 2]);
+        let bodies = leveled([&large, &small], [&Pose::IDENTITY; 2]);
         let off = |levels: [u16; 2]| bodies.deviation(0, levels[0]) + bodies.deviation(1, levels[1]);
         let finest = Place { levels: [0, 0], state: State::edge_edge([7, 9]) };
         let coarsest = bodies.climbed(finest, f64::INFINITY, f64::INFINITY);
@@ -511,7 +515,7 @@ mod tests {
         for _ in 0..40 {
             let away = random.direction() * random.uniform(0.9, 1.5);
             let poses = [Pose::IDENTITY, Pose::new(&random.rotation(), &away)];
-            let bodies = Leveled::new([&large, &small], [&poses[0], &poses[1]]);
+            let bodies = leveled([&large, &small], [&poses[0], &poses[1]]);
             let solve = |levels: [u16; 2]| {
                 let [first, second] = bodies.polyhedra(levels);
                 exact::solve(first, &poses[0], second, &poses[1], &[])

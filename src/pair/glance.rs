@@ -1,25 +1,35 @@
 //! What settles a query at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
 
-use super::{PairAnswer, PairConfig, PairQuery, Statistics, Status, set_interval};
+use super::contact;
+use super::query::{PairQuery, Query, set_interval};
+use super::{PairAnswer, PairConfig, Statistics, Status};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::contact;
 use crate::solve::certificate::reciprocal_length;
-use crate::solve::frame::{Frame, RIGID_TOGETHER};
+use crate::solve::frame::Frame;
 use crate::solve::separating_axis::{self, Search, Trial};
 
 impl PairQuery<'_> {
-    /// Whether the bounding spheres of [ordinary](Polyhedron::ordinary) bodies, whose centres are their origins, are farther apart
-    /// than is enough; the answer then says so, and the cache stays as it is. A rotation limit below rounding asks for more than a
-    /// glance.
+    /// Whether the bounding spheres are farther apart than is enough; the answer then says so, and the cache stays as it is.
     #[inline(always)]
-    pub(super) fn is_farther_than(&mut self, enough: f64) -> bool {
-        let &mut PairQuery { polyhedra: [body1, body2], poses: [pose1, pose2], .. } = self;
-        let reach = body1.radius + body2.radius + enough;
+    pub(super) fn spheres_are_far_apart(&mut self) -> bool {
+        let enough = self.enough();
+        if enough == f64::INFINITY {
+            return false;
+        }
+        let ([body1, body2], [pose1, pose2]) = (self.polyhedra(), self.poses());
+        let radii = body1.radius + body2.radius + enough;
         let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
-        (x * x + y * y + z * z > reach * reach)
-            & (body1.ordinary & body2.ordinary)
-            & (self.config.rotation_limit >= RIGID_TOGETHER)
+        (x * x + y * y + z * z > radii * radii)
+            && self.is_simple()
             && simd::dispatch(&mut Spheres { pair: self, enough })
+    }
+
+    /// Whether the axis of the last verdict, or one that it leads to, separates the bodies.
+    #[inline(always)]
+    pub(super) fn last_axis_separates(&mut self) -> bool {
+        self.query == Query::Intersection
+            && self.cache.axis(self.polyhedra()).is_some()
+            && simd::dispatch(&mut Separation { pair: self })
     }
 }
 
@@ -34,7 +44,8 @@ impl Kernel for Spheres<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let &mut PairQuery { polyhedra, poses, config, ref mut answer, .. } = self.pair;
+        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let &mut PairQuery { config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let interval = separating_axis::between_spheres(&frame);
         if !(frame.usual & (interval.lower > self.enough)) {
@@ -50,8 +61,8 @@ impl Kernel for Spheres<'_, '_> {
 }
 
 /// The common case of the verdict alone: the axis of the last query separates, or nearly.
-pub(super) struct Separation<'a, 'b> {
-    pub(super) pair: &'a mut PairQuery<'b>,
+struct Separation<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
 }
 
 impl Kernel for Separation<'_, '_> {
@@ -59,15 +70,16 @@ impl Kernel for Separation<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let &mut PairQuery { polyhedra, poses, ref mut cache, config, ref mut answer, .. } = self.pair;
+        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let &mut PairQuery { ref mut cache, config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
-        let Some(axis) = cache.recall_axis(polyhedra) else { return false };
+        let Some(axis) = cache.axis(polyhedra) else { return false };
         if !frame.usual {
             return false;
         }
         let trial = Trial::of_axis(&frame, &axis);
         if trial.separates() && trial.interval.settles(config.distance_tolerance) {
-            cache.pairs[0] = trial.vertices;
+            cache.move_axis(trial.vertices);
             fill_trial(&trial, config, answer);
             return true;
         }

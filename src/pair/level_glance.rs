@@ -1,19 +1,21 @@
 //! The common case of approximate queries through levels of detail: near the features of the levels that the cache holds are the
 //! nearest, and they say enough. Straight through to the answer that the search among the levels comes to, to the last bit.
 
-use super::levels::{are_worth_it, may_answer, most_error, surely_most_error};
-use super::{Levels, PairQuery, Status};
+use super::descent::{self, Leveled, Place, TRIAL_STEPS};
+use super::levels::{are_worth_it, may_answer, most_error};
+use super::query::{PairQuery, Query};
+use super::{Levels, Status};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::descent::{self, Leveled, Place, TRIAL_STEPS};
-use crate::shape::Shape;
 
 impl PairQuery<'_> {
     /// Whether it is the common case; answer and cache are then written.
     #[inline(always)]
-    pub(super) fn is_answered_by_last_levels(&mut self, shapes: [&Shape; 2]) -> bool {
-        let &mut PairQuery { polyhedra, poses, ref cache, config, .. } = self;
+    pub(super) fn last_levels_answer(&mut self) -> bool {
+        let &mut PairQuery { query, bodies: [first, second], ref cache, config, .. } = self;
+        let shapes = [first.shape, second.shape];
         // Bounding spheres go first where there is a tolerance, and a limit below rounding asks for a closer look at the poses.
-        let is_usual = cache.holds_levels()
+        let is_usual = (query == Query::Approximate)
+            & cache.holds_place()
             & (cache.spent_before() == 0)
             & (config.distance_tolerance >= f64::INFINITY)
             & (config.step_budget >= TRIAL_STEPS)
@@ -23,18 +25,17 @@ impl PairQuery<'_> {
             return false;
         }
         if config.levels == Levels::Automatic {
-            let error = surely_most_error(config, polyhedra, poses);
+            let error = self.surely_most_error();
             if !(are_worth_it(shapes, error) && may_answer(shapes, error)) {
                 return false;
             }
         }
-        simd::dispatch(&mut LastLevels { pair: self, shapes })
+        simd::dispatch(&mut LastLevels { pair: self })
     }
 }
 
 struct LastLevels<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
-    shapes: [&'a Shape; 2],
 }
 
 impl Kernel for LastLevels<'_, '_> {
@@ -42,9 +43,9 @@ impl Kernel for LastLevels<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let bodies = Leveled::new(self.shapes, self.pair.poses);
+        let bodies = Leveled::new(self.pair.bodies);
         let &mut PairQuery { ref cache, config, .. } = self.pair;
-        let Some(place) = cache.recall_place(&bodies) else { return false };
+        let Some(place) = cache.place(&bodies) else { return false };
         let [level1, level2] = bodies.polyhedra(place.levels);
         if (place.levels == [0, 0]) | !(level1.ordinary & level2.ordinary) {
             return false;
@@ -58,7 +59,7 @@ impl Kernel for LastLevels<'_, '_> {
         let most = most_error(config, found.lower);
         let stays = bodies.stays(found.place, found.lower, most);
         let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };
-        self.pair.cache.remember_place(next);
+        self.pair.cache.remember_place(next, 0);
         if steps > 1 {
             frame.mark(&mut self.pair.cache.marker);
         }

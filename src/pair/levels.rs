@@ -1,19 +1,17 @@
-//! Queries through levels of detail, and those with a step budget: the search among the levels, then the bodies themselves
-//! where that is needed, and where the next query is to start.
+//! Queries through levels of detail, and those with a step budget: the search among the levels, and where the next query is to start.
 
-use super::attempt::{MarchOn, step_limit};
-use super::config::{check_accuracy, check_config};
-use super::{
-    Attempt, Levels, Outcome, PairAnswer, PairCache, PairConfig, PairQuery, Query, Start, Statistics, Status,
-    set_interval,
-};
+use super::attempt::Leg;
+use super::config::PairConfig;
+use super::contact;
+use super::descent::{Accuracy, Descended, Descent, Found, Leveled, Place};
+use super::query::{Attempt, Open, PairQuery, Query, set_interval};
+use super::start::policy::StartFrom;
+use super::start::start_pair;
+use super::{Levels, Outcome, Start, Statistics, Status};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::levels::hierarchy::{HierarchyKind, Level};
-use crate::pair::contact;
-use crate::pair::descent::{Accuracy, Descended, Descent, Found, Leveled, Place, TRIAL_STEPS};
-use crate::pair::start;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::certificate::Interval;
@@ -21,154 +19,28 @@ use crate::solve::decide::Decision;
 use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
 use crate::solve::gjk::{self, Nearest, Simplex};
+use crate::solve::marching::step_limit;
 use crate::solve::state::State;
 use crate::solve::voronoi::climb;
 
-/// See [`super::approximate`].
-#[inline(always)]
-pub(super) fn approximate(
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    if !((config.absolute_error >= 0.0) & (config.relative_error >= 0.0) & (config.step_budget > 0)) {
-        check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
-    }
-    let is_large =
-        are_large(shapes, MANY_VERTICES) && (config.levels == Levels::Automatic) & !seem_to_intersect(cache, config);
-    if is_large | (config.levels == Levels::All) {
-        let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-        let mut pair = PairQuery { query: Query::Approximate, polyhedra, poses, cache, config, answer };
-        if pair.is_answered_by_last_levels(shapes) {
-            return Ok(());
-        }
-    }
-    if is_large {
-        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
-        return of_large(Query::Approximate, shapes, poses, cache, config, answer);
-    }
-    if config.step_budget == u32::MAX && config.levels != Levels::All {
-        return super::query(Query::Approximate, shapes, poses, cache, config, answer);
-    }
-    // Arrays of their own: those lent to it would have to live in memory here, too.
-    let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
-    through_levels(Query::Approximate, shapes, poses, cache, config, answer)
+/// What a search among levels came to.
+pub(super) enum Searched<'a> {
+    /// The answer is there.
+    Answered,
+    /// There are no levels that may answer.
+    Bodies,
+    /// Marching at the bodies themselves from the place that the search came to ended so; where the next is to start is still to be
+    /// remembered.
+    Marched(LevelSearch<'a>, Attempt),
 }
 
-fn through_levels(
-    query: Query,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    check_config(config)?;
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    if pair.is_farther_than(enough(query, config)) {
-        return Ok(());
-    }
-    pair.begin_descent(shapes)
-}
-
-#[inline(always)]
-fn are_large(shapes: [&Shape; 2], vertex_count: usize) -> bool {
-    shapes[0].polyhedron().vertices.len() + shapes[1].polyhedron().vertices.len() >= vertex_count
-}
-
-/// Whether the bodies intersected the last time: they mostly still do, which their cached vertex pairs prove, and levels cannot.
-/// (Of round bodies of 100,002 vertices that saves from four fifths at 0.1° to nineteen twentieths of the time at 1° and 10°.)
-#[inline(always)]
-fn seem_to_intersect(cache: &PairCache, config: &PairConfig) -> bool {
-    cache.holds_pairs() & config.start.asks_cache()
-}
-
-/// Whether the bodies are so large that levels save time where a verdict is asked for and not settled at a glance.
-#[inline(always)]
-pub(super) fn help_verdicts(shapes: [&Shape; 2], cache: &PairCache, config: &PairConfig) -> bool {
-    are_large(shapes, VERY_MANY_VERTICES) & (config.levels == Levels::Automatic) & !seem_to_intersect(cache, config)
-}
-
-/// A query of bodies so large that levels save time where they may answer.
-#[inline(never)]
-pub(super) fn of_large(
-    query: Query,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    check_config(config)?;
-    let all = PairConfig { levels: Levels::All, ..*config };
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    let error = match query {
-        // Nothing is made for a query that is answered without; others have looked.
-        Query::Approximate if pair.is_farther_than(enough(query, config)) => return Ok(()),
-        Query::Approximate => surely_most_error(config, polyhedra, poses),
-        _ => f64::INFINITY,
-    };
-    let are_worth_it = are_worth_it(shapes, error);
-    if are_worth_it && shapes.iter().any(|shape| shape.lacks_levels()) {
-        pair.make_levels(shapes)?;
-    }
-    let goes_through = are_worth_it && may_answer(shapes, error);
-    if goes_through || (query == Query::Approximate && config.step_budget != u32::MAX) {
-        pair.config = if goes_through { &all } else { config };
-        return pair.begin_descent(shapes);
-    }
-    let none = PairConfig { levels: Levels::None, ..*config };
-    super::query(query, shapes, poses, pair.cache, &none, pair.answer)
-}
-
-/// The error that a query about bodies at least `gap` apart may make.
-#[inline(always)]
-pub(super) fn most_error(config: &PairConfig, gap: f64) -> f64 {
-    let relative = config.relative_error * gap;
-    if relative > config.absolute_error { relative } else { config.absolute_error }
-}
-
-/// The same before anything is known but the bounding spheres.
-#[inline(always)]
-pub(super) fn surely_most_error(config: &PairConfig, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
-    if config.relative_error > 0.0 {
-        most_error(config, gap_of_spheres(polyhedra, poses))
-    } else {
-        config.absolute_error
-    }
-}
-
-/// How far the bounding spheres are apart, about; 0 where they overlap. It only says where to look.
-fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
-    let [centre1, centre2] = [0, 1].map(|i| poses[i].transform(&polyhedra[i].centre));
-    let gap = (centre1 - centre2).norm() - (polyhedra[0].radius + polyhedra[1].radius);
-    if gap > 0.0 { gap } else { 0.0 }
-}
-
-/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
-/// vertices stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the
-/// doubt.
-#[inline(always)]
-pub(super) fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
-    let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
-    let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
-    !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
-}
-
-/// Whether two bodies, or levels, have look-up tables to start from.
-fn has_tables([first, second]: [&Polyhedron; 2]) -> bool {
-    first.lookup.serves_with(&second.lookup)
-}
-
-/// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
-#[inline(always)]
-fn enough(query: Query, config: &PairConfig) -> f64 {
-    let is_verdict = (query == Query::Intersection) & (config.distance_tolerance == f64::INFINITY);
-    if is_verdict { 0.0 } else { config.distance_tolerance }
+/// A search among levels.
+pub(super) struct LevelSearch<'a> {
+    bodies: Leveled<'a>,
+    /// Whether it goes through levels, or has a budget alone.
+    has_levels: bool,
+    /// Steps of earlier queries whose budget ran out.
+    before: u32,
 }
 
 /// Whether there are levels that may answer to within an error, the finest being the tightest.
@@ -189,129 +61,152 @@ const MANY_VERTICES: usize = 60_000;
 /// vertices (1.2 times slower at 0.1°, 1.6 to 2 times faster elsewhere).
 const VERY_MANY_VERTICES: usize = 200_000;
 
-impl PairQuery<'_> {
+/// Bodies of at least so many vertices, both together, may be worth levels; `None` where only the bodies themselves tell.
+#[inline(always)]
+fn least_vertices(query: Query) -> Option<usize> {
+    match query {
+        Query::Approximate => Some(MANY_VERTICES),
+        Query::Intersection => Some(VERY_MANY_VERTICES),
+        Query::Distance | Query::Contact => None,
+    }
+}
+
+/// The error that a query about bodies at least `gap` apart may make.
+#[inline(always)]
+pub(super) fn most_error(config: &PairConfig, gap: f64) -> f64 {
+    let relative = config.relative_error * gap;
+    if relative > config.absolute_error { relative } else { config.absolute_error }
+}
+
+/// How far the bounding spheres are apart, about; 0 where they overlap. It only says where to look.
+fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
+    let [centre1, centre2] = [0, 1].map(|i| poses[i].transform(&polyhedra[i].centre));
+    let gap = (centre1 - centre2).norm() - (polyhedra[0].radius + polyhedra[1].radius);
+    if gap > 0.0 { gap } else { 0.0 }
+}
+
+/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
+/// vertices stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the
+/// doubt.
+#[inline(always)]
+pub(super) fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
+    let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
+    let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
+    !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
+}
+
+impl<'a> PairQuery<'a> {
+    /// Whether the query is to go through levels, may gain by them, or has a step budget. That is decided here, once.
+    #[inline(always)]
+    pub(super) fn may_ask_levels(&self) -> bool {
+        match self.config.levels {
+            Levels::All => true,
+            Levels::None => self.has_budget(),
+            Levels::Automatic => self.has_budget() | self.is_large(),
+        }
+    }
+
+    #[inline(always)]
+    fn has_budget(&self) -> bool {
+        (self.query == Query::Approximate) & (self.config.step_budget != u32::MAX)
+    }
+
+    /// Whether the bodies are so large that levels may save time. Those that intersected the last time mostly still do, which
+    /// their cached enclosure proves, and levels cannot. (Of round bodies of 100,002 vertices that saves from four fifths at 0.1° to
+    /// nineteen twentieths of the time at 1° and 10°.)
+    #[inline(always)]
+    fn is_large(&self) -> bool {
+        let Some(least) = least_vertices(self.query) else { return false };
+        let [body1, body2] = self.polyhedra();
+        (body1.vertices.len() + body2.vertices.len() >= least)
+            && !(self.cache.holds_enclosure() & self.config.start.asks_cache())
+    }
+
+    fn shapes(&self) -> [&'a Shape; 2] {
+        self.bodies.map(|body| body.shape)
+    }
+
+    /// The error that the query may make, before anything is known but the bounding spheres.
+    #[inline(always)]
+    pub(super) fn surely_most_error(&self) -> f64 {
+        let config = self.config;
+        if config.relative_error > 0.0 { most_error(config, self.gap_of_spheres()) } else { config.absolute_error }
+    }
+
+    fn gap_of_spheres(&self) -> f64 {
+        gap_of_spheres(self.polyhedra(), self.poses())
+    }
+
+    /// Whether automatic levels are to be gone through. They are made if they are missing.
+    fn automatic_levels_may_answer(&self) -> Result<bool> {
+        if !self.is_large() {
+            return Ok(false);
+        }
+        let error = if self.query == Query::Approximate { self.surely_most_error() } else { f64::INFINITY };
+        if !are_worth_it(self.shapes(), error) {
+            return Ok(false);
+        }
+        self.make_missing_levels()?;
+        Ok(may_answer(self.shapes(), error))
+    }
+
     /// Makes the automatic levels that are missing, but for no query that is refused.
-    fn make_levels(&self, shapes: [&Shape; 2]) -> Result<()> {
-        self.check_poses()?;
-        shapes.iter().for_each(|shape| shape.need_levels());
+    fn make_missing_levels(&self) -> Result<()> {
+        if self.shapes().iter().any(|shape| shape.lacks_levels()) {
+            self.check_poses()?;
+            self.shapes().iter().for_each(|shape| shape.need_levels());
+        }
         Ok(())
     }
 
     /// The query through the levels of detail, from the cache or afresh.
-    fn begin_descent(&mut self, shapes: [&Shape; 2]) -> Result<()> {
-        if !self.config.start.asks_cache() {
-            self.forget()?;
+    #[inline(never)]
+    pub(super) fn search_levels(&mut self) -> Result<Searched<'a>> {
+        let has_levels = match self.config.levels {
+            Levels::All => {
+                self.make_missing_levels()?;
+                true
+            }
+            Levels::Automatic => self.automatic_levels_may_answer()?,
+            Levels::None => false,
+        };
+        if !(has_levels || self.has_budget()) {
+            return Ok(Searched::Bodies);
         }
-        self.descend(shapes)
+        self.forget()?;
+        if self.is_still_enclosed() {
+            return Ok(Searched::Answered);
+        }
+        let search = LevelSearch { bodies: Leveled::new(self.bodies), has_levels, before: self.cache.spent_before() };
+        Ok(search.run(self))
     }
 
-    /// The query through the levels of detail, if the configuration wants any.
-    #[inline(never)]
-    pub(super) fn descend(&mut self, shapes: [&Shape; 2]) -> Result<()> {
-        if self.config.levels == Levels::All && shapes.iter().any(|shape| shape.lacks_levels()) {
-            self.make_levels(shapes)?;
+    /// Whether what proved the last intersection proves this one.
+    fn is_still_enclosed(&mut self) -> bool {
+        let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
+        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
+        if !frame.usual {
+            return false;
         }
-        let &mut PairQuery { query, polyhedra, poses, ref mut cache, config, .. } = self;
-        if let Some(pairs) = cache.recall_pairs(polyhedra) {
-            let frame = Frame::<Portable>::new(polyhedra, poses, config.rotation_limit);
-            if frame.usual
-                && let Some(weights) = encloses_origin(&frame, pairs.as_slice())
-            {
-                self.answer.status = Status::Coherent;
-                self.answer.statistics = Statistics::default();
-                self.fill(&Decision::Intersecting { pairs, weights });
-                self.remember_marker();
-                return Ok(());
-            }
-        }
-        let (before, marker) = (cache.spent_before(), cache.last_marker(config).copied());
-        let bodies = Leveled::new(shapes, poses);
-        let beyond = config.distance_tolerance;
-        let accuracy = match query {
+        let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return false };
+        self.answer.status = Status::Coherent;
+        self.answer.statistics = Statistics::default();
+        self.fill(&Decision::Intersecting { pairs, weights });
+        frame.mark(&mut self.cache.marker);
+        true
+    }
+
+    /// What the query wants to know.
+    fn accuracy(&self) -> Accuracy {
+        let beyond = self.config.distance_tolerance;
+        match self.query {
             // A tolerance is to be on one side of the interval.
             Query::Intersection if beyond < f64::INFINITY => Accuracy { absolute: 0.0, relative: 0.0, beyond },
             Query::Intersection => Accuracy { absolute: f64::INFINITY, relative: 0.0, beyond },
-            Query::Approximate => config.accuracy(),
+            Query::Approximate => self.config.accuracy(),
             // Only the bodies themselves tell.
             Query::Distance | Query::Contact => Accuracy { absolute: 0.0, relative: 0.0, beyond },
-        };
-        let (place, is_trial) = self.start(&bodies);
-        // Marching in pieces, a budget at a time, does not see that it goes round in circles: penetration, mostly.
-        if before > step_limit(polyhedra) {
-            let at = bodies.descended(place, [0, 0]).state;
-            return self.end(Attempt::Open { at, is_minimum: false, steps: 0 });
         }
-        let mut descent = Descent {
-            bodies,
-            accuracy,
-            refinement: config.refinement,
-            rotation_limit: config.rotation_limit,
-            place,
-            is_trial,
-            marker,
-            step_limit: if query == Query::Approximate { config.step_budget } else { u32::MAX },
-            steps: 0,
-            found: None,
-        };
-        let mut descended = simd::dispatch(&mut descent);
-        if descended == Descended::Lost {
-            if config.start != Start::Cache && has_tables(bodies.polyhedra(place.levels)) {
-                descent.place = self.place_anew(&bodies);
-            }
-            descent.is_trial = false;
-            descended = simd::dispatch(&mut descent);
-        }
-        let Descent { place, is_trial, steps, step_limit, found, .. } = descent;
-        match (descended, found) {
-            (Descended::Enough, Some(found)) => {
-                self.fill_found(&found, Status::WithinTolerance, steps);
-                self.remember(&bodies, place, found.lower);
-                if steps > 1 {
-                    self.remember_marker();
-                }
-                Ok(())
-            }
-            (Descended::Finest, _) => self.finish(&bodies, place.state, is_trial, [before, steps], step_limit),
-            _ => {
-                self.spend(&bodies, found, place, [before, steps]);
-                Ok(())
-            }
-        }
-    }
-
-    /// Where the search starts: where the last one ended, else at the coarsest levels. Whether it is the former, too.
-    fn start(&self, bodies: &Leveled) -> (Place, bool) {
-        let has_levels = self.config.levels == Levels::All;
-        let recalled = if self.config.start.asks_cache() { self.cache.recall_place(bodies) } else { None };
-        match recalled {
-            // An exact query left it.
-            Some(place)
-                if place.levels == [0, 0]
-                    && has_levels
-                    && self.query == Query::Approximate
-                    && self.cache.spent_before() == 0 =>
-            {
-                (bodies.climbed(place, f64::INFINITY, self.surely_near_enough()), true)
-            }
-            Some(place) if has_levels || place.levels == [0, 0] => (place, true),
-            _ => (self.place_anew(bodies), false),
-        }
-    }
-
-    /// Where to start if not where the last search ended: at the levels that may be near enough, at the vertices that their tables
-    /// say; without tables at the coarsest levels.
-    fn place_anew(&self, bodies: &Leveled) -> Place {
-        let asks_tables = self.config.start != Start::Cold;
-        let levels = match self.config.levels {
-            Levels::All if asks_tables && has_tables(self.polyhedra) => {
-                let finest = Place { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
-                bodies.climbed(finest, f64::INFINITY, self.surely_near_enough()).levels
-            }
-            Levels::All => bodies.coarsest(),
-            _ => [0, 0],
-        };
-        let vertices = start::anew(bodies.polyhedra(levels), self.poses, asks_tables).vertices();
-        Place { levels, state: State::vertex_vertex(vertices) }
     }
 
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
@@ -324,56 +219,7 @@ impl PairQuery<'_> {
 
     /// The same before anything is known but the bounding spheres.
     fn surely_near_enough(&self) -> f64 {
-        self.near_enough(gap_of_spheres(self.polyhedra, self.poses))
-    }
-
-    /// The bodies themselves, from a state of theirs, of an earlier query or not; `before` and `steps` are those made by earlier
-    /// queries and by this one.
-    fn finish(
-        &mut self,
-        bodies: &Leveled,
-        state: State,
-        is_trial: bool,
-        [before, steps]: [u32; 2],
-        step_budget: u32,
-    ) -> Result<()> {
-        let place = |state| Place { levels: [0, 0], state };
-        let left = step_budget - steps;
-        if left == 0 {
-            self.spend(bodies, None, place(state), [before, steps]);
-            return Ok(());
-        }
-        // The number of trial steps makes a trial of it: right for features of an earlier query, if the budget is no matter.
-        let limit = match left {
-            u32::MAX if is_trial => TRIAL_STEPS,
-            TRIAL_STEPS => TRIAL_STEPS - 1,
-            _ => step_limit(self.polyhedra).min(left),
-        };
-        let attempt = simd::dispatch(&mut Finish { pair: self, start: state, steps, limit });
-        if let Attempt::Open { at, is_minimum: false, steps: made } = attempt
-            && made - steps == limit
-            && left <= limit + 1
-        {
-            self.spend(bodies, None, place(at), [before, made]);
-            return Ok(());
-        }
-        self.end(attempt)?;
-        if self.answer.outcome != Outcome::Intersecting
-            && let Some(state) = State::checked(self.cache.kind, self.cache.indices, self.polyhedra)
-        {
-            self.remember(bodies, Place { levels: [0, 0], state }, self.answer.lower);
-        }
-        Ok(())
-    }
-
-    /// The cache for the next query: as high up as its levels would be disjoint and, where that is all that counts, near enough.
-    fn remember(&mut self, bodies: &Leveled, place: Place, gap: f64) {
-        if self.config.levels != Levels::All {
-            self.cache.remember_state(place.state);
-            return;
-        }
-        let most = self.near_enough(gap);
-        self.cache.remember_place(bodies.climbed(place, gap, most));
+        self.near_enough(self.gap_of_spheres())
     }
 
     /// The answer that a pair of levels gives.
@@ -390,13 +236,143 @@ impl PairQuery<'_> {
         contact::fill_nothing(answer);
         answer.normal = found.normal.into();
     }
+}
+
+impl<'a> LevelSearch<'a> {
+    fn run(self, pair: &mut PairQuery<'a>) -> Searched<'a> {
+        let (bodies, config) = (self.bodies, pair.config);
+        let (place, is_trial) = self.start(pair);
+        // Marching in pieces, a budget at a time, does not see that it goes round in circles: penetration, mostly.
+        if self.before > step_limit(pair.polyhedra()) {
+            let at = bodies.descended(place, [0, 0]).state;
+            return Searched::Marched(self, Attempt::Open(Open { at, is_minimum: false, steps: 0 }));
+        }
+        let mut descent = Descent {
+            bodies,
+            accuracy: pair.accuracy(),
+            refinement: config.refinement,
+            rotation_limit: config.rotation_limit,
+            place,
+            is_trial,
+            marker: pair.cache.last_marker(config).copied(),
+            step_limit: if pair.query == Query::Approximate { config.step_budget } else { u32::MAX },
+            steps: 0,
+            found: None,
+        };
+        let mut descended = simd::dispatch(&mut descent);
+        if descended == Descended::Lost {
+            if config.start != Start::Cache && has_tables(bodies.polyhedra(place.levels)) {
+                descent.place = self.place_anew(pair);
+            }
+            descent.is_trial = false;
+            descended = simd::dispatch(&mut descent);
+        }
+        let Descent { place, is_trial, steps, step_limit, found, .. } = descent;
+        match (descended, found) {
+            (Descended::Enough, Some(found)) => {
+                pair.fill_found(&found, Status::WithinTolerance, steps);
+                self.remember_place(pair, place, found.lower);
+                if steps > 1 {
+                    pair.remember_marker();
+                }
+                Searched::Answered
+            }
+            (Descended::Finest, _) => self.march(pair, place.state, is_trial, steps, step_limit),
+            _ => self.spend(pair, found, place, steps),
+        }
+    }
+
+    /// Where the search starts: where the last one ended, else at the coarsest levels. Whether it is the former, too.
+    fn start(&self, pair: &PairQuery) -> (Place, bool) {
+        let recalled = if pair.config.start.asks_cache() { pair.cache.place(&self.bodies) } else { None };
+        match recalled {
+            // An exact query left it.
+            Some(place)
+                if place.levels == [0, 0]
+                    && self.has_levels
+                    && pair.query == Query::Approximate
+                    && self.before == 0 =>
+            {
+                (self.bodies.climbed(place, f64::INFINITY, pair.surely_near_enough()), true)
+            }
+            Some(place) if self.has_levels || place.levels == [0, 0] => (place, true),
+            _ => (self.place_anew(pair), false),
+        }
+    }
+
+    /// Where to start if not where the last search ended: at the levels that may be near enough, at the vertices that their tables
+    /// say; without tables at the coarsest levels.
+    fn place_anew(&self, pair: &PairQuery) -> Place {
+        let bodies = &self.bodies;
+        let levels = if !self.has_levels {
+            [0, 0]
+        } else if pair.asks_tables() && has_tables(pair.polyhedra()) {
+            let finest = Place { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
+            bodies.climbed(finest, f64::INFINITY, pair.surely_near_enough()).levels
+        } else {
+            bodies.coarsest()
+        };
+        let from = if pair.asks_tables() { StartFrom::Centres } else { StartFrom::Farthest };
+        let vertices = start_pair(bodies.polyhedra(levels), pair.poses(), from).vertices();
+        Place { levels, state: State::vertex_vertex(vertices) }
+    }
+
+    /// Marching at the bodies themselves, from a state of theirs, of an earlier query or not; `steps` are made already.
+    fn march(
+        self,
+        pair: &mut PairQuery<'a>,
+        state: State,
+        is_trial: bool,
+        steps: u32,
+        step_budget: u32,
+    ) -> Searched<'a> {
+        let place = |state| Place { levels: [0, 0], state };
+        let left = step_budget - steps;
+        if left == 0 {
+            return self.spend(pair, None, place(state), steps);
+        }
+        // A trial may go on for longer than a budget.
+        let leg = match left {
+            u32::MAX if is_trial => Leg::Trial,
+            u32::MAX => Leg::Whole,
+            left => Leg::Budget(left),
+        };
+        let attempt = pair.march_on(state, steps, leg);
+        if let Attempt::Open(Open { at, is_minimum: false, steps: made }) = attempt
+            && leg == Leg::Budget(made - steps)
+        {
+            return self.spend(pair, None, place(at), made);
+        }
+        Searched::Marched(self, attempt)
+    }
+
+    /// The cache for the next query, after the bodies themselves have answered.
+    pub(super) fn remember(&self, pair: &mut PairQuery) {
+        if pair.answer.outcome != Outcome::Intersecting
+            && let Some(state) = pair.cache.features_of(pair.polyhedra())
+        {
+            let gap = pair.answer.lower;
+            self.remember_place(pair, Place { levels: [0, 0], state }, gap);
+        }
+    }
+
+    /// The cache for the next query: as high up as its levels would be disjoint and, where that is all that counts, near enough.
+    fn remember_place(&self, pair: &mut PairQuery, place: Place, gap: f64) {
+        if !self.has_levels {
+            pair.cache.remember_features(place.state);
+            return;
+        }
+        let most = pair.near_enough(gap);
+        pair.cache.remember_place(self.bodies.climbed(place, gap, most), 0);
+    }
 
     /// The answer when the steps are spent: what the levels say, or what a look along the line of two vertices says.
     #[cold]
-    fn spend(&mut self, bodies: &Leveled, found: Option<Found>, place: Place, [before, steps]: [u32; 2]) {
-        let finest = bodies.descended(place, [0, 0]);
-        let vertices = finest.state.vertices(self.polyhedra);
-        let glance = simd::dispatch(&mut Glance { polyhedra: self.polyhedra, poses: self.poses, vertices });
+    fn spend(&self, pair: &mut PairQuery, found: Option<Found>, place: Place, steps: u32) -> Searched<'a> {
+        let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+        let finest = self.bodies.descended(place, [0, 0]);
+        let vertices = finest.state.vertices(polyhedra);
+        let glance = simd::dispatch(&mut Glance { polyhedra, poses, vertices });
         let mut known = Found { place: finest, lower: 0.0, upper: f64::INFINITY, normal: glance.direction };
         if glance.interval.lower > 0.0 {
             known.lower = glance.interval.lower;
@@ -411,41 +387,19 @@ impl PairQuery<'_> {
             }
             known.upper = if found.upper < known.upper { found.upper } else { known.upper };
         }
-        self.fill_found(&known, Status::BudgetSpent, steps);
+        pair.fill_found(&known, Status::BudgetSpent, steps);
         if !(known.lower > 0.0) {
-            self.answer.outcome = Outcome::Undecided;
-            contact::fill_nothing(self.answer);
+            pair.answer.outcome = Outcome::Undecided;
+            contact::fill_nothing(pair.answer);
         }
-        self.cache.remember_place(place);
-        self.cache.pairs[1][0] = before.saturating_add(steps);
+        pair.cache.remember_place(place, self.before.saturating_add(steps));
+        Searched::Answered
     }
 }
 
-/// Marching at the bodies themselves from a given state.
-struct Finish<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
-    start: State,
-    steps: u32,
-    limit: u32,
-}
-
-impl Kernel for Finish<'_, '_> {
-    type Output = Attempt;
-
-    #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Attempt {
-        let &mut Finish { start, steps, limit, .. } = self;
-        let &mut PairQuery { polyhedra, poses, config, .. } = self.pair;
-        let frame = Frame::<L>::new(polyhedra, poses, config.rotation_limit);
-        if !frame.usual {
-            return Attempt::Unusual;
-        }
-        // A segment or a point has no faces to march over.
-        if polyhedra[0].dimension.min(polyhedra[1].dimension) < 2 {
-            return Attempt::Open { at: start, is_minimum: false, steps };
-        }
-        L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps, limit })
-    }
+/// Whether two bodies, or levels, have look-up tables to start from.
+fn has_tables([first, second]: [&Polyhedron; 2]) -> bool {
+    first.lookup.serves_with(&second.lookup)
 }
 
 /// What the line through two vertices says of the distance: their distance from above, supports along it from below.

@@ -1,48 +1,42 @@
-//! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns.
+//! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns. [`ladder`] shows every way
+//! in which an answer comes about.
 
 mod answer;
 mod normal_cone;
 mod contact_direction;
 mod contact;
+mod placed;
 #[doc(hidden)]
 pub mod start;
 mod descent;
 mod config;
 mod cache;
+mod query;
 mod acceptance;
 mod glance;
 mod attempt;
 mod decision;
-mod level_glance;
 mod levels;
+mod level_glance;
+mod ladder;
 pub mod verify;
 
-use attempt::Coherent;
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::base::simd::environment::{self, with_default};
+use crate::shape::Shape;
+
+pub use answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
-use config::check_config;
 pub use config::{Bounds, Levels, PairConfig, Start};
-use glance::Separation;
-
-use crate::base::error::Result;
-use crate::base::math::{Pose, clamp};
-use crate::base::simd;
-use crate::base::simd::environment::{self, with_default};
-pub use crate::pair::answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
-pub use crate::pair::descent::Refinement;
-use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
-use crate::solve::certificate::Interval;
-use crate::solve::state::State;
-
-/// What is asked of a pair.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Query {
-    Intersection,
-    Distance,
-    Contact,
-    Approximate,
-}
+pub use descent::Refinement;
+use ladder::climb;
+#[doc(hidden)]
+pub use placed::Placed;
+use query::PairQuery;
+#[doc(hidden)]
+pub use query::{Query, Rungs};
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
@@ -63,10 +57,8 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if !environment::is_default() {
-        return with_default(move || distance(shape1, pose1, shape2, pose2, cache, config, answer));
-    }
-    query(Query::Distance, [shape1, shape2], [pose1, pose2], cache, config, answer)
+    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    query_with(Query::Distance, Rungs::ALL, bodies, cache, config, answer)
 }
 
 /// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
@@ -83,10 +75,8 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if !environment::is_default() {
-        return with_default(move || intersection(shape1, pose1, shape2, pose2, cache, config, answer));
-    }
-    query(Query::Intersection, [shape1, shape2], [pose1, pose2], cache, config, answer)
+    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
@@ -106,10 +96,8 @@ pub fn contact(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if !environment::is_default() {
-        return with_default(move || contact(shape1, pose1, shape2, pose2, cache, config, answer));
-    }
-    query(Query::Contact, [shape1, shape2], [pose1, pose2], cache, config, answer)
+    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    query_with(Query::Contact, Rungs::ALL, bodies, cache, config, answer)
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the interval holds the true distance, and the query stops as
@@ -132,142 +120,26 @@ pub fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
+    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    query_with(Query::Approximate, Rungs::ALL, bodies, cache, config, answer)
+}
+
+/// As the function of that query, with some rungs of the ladder left out: for benchmarks and tests.
+///
+/// # Errors
+/// As the function.
+#[doc(hidden)]
+#[inline(always)]
+pub fn query_with(
+    query: Query,
+    rungs: Rungs,
+    bodies: [Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
     if !environment::is_default() {
-        return with_default(move || approximate(shape1, pose1, shape2, pose2, cache, config, answer));
+        return with_default(move || climb(&mut PairQuery { query, bodies, cache, config, answer }, rungs));
     }
-    levels::approximate([shape1, shape2], [pose1, pose2], cache, config, answer)
-}
-
-#[inline(always)]
-fn query(
-    query: Query,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    // Mostly. A NaN is neither.
-    if config.distance_tolerance >= f64::INFINITY && config.admits_rounding() {
-        let enough = (query == Query::Intersection).then_some(0.0);
-        return query_beyond(query, enough, shapes, poses, cache, config, answer);
-    }
-    // Arrays of their own: those lent to it would have to live in memory here, too.
-    let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
-    query_with_limits(query, shapes, poses, cache, config, answer)
-}
-
-/// With a distance tolerance, most likely. Out of line, with all that follows.
-#[inline(never)]
-fn query_with_limits(
-    query: Query,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    if config.distance_tolerance >= 0.0 && config.admits_rounding() {
-        return query_beyond(query, Some(config.distance_tolerance), shapes, poses, cache, config, answer);
-    }
-    query_strictly(query, shapes, poses, cache, config, answer)
-}
-
-/// With a rotation limit below rounding, which asks for a closer look at the poses, or with limits that are none.
-#[cold]
-#[inline(never)]
-fn query_strictly(
-    query: Query,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    check_config(config)?;
-    if query == Query::Intersection && levels::help_verdicts(shapes, cache, config) {
-        return levels::of_large(query, shapes, poses, cache, config, answer);
-    }
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    PairQuery { query, polyhedra, poses, cache, config, answer }.begin(shapes)
-}
-
-/// A query that needs to know no more than that the bodies are farther apart than is `enough`, if they are. The distance tolerance
-/// is one, and the rotation limit [admits rounding](PairConfig::admits_rounding).
-#[inline(always)]
-fn query_beyond(
-    query: Query,
-    enough: Option<f64>,
-    shapes: [&Shape; 2],
-    poses: [&Pose; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
-    // Made in place and lent: moving it would copy pairs of pointers just written as one, which stalls.
-    let mut pair = PairQuery { query, polyhedra, poses, cache, config, answer };
-    if let Some(enough) = enough
-        && pair.is_farther_than(enough)
-    {
-        return Ok(());
-    }
-    if (query == Query::Intersection) && levels::help_verdicts(shapes, pair.cache, config) {
-        // Arrays of their own: those lent to it would have to live in memory here, too.
-        let (shapes, poses) = ([shapes[0], shapes[1]], [poses[0], poses[1]]);
-        return levels::of_large(query, shapes, poses, pair.cache, config, pair.answer);
-    }
-    if polyhedra[0].ordinary & polyhedra[1].ordinary & config.start.asks_cache() {
-        if query == Query::Intersection
-            && pair.cache.recall_axis(polyhedra).is_some()
-            && simd::dispatch(&mut Separation { pair: &mut pair })
-        {
-            return Ok(());
-        }
-        match simd::dispatch(&mut Coherent { pair: &mut pair }) {
-            Attempt::Done => Ok(()),
-            attempt => pair.go_on(attempt, shapes),
-        }
-    } else {
-        pair.begin(shapes)
-    }
-}
-
-/// What became of an attempt.
-enum Attempt {
-    /// The answer is there.
-    Done,
-    /// Marching left it open at this state, or its certificate did at a minimum.
-    Open { at: State, is_minimum: bool, steps: u32 },
-    /// The cache holds no features that the bodies have.
-    Cold,
-    /// Poses that are not rigid or not of ordinary magnitude.
-    Unusual,
-}
-
-/// One query.
-struct PairQuery<'a> {
-    query: Query,
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
-    cache: &'a mut PairCache,
-    config: &'a PairConfig,
-    answer: &'a mut PairAnswer,
-}
-
-/// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair. The interval settles the
-/// tolerance: its upper end is beyond it just where the true distance is.
-#[inline(always)]
-fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, distance_tolerance: f64) {
-    answer.lower = interval.lower;
-    answer.proof_count = 0;
-    if interval.upper > distance_tolerance {
-        answer.outcome = Outcome::Beyond;
-        answer.upper = f64::INFINITY;
-        answer.distance = interval.lower;
-    } else {
-        answer.outcome = Outcome::Separated;
-        answer.upper = interval.upper;
-        answer.distance = clamp(distance, interval.lower, interval.upper);
-    }
+    climb(&mut PairQuery { query, bodies, cache, config, answer }, rungs)
 }

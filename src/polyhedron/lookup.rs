@@ -291,8 +291,6 @@ pub struct Lookup {
     /// How far, in radians, a pair of bodies like this one may have moved and turned before a start from the tables, or without any
     /// one afresh, leads to the nearest features sooner than the last features do; +∞ without a plan.
     pub reach: f64,
-    /// The same beside a body of so few vertices that it needs no table.
-    pub reach_beside_few: f64,
     /// The table, once made.
     pub made: OnNeed<Table>,
 }
@@ -324,7 +322,7 @@ pub enum Plan {
 /// Of one body equal plans make equal tables, whether they are made yet or not.
 impl PartialEq for Lookup {
     fn eq(&self, other: &Lookup) -> bool {
-        (self.plan, self.reach, self.reach_beside_few) == (other.plan, other.reach, other.reach_beside_few)
+        (self.plan, self.reach) == (other.plan, other.reach)
     }
 }
 
@@ -337,7 +335,7 @@ impl Lookup {
     /// A plan that needs no table.
     pub fn without_table(plan: Plan, reach: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan, reach, reach_beside_few: f64::INFINITY, made: OnNeed::from(Table::None) }
+        Lookup { plan, reach, made: OnNeed::from(Table::None) }
     }
 
     /// The same plan without the table.
@@ -345,7 +343,7 @@ impl Lookup {
         Lookup { made: OnNeed::new(), ..*self }
     }
 
-    /// Whether marching may start where tables say: those of both, or of one if the other needs none.
+    /// Whether marching may start where tables say: those of both, of one kind, or shells beside a body that needs none.
     #[inline(always)]
     pub fn serves_with(&self, other: &Lookup) -> bool {
         use Plan::{AllVertices, Shells, Spherical};
@@ -360,11 +358,7 @@ impl Lookup {
     /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::reach`].
     #[inline(always)]
     pub fn square_reach(&self, other: &Lookup) -> f64 {
-        match (self.plan, other.plan) {
-            (Plan::AllVertices { .. }, Plan::Shells { .. }) => other.reach_beside_few * other.reach_beside_few,
-            (Plan::Shells { .. }, Plan::AllVertices { .. }) => self.reach_beside_few * self.reach_beside_few,
-            _ => self.reach * other.reach,
-        }
+        self.reach * other.reach
     }
 
     /// Memory that it holds beyond its own size: none until the table is made.

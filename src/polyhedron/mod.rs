@@ -1,5 +1,5 @@
 //! A convex polyhedron as queries run on it: features beside the numbers that their tests need, and the tables that say where to
-//! start. It is data; who makes it is in [`crate::build`] and [`crate::tables`].
+//! start. It is data; later stages make it.
 
 #[doc(hidden)]
 pub mod lookup;

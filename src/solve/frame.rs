@@ -8,7 +8,6 @@
 use crate::base::double_double::{two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::simd::Lanes;
-use crate::pair::start::FROM_CENTRES;
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 
 /// A rotation is taken for rigid when no entry of RᵀR − I exceeds this; the rounding of an orthonormal matrix to doubles leaves
@@ -206,43 +205,13 @@ impl<'a, L: Lanes> Frame<'a, L> {
         moved.dot(moved) > lever * lever * (square - turned.dot(turned))
     }
 
-    /// Whether that square is more than so many times the squared [reach](crate::polyhedron::lookup::Lookup::reach) of the bodies.
+    /// Whether the square of the angle by which body 2 has turned, seen from body 1, is more than so much by its second axis: a turn
+    /// about its own first axis, which [`Frame::has_moved`] does not see.
     #[inline(always)]
-    pub fn has_moved_reaches(&self, last: &Marker, square: f64) -> bool {
-        let [first, second] = self.polyhedra();
-        self.has_moved(last, square * first.lookup.square_reach(&second.lookup))
-    }
-
-    /// Whether it has moved so far that a look into the tables pays. A NaN has not.
-    #[inline(always)]
-    pub fn has_jumped(&self, last: &Marker) -> bool {
-        self.has_moved_reaches(last, 1.0)
-    }
-
-    /// As [`Frame::has_moved_reaches`], and a turn of body 2 about its own first axis is seen, too.
-    #[inline(always)]
-    fn has_moved_or_rolled(&self, last: &Marker, square: f64) -> bool {
-        let [first, second] = self.polyhedra();
+    pub fn has_rolled(&self, last: &Marker, square: f64) -> bool {
         let [_, axis] = self.axes();
         let rolled = axis.sub(L::load_single(&last.0[2]));
-        let reach = first.lookup.square_reach(&second.lookup);
-        self.has_moved(last, square * reach) | (rolled.dot(rolled) > square * reach)
-    }
-
-    /// How many rounds of look-ups from the vertices of the last features lead to about the nearest ones: the fewer the less the
-    /// pair has moved. (Of long bodies and plates that saves up to a fifth of a query's time after steps of 7° to 15°. Round ones
-    /// need but one round from the centres of mass, and for all these are the better beginning after longer motions.) Chosen by
-    /// time, of pairs of long bodies and of plates of 1,002 and 10,002 vertices on three orbits: one round is best up to about √5
-    /// times their reach, two up to four or five times.
-    #[inline(always)]
-    pub fn rounds_from_last(&self, last: &Marker) -> u32 {
-        if self.has_moved_or_rolled(last, 16.0) {
-            FROM_CENTRES
-        } else if self.has_moved_or_rolled(last, 5.0) {
-            2
-        } else {
-            1
-        }
+        rolled.dot(rolled) > square
     }
 
     /// The computed x − y for x = point `p` of body 1 and y = point `q` of body 2, both in centred local coordinates.

@@ -1,5 +1,6 @@
 //! Says which look-up table a body gets, and builds it.
 
+pub mod tuning;
 pub mod nearest_vertex;
 
 use nalgebra::SymmetricEigen;
@@ -53,10 +54,6 @@ impl Default for LookupOptions {
     }
 }
 
-/// Fewest corners of a body that is given a table on its own account; with twice as many vertices it is given one, too, as it would
-/// take long to look at all of them.
-pub const LEAST_VERTICES: usize = 32;
-
 /// The radii of the shells as multiples of the body's. Points of another body come nearer to the centre of mass than the
 /// bounding sphere only where this body is thin.
 const RADII: [f64; 8] = [0.3, 0.5, 0.8, 1.15, 1.5, 2.0, 3.0, 6.0];
@@ -100,20 +97,21 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     }
     // Neighbours are that far apart, but for a factor.
     let spacing = 1.0 / (vertex_count as f64).sqrt();
-    if kind == LookupKind::Automatic && vertex_count < LEAST_VERTICES && polyhedron.vertices.len() < 2 * LEAST_VERTICES
+    if kind == LookupKind::Automatic
+        && vertex_count < tuning::LEAST_VERTICES
+        && polyhedron.vertices.len() < 2 * tuning::LEAST_VERTICES
     {
         if polyhedron.faces.is_empty() {
             return Ok(Lookup::none());
         }
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
-        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, REACH_WITHOUT_TABLE * spacing));
+        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, tuning::REACH_OF_FEW * spacing));
     }
     let reach = match plan {
-        Plan::Shells { .. } if rounds(&Thickness::of(polyhedron), vertex_count) == 1 => REACH_OF_ROUND,
-        Plan::Shells { .. } => REACH_OF_THIN,
-        _ => REACH_OF_SPHERICAL,
+        Plan::Spherical { .. } => tuning::REACH_OF_SPHERICAL,
+        _ => tuning::REACH_OF_SHELLS,
     };
-    Ok(Lookup { plan, reach: reach * spacing, reach_beside_few: REACH_BESIDE_FEW * spacing, made: OnNeed::new() })
+    Ok(Lookup { plan, reach: reach * spacing, made: OnNeed::new() })
 }
 
 /// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
@@ -176,25 +174,6 @@ pub fn build_table(polyhedron: &Polyhedron) -> Result<Table> {
     })
 }
 
-/// Over √n, how far (as an angle) a pair of round bodies may have moved and turned before a query begins from the tables and no
-/// longer from the last features: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. Chosen by time, of
-/// pairs of like bodies of 1,002 and 10,002 vertices.
-const REACH_OF_ROUND: f64 = 3.1;
-
-/// The same for thin bodies: on the smallest of three orbits 3.1 would be better for long ones, on the largest 5 and more for both.
-const REACH_OF_THIN: f64 = 4.0;
-
-/// The same for the table of Ehmann & Lin (2000), looked up once, to a start that may be far from the nearest features.
-const REACH_OF_SPHERICAL: f64 = 5.7;
-
-/// The same for a pair of which one body has few vertices, of the other's number: only that one's features change fast. Chosen by
-/// time, of a box beside round, flat and long bodies: best were 14, 20 and 20 of 1,002 vertices, 25, 19 and 15 of 10,002.
-const REACH_BESIDE_FEW: f64 = 18.0;
-
-/// The same for two bodies of few vertices: those of 31 are better begun anew from somewhere between 45° and 90° on, boxes
-/// not on any orbit of the benchmark.
-const REACH_WITHOUT_TABLE: f64 = 8.0;
-
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {
     ((4 * vertex_count).isqrt().next_power_of_two()).clamp(16, 128)
@@ -242,21 +221,15 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
     Shells::new(resolution, radii, positions, &cells, inner, thickness.outward(), rounds)
 }
 
-/// How often to look up, see [`Shells::rounds`]. Round bodies once: what another body's centre of mass sees is what is nearest. A
-/// look-up takes half the time of a step of marching. The second and third save plates and needles of 1:10 four and seven steps of
-/// eight and eleven, round bodies none; the fourth saves plates half a step; the fifth is for 10,002 vertices, where plates need
-/// eight steps after three and six after five, and for thinner bodies.
+/// How often to look up, see [`Shells::rounds`].
 fn rounds(thickness: &Thickness, vertex_count: usize) -> u32 {
     match thickness.thin_directions() {
-        0 => 1,
-        _ if vertex_count > MANY_VERTICES || thickness.spreads.min() < NEEDLE => 5,
-        1 => 4,
-        _ => 3,
+        0 => tuning::ROUNDS_OF_ROUND,
+        _ if vertex_count > tuning::FINE || thickness.spreads.min() < tuning::NEEDLE => tuning::ROUNDS_OF_FINE,
+        1 => tuning::ROUNDS_OF_PLATES,
+        _ => tuning::ROUNDS_OF_LONG,
     }
 }
-
-/// Beyond so many vertices there are more rounds.
-const MANY_VERTICES: usize = 4_000;
 
 /// How the vertices spread around the centre of mass.
 struct Thickness {
@@ -289,12 +262,12 @@ impl Thickness {
     /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 18, 22 and 23 steps of 31, 56 and 61.
     /// Finding it takes thirty times as long (12 ms), of 10,002 vertices twenty times (55 ms), of 100,002 ten times (180 ms).
     fn is_needle(&self) -> bool {
-        self.spreads.iter().filter(|spread| **spread < NEEDLE).count() == 2
+        self.spreads.iter().filter(|spread| **spread < tuning::NEEDLE).count() == 2
     }
 
     /// In how many directions the body is thinner than round: in one like a plate, in two like a needle.
     fn thin_directions(&self) -> usize {
-        self.spreads.iter().filter(|spread| **spread < ROUND).count()
+        self.spreads.iter().filter(|spread| **spread < tuning::ROUND).count()
     }
 
     /// The inverse root of the covariance, which turns a vertex half-way from the direction away from the centre of mass to the
@@ -306,13 +279,6 @@ impl Thickness {
         [0, 1, 2].map(|row| [0, 1, 2].map(|column| matrix[(row, column)] as f32))
     }
 }
-
-/// Bodies with no spread of less than this are round. Of ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, of
-/// (1, 1, 0.6) it is worse by more than a step.
-const ROUND: f64 = 0.75;
-
-/// Bodies with two spreads of less than this are needles. Those of 1:10 gain a tenth of the steps, which does not pay.
-const NEEDLE: f64 = 1.0 / 30.0;
 
 /// Positions are not rounder than this in single precision.
 const LEAST_SPREAD: f64 = 1e-6;

@@ -5,11 +5,12 @@ use std::rc::Rc;
 
 use swiftprox::solve::certificate::{Certify, Gap, Minimum};
 use swiftprox::solve::frame::Frame;
-use swiftprox::solve::marching::{self, March};
+use swiftprox::solve::marching::{self, March, step_limit};
 use swiftprox::math::{Pose, ROTATION_LIMIT};
 use swiftprox::shape::Shape;
 use swiftprox::base::simd::{self, Kernel, Lanes};
-use swiftprox::pair::start;
+use swiftprox::pair::start::policy::StartFrom;
+use swiftprox::pair::start::start_pair;
 use swiftprox::solve::state::State;
 use swiftprox::solve::voronoi::Rule;
 
@@ -50,8 +51,8 @@ impl<const FIRST: bool> Method for Marching<FIRST> {
         let polyhedron = self.shape.polyhedron();
         let [pose1, pose2] = &self.poses[i];
         let poses = [pose1, pose2];
-        let start =
-            self.state.unwrap_or_else(|| State::vertex_vertex(start::anew([polyhedron; 2], poses, false).vertices()));
+        let afresh = || State::vertex_vertex(start_pair([polyhedron; 2], poses, StartFrom::Farthest).vertices());
+        let start = self.state.unwrap_or_else(afresh);
         let mut run = Run::<FIRST> { shape: &self.shape, poses, state: start, steps: 0, keep: Keep { gap: None } };
         simd::dispatch(&mut run);
         self.state = Some(run.state);
@@ -88,7 +89,7 @@ impl<const FIRST: bool> Kernel for Run<'_, FIRST> {
         let polyhedron = self.shape.polyhedron();
         let frame = Frame::<L>::new([polyhedron; 2], self.poses, ROTATION_LIMIT);
         assert!(frame.usual, "the poses are sound");
-        let limit = 64 + polyhedron.vertices.len() as u32;
+        let limit = step_limit([polyhedron; 2]);
         let (march, steps) = marching::march(&frame, self.state, limit, &mut self.keep);
         let (March::Minimum(at) | March::Limit(at) | March::Open(at)) = march;
         (self.state, self.steps) = (at, steps);

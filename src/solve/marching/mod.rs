@@ -13,6 +13,7 @@ mod states;
 mod walks;
 
 use crate::base::simd::Lanes;
+use crate::polyhedron::Polyhedron;
 use crate::solve::certificate::Certify;
 use crate::solve::frame::Frame;
 use crate::solve::state::{Kind, State};
@@ -86,6 +87,12 @@ pub fn visit<L: Lanes, J: Certify<L>>(frame: &Frame<L>, state: State, judge: &mu
         Kind::FaceVertex => vertex_face::<L, J, 1>(frame, second, first, judge),
         Kind::EdgeEdge => edge_edge(frame, [first, second], judge),
     }
+}
+
+/// More steps than any start needs; only cycles that the cycle detection misses meet it.
+#[inline(always)]
+pub fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
+    64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
 }
 
 /// Marches from `start`; a minimum goes to `judge`. Returns the number of states visited too.

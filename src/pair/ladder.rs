@@ -1,0 +1,94 @@
+//! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on what it learnt; the last
+//! one, integers, always answers.
+
+use super::decision::Hint;
+use super::levels::Searched;
+use super::query::{Attempt, PairQuery, Rungs};
+use super::start::policy::StartFrom;
+use super::start::{Guess, start_pair};
+use crate::base::error::Result;
+use crate::solve::decide::Pairs;
+
+/// From the first rung.
+#[inline(always)]
+pub(super) fn climb(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+    pair.check_config()?;
+    if rungs.spheres && pair.spheres_are_far_apart() {
+        return Ok(());
+    }
+    if pair.may_ask_levels() {
+        return climb_levels(pair, rungs);
+    }
+    climb_bodies(pair, rungs)
+}
+
+/// Levels of detail, where they may answer; else the bodies themselves.
+#[inline(never)]
+fn climb_levels(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+    if pair.last_levels_answer() {
+        return Ok(());
+    }
+    match pair.search_levels()? {
+        Searched::Answered => Ok(()),
+        Searched::Bodies => climb_bodies(pair, rungs),
+        Searched::Marched(search, attempt) => {
+            climb_on(pair, attempt, rungs)?;
+            search.remember(pair);
+            Ok(())
+        }
+    }
+}
+
+/// The bodies themselves.
+#[inline(always)]
+fn climb_bodies(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+    let mut attempt = Attempt::Untried;
+    if pair.is_simple() & pair.config.start.asks_cache() {
+        if rungs.last_axis && pair.last_axis_separates() {
+            return Ok(());
+        }
+        if rungs.marching {
+            attempt = pair.march_from_last_features();
+        }
+    }
+    match attempt {
+        Attempt::Answered => Ok(()),
+        attempt => climb_on(pair, attempt, rungs),
+    }
+}
+
+/// The rest, for what is not the common case.
+#[inline(never)]
+pub(super) fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<()> {
+    pair.forget()?;
+    let enclosure = pair.cache.enclosure(pair.polyhedra());
+    if rungs.marching && matches!(attempt, Attempt::Untried) && enclosure.is_none() {
+        attempt = pair.march(None);
+    }
+    let mut hint = match (attempt, enclosure) {
+        (Attempt::Untried, Some(pairs)) => Hint { pairs, steps: 0 },
+        (attempt, _) => match pair.look_closer(attempt, rungs) {
+            None => return Ok(()),
+            Some(hint) => hint,
+        },
+    };
+    let frame = pair.frame()?;
+    if let Some(frame) = &frame {
+        if rungs.last_enclosure && pair.is_enclosed(frame, &hint) {
+            return Ok(());
+        }
+        if rungs.marching && pair.may_have_come_apart(frame) {
+            let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
+            hint.pairs = Pairs::new(&[start.vertices()]);
+            if start.guess == Guess::Apart {
+                let attempt = pair.march(Some(start));
+                match pair.look_closer(attempt, rungs) {
+                    None => return Ok(()),
+                    Some(nearer) => hint = nearer,
+                }
+            }
+        }
+    }
+    pair.decide(frame.as_ref(), &hint, rungs.fallback);
+    Ok(())
+}

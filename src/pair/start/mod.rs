@@ -1,0 +1,139 @@
+//! Where marching starts: a policy says from what, look-ups or a climb lead to a vertex of each body.
+
+mod alternate;
+pub mod policy;
+
+use alternate::Alternate;
+use policy::StartFrom;
+
+use crate::base::math::{Pose, Vector};
+use crate::base::simd::{self, Kernel, Lanes};
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron::lookup::{Plan, Table};
+use crate::solve::voronoi::climb;
+use crate::tables::nearest_vertex::AllVertices;
+use crate::tables::{table, tables};
+
+/// Where to start.
+// Handed back in memory, written number by number: two of them side by side would be read as one, which stalls.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub struct StartPair {
+    /// A vertex of body 1.
+    pub first: u32,
+    /// Whether the bodies seem to intersect.
+    pub guess: Guess,
+    /// A vertex of body 2.
+    pub second: u32,
+}
+
+impl StartPair {
+    #[inline(always)]
+    fn new([first, second]: [u32; 2], guess: Guess) -> StartPair {
+        StartPair { first, guess, second }
+    }
+
+    /// A vertex of each body.
+    #[inline(always)]
+    pub fn vertices(&self) -> [u32; 2] {
+        [self.first, self.second]
+    }
+}
+
+/// What a look into the tables makes one expect.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[repr(u32)]
+pub enum Guess {
+    /// Each of the two vertices is on the side of its body that faces the other vertex, or they are farthest along a line along
+    /// which the bodies are apart: most such pairs are disjoint.
+    Apart,
+    /// Only one is, they are not apart along that line, or nobody looked.
+    Unclear,
+    /// Neither is: most such pairs intersect.
+    Overlapping,
+}
+
+/// Where to start: as `from` says, as far as both bodies have tables for it, or one of them has and the other needs none; or else at
+/// the vertices farthest along the line of the bodies' origins.
+#[inline(never)]
+pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFrom) -> StartPair {
+    let last = match from {
+        StartFrom::Farthest => return farthest(polyhedra, poses),
+        StartFrom::Centres => None,
+        StartFrom::LastVertices { vertices, rounds } => Some((vertices, rounds)),
+    };
+    let [body1, body2] = polyhedra;
+    // Returned from where it is found: put together elsewhere it would be copied, which stalls.
+    match [body1.lookup.plan, body2.lookup.plan] {
+        [Plan::Shells { .. }, Plan::Shells { .. }] => {
+            if let (Table::Shells(first), Table::Shells(second)) = (table(body1), table(body2)) {
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+            }
+        }
+        [Plan::AllVertices { rounds }, Plan::Shells { .. }] => {
+            if let Table::Shells(second) = table(body2) {
+                let first = &AllVertices { polyhedron: body1, rounds };
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+            }
+        }
+        [Plan::Shells { .. }, Plan::AllVertices { rounds }] => {
+            if let Table::Shells(first) = table(body1) {
+                let second = &AllVertices { polyhedron: body2, rounds };
+                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+            }
+        }
+        [Plan::Spherical { .. }, Plan::Spherical { .. }] => {
+            if let (Table::Spherical(first), Table::Spherical(second)) = (table(body1), table(body2)) {
+                let between = centre_of_mass(body2, poses[1]) - centre_of_mass(body1, poses[0]);
+                let vertices =
+                    [first.towards(&poses[0].rotate_back(&between)), second.towards(&poses[1].rotate_back(&-between))];
+                return StartPair::new(vertices, Guess::Unclear);
+            }
+        }
+        _ => {}
+    }
+    farthest(polyhedra, poses)
+}
+
+/// Whether spheres inside two bodies overlap, as far as their tables know any; beside a body that needs no table they may.
+pub fn may_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else {
+        return polyhedra.iter().any(|polyhedron| matches!(polyhedron.lookup.plan, Plan::AllVertices { .. }));
+    };
+    let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
+    let reach = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
+    between.norm_squared() < reach * reach
+}
+
+/// The support vertices along the line of the bodies' origins, and whether the bodies are apart along it.
+#[inline(never)]
+fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> StartPair {
+    let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
+    let between = origin(1) - origin(0);
+    let towards = [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)];
+    let vertices = [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] }));
+    let reach = |i: usize| polyhedra[i].vertices[vertices[i] as usize].position.dot(&towards[i]);
+    let are_apart = reach(0) + reach(1) < between.norm_squared();
+    StartPair::new(vertices, if are_apart { Guess::Apart } else { Guess::Unclear })
+}
+
+/// A hill climb for a support vertex.
+struct Climb<'a> {
+    polyhedron: &'a Polyhedron,
+    direction: Vector,
+}
+
+impl Kernel for Climb<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> u32 {
+        climb(self.polyhedron, L::from_vector(&self.direction), 0)
+    }
+}
+
+/// In the world, in plain rounding.
+#[inline(always)]
+fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
+    pose.transform(&polyhedron.mass.centre_of_mass)
+}

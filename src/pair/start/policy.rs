@@ -1,0 +1,62 @@
+//! The policy of starts: what has moved since the last query, by how much, and which tables there are say where a search starts. The
+//! numbers are in [`tuning`](crate::tables::tuning).
+
+use super::may_cores_overlap;
+use crate::base::math::Pose;
+use crate::base::simd::Lanes;
+use crate::solve::frame::{Frame, Marker};
+use crate::solve::state::State;
+use crate::tables::tuning::{FAR, ONE_ROUND, TWO_ROUNDS};
+
+/// From what a search starts, if not from the features of the last query.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum StartFrom {
+    /// The vertices where the last query ended, and so many rounds of look-ups from them.
+    LastVertices {
+        /// One of each body.
+        vertices: [u32; 2],
+        /// See [`Shells::rounds`](crate::polyhedron::lookup::Shells::rounds).
+        rounds: u32,
+    },
+    /// The centres of mass, and as many rounds of look-ups as the bodies want.
+    Centres,
+    /// The vertices farthest along the line of the bodies' origins; no table is asked.
+    Farthest,
+}
+
+/// Where a search starts whose last query ended at `last`: there (`None`) while the pair has moved little, else from the tables.
+#[inline(always)]
+pub fn choose<L: Lanes>(frame: &Frame<L>, marker: &Marker, last: State) -> Option<StartFrom> {
+    if !has_jumped(frame, marker) {
+        return None;
+    }
+    let reach = square_reach(frame);
+    let is_within = |squares: f64| {
+        let square = squares * reach;
+        !(frame.has_moved(marker, square) | frame.has_rolled(marker, square))
+    };
+    Some(if !is_within(TWO_ROUNDS) {
+        StartFrom::Centres
+    } else {
+        let rounds = if is_within(ONE_ROUND) { 1 } else { 2 };
+        StartFrom::LastVertices { vertices: last.vertices(frame.polyhedra()), rounds }
+    })
+}
+
+/// Whether a pair has moved so far that a look into the tables pays. A NaN has not.
+#[inline(always)]
+pub fn has_jumped<L: Lanes>(frame: &Frame<L>, marker: &Marker) -> bool {
+    frame.has_moved(marker, square_reach(frame))
+}
+
+/// Whether a pair that intersected when it had this marker has jumped, and may be apart: it is for marching, from the tables. Where
+/// spheres inside the bodies may overlap, and the jump is not far, the last enclosure is the better hint.
+pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [&Pose; 2]) -> bool {
+    frame.has_moved(marker, FAR) || (has_jumped(frame, marker) && !may_cores_overlap(frame.polyhedra(), poses))
+}
+
+#[inline(always)]
+fn square_reach<L: Lanes>(frame: &Frame<L>) -> f64 {
+    let [first, second] = frame.polyhedra();
+    first.lookup.square_reach(&second.lookup)
+}

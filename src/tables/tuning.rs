@@ -1,0 +1,58 @@
+//! The numbers that say where a search starts. They change how fast an answer comes, never the answer. Each is chosen by time, on
+//! pairs of like bodies of 1,002 and 10,002 vertices on three orbits.
+//!
+//! A *reach* is an angle times √n: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. A pair that has moved
+//! and turned by more than that (taken together, as body 1 sees body 2) starts from the tables; else at its last features.
+//!
+//! | rule | what it buys |
+//! |---|---|
+//! | reach of shells | a start from tables costs two steps of marching; later starts take more steps, earlier ones more look-ups |
+//! | reach of the spherical table | it is looked up once, to a start that may be far from the nearest features |
+//! | reach of few vertices | bodies of 31 vertices begin anew between 45° and 90°, boxes never |
+//! | one or two rounds from the last vertices | up to a fifth of a query of long bodies and plates after steps of 7° to 15° |
+//! | a jump beyond the last enclosure | deep round bodies at 5° to 45° save 15 to 5 of 100 instructions by staying with it |
+//! | rounds of look-ups | plates and needles of 1:10 save four and seven steps of eight and eleven; round bodies none |
+
+/// How far a pair of bodies with shells may have moved before it starts from them.
+pub const REACH_OF_SHELLS: f64 = 3.5;
+
+/// The same with the table of Ehmann & Lin (2000).
+pub const REACH_OF_SPHERICAL: f64 = 5.7;
+
+/// The same of bodies of few vertices, which need no table.
+pub const REACH_OF_FEW: f64 = 8.0;
+
+/// Up to the root of this times the reach one round of look-ups from the last vertices is enough.
+pub const ONE_ROUND: f64 = 5.0;
+
+/// Up to the root of this times the reach two rounds are; beyond that the centres of mass are the better beginning.
+pub const TWO_ROUNDS: f64 = 16.0;
+
+/// The square of an angle of about 72°: after a longer jump the last enclosure is no hint.
+pub const FAR: f64 = 1.6;
+
+/// Fewest corners of a body that is given a table on its own account; with twice as many vertices it is given one, too, as it would
+/// take long to look at all of them.
+pub const LEAST_VERTICES: usize = 32;
+
+/// Bodies with no spread of less than this are round. Of ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, of
+/// (1, 1, 0.6) it is worse by more than a step.
+pub const ROUND: f64 = 0.75;
+
+/// Bodies with two spreads of less than this are needles. Those of 1:10 gain a tenth of the steps, which does not pay.
+pub const NEEDLE: f64 = 1.0 / 30.0;
+
+/// Beyond so many vertices thin bodies are looked up in [`ROUNDS_OF_FINE`] rounds.
+pub const FINE: usize = 4_000;
+
+/// Rounds of look-ups on round bodies: what another body's centre of mass sees is what is nearest.
+pub const ROUNDS_OF_ROUND: u32 = 1;
+
+/// On bodies thin in two directions.
+pub const ROUNDS_OF_LONG: u32 = 3;
+
+/// On bodies thin in one direction; the fourth saves half a step.
+pub const ROUNDS_OF_PLATES: u32 = 4;
+
+/// On thin bodies of many vertices, where plates need eight steps after three rounds and six after five, and on needles.
+pub const ROUNDS_OF_FINE: u32 = 5;
