@@ -11,7 +11,6 @@ use std::sync::atomic::{AtomicPtr, Ordering};
 use std::sync::{Mutex, PoisonError};
 
 use super::{Failure, StatusCode, guard, must_return};
-use crate::base::simd::environment::with_callers;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
 /// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
@@ -98,7 +97,7 @@ unsafe impl GlobalAlloc for Replaceable {
         let block = match unsafe { source.as_ref() } {
             Some(Source { functions: f, .. }) => {
                 // SAFETY: the functions take any size and alignment.
-                must_return(|| with_callers(|| unsafe { (f.allocate)(f.user, whole.size(), whole.align()) })).cast()
+                must_return(|| unsafe { (f.allocate)(f.user, whole.size(), whole.align()) }).cast()
             }
             // SAFETY: the layout is not empty.
             None => unsafe { System.alloc(whole) },
@@ -129,7 +128,7 @@ unsafe impl GlobalAlloc for Replaceable {
         unsafe {
             match block.add(at).cast::<*mut Source>().read().as_ref() {
                 Some(Source { functions: f, .. }) => {
-                    must_return(|| with_callers(|| (f.deallocate)(f.user, block.cast(), whole.size(), whole.align())));
+                    must_return(|| (f.deallocate)(f.user, block.cast(), whole.size(), whole.align()));
                 }
                 None => System.dealloc(block, whole),
             }

@@ -29,9 +29,9 @@ use std::sync::Once;
 
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
-use crate::base::simd::environment::with_default;
 use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
 use crate::shape::InputPolicy;
+use crate::base::simd::environment::{with_callers, with_default};
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -171,7 +171,8 @@ thread_local! {
     static INSIDE: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Calls what must not unwind, and ends the program if it does: an exception of C++ would go through frames that expect none.
+/// Calls what must not unwind, in the program's floating-point environment, and ends the program if it does: an exception of C++
+/// would go through frames that expect none.
 #[inline(always)]
 fn must_return<T>(callback: impl FnOnce() -> T) -> T {
     struct Abort;
@@ -181,7 +182,7 @@ fn must_return<T>(callback: impl FnOnce() -> T) -> T {
         }
     }
     let abort = Abort;
-    let result = callback();
+    let result = with_callers(callback);
     std::mem::forget(abort);
     result
 }
