@@ -28,7 +28,7 @@
 use crate::error::{Error, Result};
 use crate::locality::{along_curve, is_identity, sort_triangles};
 use crate::math::Vector;
-use crate::memory::{collected, extend, filled, push, with_capacity};
+use crate::memory::{collected, extend, filled, push, reserve, with_capacity};
 use crate::mesh::check_vertex;
 use crate::predicates::{ExactPoints, FilteredPlane};
 use crate::progress::Progress;
@@ -310,10 +310,11 @@ impl<'a> Quickhull<'a> {
             new_facet_from: filled(NONE, points.len())?,
         };
         // d is above (a, b, c). Facet i lacks corner i of [a, b, c, d].
-        hull.add_facet([b, c, d], [3, 1, 2])?;
-        hull.add_facet([c, a, d], [3, 2, 0])?;
-        hull.add_facet([a, b, d], [3, 0, 1])?;
-        hull.add_facet([a, c, b], [1, 0, 2])?;
+        reserve(&mut hull.facets, 4)?;
+        hull.add_facet([b, c, d], [3, 1, 2]);
+        hull.add_facet([c, a, d], [3, 2, 0]);
+        hull.add_facet([a, b, d], [3, 0, 1]);
+        hull.add_facet([a, c, b], [1, 0, 2]);
         let mut outside: Vec<u32> = collected(0..points.len() as u32)?;
         let mut new = vec![0, 1, 2, 3];
         hull.distribute(&outside, &new)?;
@@ -377,7 +378,8 @@ impl<'a> Quickhull<'a> {
         &self.facets[f as usize]
     }
 
-    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> Result<u32> {
+    /// There is room for it.
+    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
         let facet = Facet {
             corners,
             neighbours,
@@ -390,10 +392,10 @@ impl<'a> Quickhull<'a> {
         };
         if let Some(f) = self.free.pop() {
             self.facets[f as usize] = facet;
-            Ok(f)
+            f
         } else {
-            push(&mut self.facets, facet)?;
-            Ok(self.facets.len() as u32 - 1)
+            self.facets.push(facet);
+            self.facets.len() as u32 - 1
         }
     }
 
@@ -478,8 +480,10 @@ impl<'a> Quickhull<'a> {
     /// Joins `apex` to every edge of the horizon; lists the new facets in `new`.
     fn add_cone(&mut self, apex: u32, horizon: &[HorizonEdge], new: &mut Vec<u32>) -> Result<()> {
         new.clear();
+        reserve(new, horizon.len())?;
+        reserve(&mut self.facets, horizon.len())?;
         for &HorizonEdge { tail, head, outer } in horizon {
-            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE])?;
+            let f = self.add_facet([tail, head, apex], [outer, NONE, NONE]);
             let outer = &mut self.facets[outer as usize];
             for side in 0..3 {
                 if outer.corners[side] == head {
@@ -487,7 +491,7 @@ impl<'a> Quickhull<'a> {
                 }
             }
             self.new_facet_from[tail as usize] = f;
-            push(new, f)?;
+            new.push(f);
         }
         // The horizon is a simple cycle, so one new facet begins at each of its vertices.
         for &f in new.iter() {
