@@ -34,7 +34,7 @@
 use crate::base::error::{Error, Result};
 use crate::base::locality::{along_curve, in_order, is_identity, sort_triangles};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, extend, filled, push, with_capacity};
+use crate::base::memory::{collected, extend, filled, push, reserve, with_capacity};
 use crate::base::predicates::{ExactPoints, FilteredPlane};
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
@@ -373,10 +373,11 @@ impl<'a> Quickhull<'a> {
             vertex_count: 4,
         };
         // d is above (a, b, c). Facet i lacks corner i of [a, b, c, d].
-        hull.add_facet([b, c, d], [3, 1, 2])?;
-        hull.add_facet([c, a, d], [3, 2, 0])?;
-        hull.add_facet([a, b, d], [3, 0, 1])?;
-        hull.add_facet([a, c, b], [1, 0, 2])?;
+        reserve(&mut hull.facets, 4)?;
+        hull.add_facet([b, c, d], [3, 1, 2]);
+        hull.add_facet([c, a, d], [3, 2, 0]);
+        hull.add_facet([a, b, d], [3, 0, 1]);
+        hull.add_facet([a, c, b], [1, 0, 2]);
         let mut outside: Vec<u32> = collected(0..points.len() as u32)?;
         let mut new = vec![0, 1, 2, 3];
         hull.distribute(&outside, &new, progress)?;
@@ -441,7 +442,8 @@ impl<'a> Quickhull<'a> {
         &self.facets[f as usize]
     }
 
-    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> Result<u32> {
+    /// There is room for it.
+    fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
         let facet = Facet {
             corners,
             neighbours,
@@ -454,10 +456,10 @@ impl<'a> Quickhull<'a> {
         };
         if let Some(f) = self.free.pop() {
             self.facets[f as usize] = facet;
-            Ok(f)
+            f
         } else {
-            push(&mut self.facets, facet)?;
-            Ok(self.facets.len() as u32 - 1)
+            self.facets.push(facet);
+            self.facets.len() as u32 - 1
         }
     }
 
@@ -625,6 +627,8 @@ impl<'a> Quickhull<'a> {
         progress: &mut Progress,
     ) -> Result<()> {
         new.clear();
+        reserve(new, horizon.len())?;
+        reserve(&mut self.facets, horizon.len())?;
         for &HorizonEdge { tail, head, outer } in horizon {
             self.count(1, progress)?;
             let f = self.add_facet([tail, head, apex], [outer, NONE, NONE])?;
@@ -635,7 +639,7 @@ impl<'a> Quickhull<'a> {
                 }
             }
             self.new_facet_from[tail as usize] = f;
-            push(new, f)?;
+            new.push(f);
         }
         // The horizon is a simple cycle, so one new facet begins at each of its vertices.
         for &f in new.iter() {

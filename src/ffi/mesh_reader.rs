@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
-use super::shape::{Faces, check_count, read_faces, read_vectors};
+use super::arrays::{Faces, check_count, read_faces, read_vectors};
 use super::{Checked, Failure, StatusCode, call_out, exclusive, guard, string};
 use crate::base::error::{Error, Result};
 use crate::base::memory::{extend, reserve, with_capacity};
