@@ -1,6 +1,7 @@
 //! Levels of detail: those that a caller gives, and what the levels of a shape are.
 
-use super::shape::{copy_triangles, copy_vertices, create, read_arrays};
+use super::arrays::{copy_triangles, copy_vertices, read_arrays};
+use super::shape::create;
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
 use crate::base::memory::with_capacity;

@@ -11,6 +11,7 @@
 // In the order of the header.
 pub mod library;
 pub mod allocator;
+mod arrays;
 pub mod mesh_reader;
 pub mod shape_options;
 pub mod shape;
@@ -29,9 +30,9 @@ use std::sync::Once;
 
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
+use crate::base::simd::environment::{with_callers, with_default};
 use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
 use crate::shape::InputPolicy;
-use crate::base::simd::environment::{with_callers, with_default};
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

@@ -3,8 +3,8 @@
 use std::ffi::c_char;
 use std::sync::Arc;
 
+use super::arrays::{read_arrays, read_path};
 use super::scene::{SceneHandle, change, look};
-use super::shape::{read_arrays, read_path};
 use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, output, read_struct, write_struct};
 use crate::base::math::{Matrix, Pose, Vector};
