@@ -51,7 +51,7 @@ demo: build
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
 test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
 	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz lint
 
