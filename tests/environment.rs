@@ -253,7 +253,7 @@ fn the_programs_functions_find_the_programs_environment() {
             let options = ShapeOptions::default();
             let made =
                 inside(environment, || Shape::from_points_in_steps(&corners, &options, &mut Progress::new(&mut learn)));
-            assert!(made.unwrap() == unit && calls > 3, "{environment:?}");
+            assert!(made.unwrap() == unit && calls > 0, "{environment:?}");
         }
     }
 }

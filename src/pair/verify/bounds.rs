@@ -3,7 +3,7 @@
 
 use super::length;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, power_of_two};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, power_of_two};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 use crate::solve::exact::VertexPair;
 
@@ -123,7 +123,7 @@ impl PointInside {
     pub fn on_segment(polyhedron: &Polyhedron, [tail, head]: [u32; 2], point: &Vector) -> PointInside {
         let [from, to] = [tail, head].map(|v| polyhedron.vertices[v as usize].position);
         let along = to - from;
-        let weight = clamp((point - from).dot(&along) / along.norm_squared(), 0.0, 1.0);
+        let weight = clamp((point - from).dot(&along) / divisor(along.norm_squared()), 0.0, 1.0);
         PointInside { vertices: [tail, head, tail], weights: [weight, 0.0] }
     }
 
@@ -132,13 +132,13 @@ impl PointInside {
         let [a, b, c] = corners.map(|v| polyhedron.vertices[v as usize].position);
         let (u, v, r) = (b - a, c - a, point - a);
         let (uu, uv, vv, ur, vr) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&r), v.dot(&r));
-        let determinant = uu * vv - uv * uv;
+        let determinant = divisor(uu * vv - uv * uv);
         let weight = |numerator: f64| clamp(numerator / determinant, 0.0, 1.0);
         let weights = [weight(vv * ur - uv * vr), weight(uu * vr - uv * ur)];
         let sum = weights[0] + weights[1];
-        // So much less than 1 that the exact sum is no more.
+        // So much less than 1 that the exact sum is no more: sum, quotient and products are off by u each. 1 where the sum is less.
         let most = 1.0 - 4.0 * U;
-        let scale = if sum > most { most / sum * most } else { 1.0 };
+        let scale = most / if sum > most { sum } else { most };
         PointInside { vertices: corners, weights: weights.map(|weight| weight * scale) }
     }
 
