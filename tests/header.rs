@@ -8,7 +8,7 @@ use std::process::Command;
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
 const SOURCES: [&str; 10] = [
-    "src/tables/mod.rs",
+    "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
     "src/pair/descent.rs",
