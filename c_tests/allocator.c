@@ -52,10 +52,10 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
 }
 
 /* A shape of 200 vertices on a ball. */
-static swift_shape *make_ball(void)
+static swiftprox_shape *make_ball(void)
 {
     double points[600];
-    swift_shape *shape = NULL;
+    swiftprox_shape *shape = NULL;
     int i;
     for (i = 0; i < 200; ++i) {
         const double z = (2 * i + 1) / 200.0 - 1.0, r = sqrt(1.0 - z * z);
@@ -63,20 +63,20 @@ static swift_shape *make_ball(void)
         points[3 * i + 1] = r * sin(2.4 * i);
         points[3 * i + 2] = z;
     }
-    CHECK_OK(swift_shape_create_from_points(points, 200, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_points(points, 200, NULL, &shape));
     return shape;
 }
 
 /* The distance of two such balls, the centres so far apart. */
-static double distance_of(const swift_shape *shape, double apart)
+static double distance_of(const swiftprox_shape *shape, double apart)
 {
     const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const double there[12] = {1, 0, 0, apart, 0, 1, 0, 0, 0, 0, 1, 0};
-    swift_pair_cache cache;
-    swift_pair_answer answer;
+    swiftprox_pair_cache cache;
+    swiftprox_pair_answer answer;
     memset(&cache, 0, sizeof cache);
-    CHECK_OK(swift_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
-    CHECK(answer.outcome == SWIFT_OUTCOME_SEPARATED && answer.lower <= apart - 1.9 && answer.upper >= apart - 2.0);
+    CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+    CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.lower <= apart - 1.9 && answer.upper >= apart - 2.0);
     return answer.distance;
 }
 
@@ -84,32 +84,32 @@ static double distance_of(const swift_shape *shape, double apart)
 static void test_everything_comes_from_the_program(void)
 {
     static account own; /* good until the process ends, as is demanded */
-    swift_shape_info info;
-    swift_shape *shape;
-    const swift_shape *piece;
-    swift_scene *scene = NULL;
-    swift_object_id id;
+    swiftprox_shape_info info;
+    swiftprox_shape *shape;
+    const swiftprox_shape *piece;
+    swiftprox_scene *scene = NULL;
+    swiftprox_object_id id;
     long before;
-    CHECK_OK(swift_library_set_allocator(take, give_back, &own));
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, &own));
     shape = make_ball();
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
-    CHECK_OK(swift_shape_get_info(shape, &info));
+    CHECK_OK(swiftprox_shape_get_info(shape, &info));
     CHECK(own.blocks > 5 && (uint64_t)own.bytes >= info.bytes);
     distance_of(shape, 3.0);
     before = own.taken;
     distance_of(shape, 3.0);
     CHECK(own.taken == before); /* queries take nothing after the first */
-    CHECK_OK(swift_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
     piece = shape;
-    CHECK_OK(swift_scene_add_object(scene, &piece, 1, NULL, &id));
+    CHECK_OK(swiftprox_scene_add_object(scene, &piece, 1, NULL, &id));
     CHECK(own.taken > before);
-    CHECK_OK(swift_library_set_allocator(NULL, NULL, NULL));
+    CHECK_OK(swiftprox_library_set_allocator(NULL, NULL, NULL));
     before = own.taken;
-    swift_shape_release(make_ball());
+    swiftprox_shape_release(make_ball());
     CHECK(own.taken == before); /* from the system again */
-    CHECK_OK(swift_scene_destroy(scene));
-    swift_shape_release(shape);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    swiftprox_shape_release(shape);
     /* What a thread and the process keep until they end: the last message, the hook for panics. */
     CHECK(own.blocks <= 4 && own.bytes < 1024);
 }
@@ -118,34 +118,34 @@ static void test_everything_comes_from_the_program(void)
 static void test_blocks_go_back_where_they_came_from(void)
 {
     static account first, second;
-    swift_shape *shapes[3];
+    swiftprox_shape *shapes[3];
     double distances[3];
     int i;
-    CHECK_OK(swift_library_set_allocator(take, give_back, &first));
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, &first));
     shapes[0] = make_ball();
-    CHECK_OK(swift_library_set_allocator(NULL, NULL, &first));
+    CHECK_OK(swiftprox_library_set_allocator(NULL, NULL, &first));
     shapes[1] = make_ball();
-    CHECK_OK(swift_library_set_allocator(take, give_back, &second));
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, &second));
     shapes[2] = make_ball();
     for (i = 0; i < 3; ++i) {
         distances[i] = distance_of(shapes[i], 2.5);
         CHECK(distances[i] == distances[0]);
     }
     CHECK(first.blocks > 5 && second.blocks > 5);
-    CHECK_OK(swift_library_set_allocator(take, give_back, &first));
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, &first));
     for (i = 2; i >= 0; --i) {
-        swift_shape_release(shapes[i]);
+        swiftprox_shape_release(shapes[i]);
     }
     CHECK(first.blocks == 0 && first.bytes == 0 && second.blocks == 0 && second.bytes == 0);
-    CHECK_OK(swift_library_set_allocator(NULL, NULL, NULL));
+    CHECK_OK(swiftprox_library_set_allocator(NULL, NULL, NULL));
 }
 
 static void test_half_a_pair_of_functions_is_refused(void)
 {
     static account own;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "`deallocate`", swift_library_set_allocator(take, NULL, &own));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "`allocate`", swift_library_set_allocator(NULL, give_back, &own));
-    swift_shape_release(make_ball());
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "`deallocate`", swiftprox_library_set_allocator(take, NULL, &own));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "`allocate`", swiftprox_library_set_allocator(NULL, give_back, &own));
+    swiftprox_shape_release(make_ball());
     CHECK(own.taken == 0);
 }
 

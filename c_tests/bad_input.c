@@ -17,15 +17,15 @@ static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 static const double HERE[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static const double THERE[12] = {1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0};
 
-static swift_status mesh(const double *vertices, size_t vertex_count, const uint32_t *indices, const uint32_t *valences,
-                         size_t face_count, const swift_shape_options *options)
+static swiftprox_status mesh(const double *vertices, size_t vertex_count, const uint32_t *indices, const uint32_t *valences,
+                         size_t face_count, const swiftprox_shape_options *options)
 {
     /* Not null before: a failure must make it so. */
-    swift_shape *shape = (swift_shape *)(void *)vertices;
-    const swift_status status =
-        swift_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
-    CHECK((status == SWIFT_OK) == (shape != NULL));
-    swift_shape_release(shape);
+    swiftprox_shape *shape = (swiftprox_shape *)(void *)vertices;
+    const swiftprox_status status =
+        swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
+    CHECK((status == SWIFTPROX_OK) == (shape != NULL));
+    swiftprox_shape_release(shape);
     return status;
 }
 
@@ -37,78 +37,78 @@ static void meshes(void)
     static const uint32_t vast[4] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
     static const uint32_t uneven[4] = {3, 3, 6, 0};
     static const double bad[] = {NAN, INFINITY, -INFINITY};
-    swift_shape *shape = NULL;
+    swiftprox_shape *shape = NULL;
     size_t i;
 
     CHECK_OK(mesh(CORNERS, 4, FACES, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "vertices", swift_shape_create_from_mesh(NULL, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "indices", swift_shape_create_from_mesh(CORNERS, 4, NULL, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "shape", swift_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, NULL));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "vertex_count", mesh(CORNERS, SIZE_MAX, FACES, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "face_count", mesh(CORNERS, 4, FACES, NULL, (size_t)-4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, NULL, UINT32_MAX, NULL));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, vast, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "face 2", mesh(CORNERS, 4, FACES, uneven, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "face 3", mesh(CORNERS, 4, out_of_range, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "face 0", mesh(CORNERS, 4, repeated, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "edge", mesh(CORNERS, 4, turned_over, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "edge", mesh(CORNERS, 4, FACES, NULL, 3, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "no faces", mesh(CORNERS, 4, FACES, NULL, 0, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "0 vertices", mesh(CORNERS, 0, FACES, NULL, 4, NULL));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "no vertices", mesh(CORNERS, 0, FACES, NULL, 0, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_shape_create_from_mesh(NULL, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "indices", swiftprox_shape_create_from_mesh(CORNERS, 4, NULL, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "vertex_count", mesh(CORNERS, SIZE_MAX, FACES, NULL, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "face_count", mesh(CORNERS, 4, FACES, NULL, (size_t)-4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, NULL, UINT32_MAX, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, vast, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 2", mesh(CORNERS, 4, FACES, uneven, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 3", mesh(CORNERS, 4, out_of_range, NULL, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 0", mesh(CORNERS, 4, repeated, NULL, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", mesh(CORNERS, 4, turned_over, NULL, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", mesh(CORNERS, 4, FACES, NULL, 3, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "no faces", mesh(CORNERS, 4, FACES, NULL, 0, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "0 vertices", mesh(CORNERS, 0, FACES, NULL, 4, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "no vertices", mesh(CORNERS, 0, FACES, NULL, 0, NULL));
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         double corners[12];
         memcpy(corners, CORNERS, sizeof corners);
         corners[7] = bad[i];
-        CHECK_FAILS(SWIFT_ERROR_MESH, "vertex 2", mesh(corners, 4, FACES, NULL, 4, NULL));
-        CHECK_FAILS(SWIFT_ERROR_MESH, "vertex 2: y is not finite", swift_shape_create_from_points(corners, 4, NULL, &shape));
+        CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2", mesh(corners, 4, FACES, NULL, 4, NULL));
+        CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2: y is not finite", swiftprox_shape_create_from_points(corners, 4, NULL, &shape));
         CHECK(shape == NULL);
     }
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "points", swift_shape_create_from_points(NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "points", swift_shape_create_from_points(CORNERS, SIZE_MAX / 8, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "at least one point", swift_shape_create_from_points(CORNERS, 0, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points", swiftprox_shape_create_from_points(NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", swiftprox_shape_create_from_points(CORNERS, SIZE_MAX / 8, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "at least one point", swiftprox_shape_create_from_points(CORNERS, 0, NULL, &shape));
     CHECK(shape == NULL);
-    CHECK_FAILS(SWIFT_ERROR_MESH, "interior", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_FLAT", swift_shape_create_from_points(CORNERS, 3, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "SWIFT_INPUT_HULL", swift_shape_create_from_points(CORNERS, 2, NULL, &shape));
-    CHECK_OK(swift_shape_release(NULL));
-    CHECK(swift_shape_prepare(NULL, NULL, NULL) == SWIFT_ERROR_NULL_POINTER);
-    CHECK_OK(swift_shape_retain(NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "interior", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "SWIFTPROX_INPUT_FLAT", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "SWIFTPROX_INPUT_HULL", swiftprox_shape_create_from_points(CORNERS, 2, NULL, &shape));
+    CHECK_OK(swiftprox_shape_release(NULL));
+    CHECK(swiftprox_shape_prepare(NULL, NULL, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK_OK(swiftprox_shape_retain(NULL));
 }
 
 static void shape_options(void)
 {
-    swift_shape_options options;
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "options", swift_shape_options_init(NULL));
+    swiftprox_shape_options options;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "options", swiftprox_shape_options_init(NULL));
     memset(&options, 0, sizeof options);
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     memset(&options, 0xff, sizeof options);
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 
-    CHECK_OK(swift_shape_options_init(&options));
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.input = INT32_MIN;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swift_shape_options_init(&options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.scale = 0;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options.scale = NAN;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options.scale = 1e308;
     options.translation[1] = 1.7e308;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "range", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swift_shape_options_init(&options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "range", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.rotation[4] = 0;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "transform", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swift_shape_options_init(&options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "transform", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.convexity_tolerance = NAN;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
 
 /* A file with the given content is refused with a status, and the message names it. */
-static void refused_file(const char *folder, const char *name, const char *content, size_t size, swift_status expected)
+static void refused_file(const char *folder, const char *name, const char *content, size_t size, swiftprox_status expected)
 {
     char path[1024];
-    swift_shape *shape = NULL;
+    swiftprox_shape *shape = NULL;
     FILE *file;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     file = fopen(path, "wb");
@@ -117,7 +117,7 @@ static void refused_file(const char *folder, const char *name, const char *conte
     }
     CHECK(fwrite(content, 1, size, file) == size);
     fclose(file);
-    CHECK_FAILS(expected, name, swift_shape_create_from_file(path, NULL, &shape));
+    CHECK_FAILS(expected, name, swiftprox_shape_create_from_file(path, NULL, &shape));
     CHECK(shape == NULL);
     remove(path);
 }
@@ -129,32 +129,32 @@ static void files(const char *folder)
     static const char open_off[] = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n";
     static const char nan_off[] = "OFF\n4 4 6\n0 0 nan\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     char garbage[4096], stl[134];
-    swift_shape *shape = NULL;
+    swiftprox_shape *shape = NULL;
     uint32_t state = 1, count = UINT32_MAX;
     size_t i, length;
 
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "path", swift_shape_create_from_file(NULL, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_FILE, "no-such-file.off", swift_shape_create_from_file("no-such-file.off", NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_FILE, folder, swift_shape_create_from_file(folder, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "path", swiftprox_shape_create_from_file(NULL, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file.off", swiftprox_shape_create_from_file("no-such-file.off", NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_FILE, folder, swiftprox_shape_create_from_file(folder, NULL, &shape));
     for (i = 0; i < sizeof garbage; ++i) {
         state = state * 1664525u + 1013904223u;
         garbage[i] = (char)(state >> 24);
     }
     for (i = 0; i < sizeof names / sizeof names[0]; ++i) {
-        refused_file(folder, names[i], "", 0, SWIFT_ERROR_FILE);
-        refused_file(folder, names[i], garbage, sizeof garbage, SWIFT_ERROR_FILE);
-        refused_file(folder, names[i], "999999999999999999999 4 6\n", 26, SWIFT_ERROR_FILE);
+        refused_file(folder, names[i], "", 0, SWIFTPROX_ERROR_FILE);
+        refused_file(folder, names[i], garbage, sizeof garbage, SWIFTPROX_ERROR_FILE);
+        refused_file(folder, names[i], "999999999999999999999 4 6\n", 26, SWIFTPROX_ERROR_FILE);
     }
-    refused_file(folder, "open.off", open_off, sizeof open_off - 1, SWIFT_ERROR_MESH);
-    refused_file(folder, "nan.off", nan_off, sizeof nan_off - 1, SWIFT_ERROR_FILE);
+    refused_file(folder, "open.off", open_off, sizeof open_off - 1, SWIFTPROX_ERROR_MESH);
+    refused_file(folder, "nan.off", nan_off, sizeof nan_off - 1, SWIFTPROX_ERROR_FILE);
     /* Cut behind every byte of it but those of the last line, whose face could be a shorter number. */
     for (length = 0; length < sizeof off - 8; ++length) {
-        refused_file(folder, "cut.off", off, length, SWIFT_ERROR_FILE);
+        refused_file(folder, "cut.off", off, length, SWIFTPROX_ERROR_FILE);
     }
     /* A binary STL that promises 2^32 - 1 triangles and has one. */
     memset(stl, 0, sizeof stl);
     memcpy(stl + 80, &count, 4);
-    refused_file(folder, "promise.stl", stl, sizeof stl, SWIFT_ERROR_FILE);
+    refused_file(folder, "promise.stl", stl, sizeof stl, SWIFTPROX_ERROR_FILE);
 }
 
 /* HERE with one entry replaced. */
@@ -169,251 +169,251 @@ static const double *with(int entry, double value)
 static void pairs(void)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300};
-    swift_shape *shape = NULL;
-    swift_pair_cache cache = {{0}};
-    swift_pair_config config;
-    swift_pair_answer answer;
+    swiftprox_shape *shape = NULL;
+    swiftprox_pair_cache cache = {{0}};
+    swiftprox_pair_config config;
+    swiftprox_pair_answer answer;
     size_t i;
     int entry;
 
-    CHECK_OK(swift_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "shape1", swift_pair_distance(NULL, HERE, shape, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "pose1", swift_pair_contact(shape, NULL, shape, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "shape2",
-                swift_pair_intersection(shape, HERE, NULL, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "pose2", swift_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "cache", swift_pair_distance(shape, HERE, shape, THERE, NULL, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "answer", swift_pair_distance(shape, HERE, shape, THERE, &cache, NULL, NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "config", swift_pair_config_init(NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "answer", swift_pair_verify(shape, HERE, shape, THERE, NULL));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1", swiftprox_pair_distance(NULL, HERE, shape, THERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose1", swiftprox_pair_contact(shape, NULL, shape, THERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape2",
+                swiftprox_pair_intersection(shape, HERE, NULL, THERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2", swiftprox_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_distance(shape, HERE, shape, THERE, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "config", swiftprox_pair_config_init(NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_verify(shape, HERE, shape, THERE, NULL));
 
     for (entry = 0; entry < 12; ++entry) {
         for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
             const double *pose = with(entry, bad[i]);
             const int far_away = entry % 4 == 3 && isfinite(bad[i]);
-            const swift_status status = swift_pair_distance(shape, HERE, shape, pose, &cache, NULL, &answer);
-            CHECK(status == (far_away ? SWIFT_OK : SWIFT_ERROR_POSE));
-            CHECK(answer.outcome == (far_away ? SWIFT_OUTCOME_SEPARATED : SWIFT_OUTCOME_NONE));
+            const swiftprox_status status = swiftprox_pair_distance(shape, HERE, shape, pose, &cache, NULL, &answer);
+            CHECK(status == (far_away ? SWIFTPROX_OK : SWIFTPROX_ERROR_POSE));
+            CHECK(answer.outcome == (far_away ? SWIFTPROX_OUTCOME_SEPARATED : SWIFTPROX_OUTCOME_NONE));
             if (far_away) {
                 CHECK(answer.lower <= 1e300 && 1e300 <= answer.upper * (1 + 1e-15));
             }
         }
     }
-    CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "reflection", swift_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "entry 0", swift_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection", swiftprox_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 0", swiftprox_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
-    CHECK_OK(swift_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
-    CHECK_OK(swift_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
-    CHECK_OK(swift_pair_config_init(&config));
+    CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
+    CHECK_OK(swiftprox_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
+    CHECK_OK(swiftprox_pair_config_init(&config));
     config.rotation_limit = 1e-9;
-    CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal",
-                swift_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
+                swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         config.rotation_limit = bad[i];
-        CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit",
-                    swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit",
+                    swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     }
     config.rotation_limit = 0.5;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
-                swift_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
-    CHECK_OK(swift_pair_config_init(&config));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
+                swiftprox_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_config_init(&config));
     config.distance_tolerance = -1;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "distance_tolerance",
-                swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
-    CHECK_OK(swift_pair_config_init(&config));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_config_init(&config));
     config.bounds = 17;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "bounds",
-                swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "bounds",
+                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_pair_config",
-                swift_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config",
+                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
 
     /* After all that the pair is answered as ever. */
-    CHECK_OK(swift_pair_distance(shape, HERE, shape, THERE, &cache, NULL, &answer));
-    CHECK(answer.outcome == SWIFT_OUTCOME_SEPARATED && answer.lower <= 2 && 2 <= answer.upper);
-    CHECK_OK(swift_pair_verify(shape, HERE, shape, THERE, &answer));
-    CHECK_FAILS(SWIFT_ERROR_UNVERIFIED, "apart", swift_pair_verify(shape, HERE, shape, HERE, &answer));
+    CHECK_OK(swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, &answer));
+    CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.lower <= 2 && 2 <= answer.upper);
+    CHECK_OK(swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "apart", swiftprox_pair_verify(shape, HERE, shape, HERE, &answer));
     memset(&answer, 0x7f, sizeof answer);
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "outcome", swift_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
     memset(&answer, 0, sizeof answer);
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "outcome", swift_pair_verify(shape, HERE, shape, THERE, &answer));
-    answer.outcome = SWIFT_OUTCOME_INTERSECTING;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    answer.outcome = SWIFTPROX_OUTCOME_INTERSECTING;
     answer.proof_count = UINT32_MAX;
-    CHECK_FAILS(SWIFT_ERROR_UNVERIFIED, "4294967295 vertex pairs", swift_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "4294967295 vertex pairs", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
     answer.proof_count = 4;
     answer.proof[3][1] = UINT32_MAX;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "vertex", swift_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "vertex", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
 
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {
-        swift_shape_options options;
-        swift_shape *extreme = NULL;
-        CHECK_OK(swift_shape_options_init(&options));
+        swiftprox_shape_options options;
+        swiftprox_shape *extreme = NULL;
+        CHECK_OK(swiftprox_shape_options_init(&options));
         options.scale = i == 0 ? 1e-300 : 1e300;
-        CHECK_OK(swift_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
-        CHECK_OK(swift_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
-        CHECK_OK(swift_pair_verify(extreme, HERE, shape, THERE, &answer));
-        CHECK_OK(swift_pair_contact(extreme, HERE, extreme, HERE, &cache, NULL, &answer));
-        CHECK(answer.outcome == SWIFT_OUTCOME_INTERSECTING);
-        swift_shape_release(extreme);
+        CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
+        CHECK_OK(swiftprox_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_verify(extreme, HERE, shape, THERE, &answer));
+        CHECK_OK(swiftprox_pair_contact(extreme, HERE, extreme, HERE, &cache, NULL, &answer));
+        CHECK(answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+        swiftprox_shape_release(extreme);
     }
-    swift_shape_release(shape);
+    swiftprox_shape_release(shape);
 }
 
 /* The scene still holds two tetrahedra at distance 2. */
-static void still_usable(swift_scene *scene, int line)
+static void still_usable(swiftprox_scene *scene, int line)
 {
-    swift_scene_answer answer;
-    check_that(swift_scene_query_exact_distance(scene, NULL, &answer) == SWIFT_OK && answer.count == 1 &&
+    swiftprox_scene_answer answer;
+    check_that(swiftprox_scene_query_exact_distance(scene, NULL, &answer) == SWIFTPROX_OK && answer.count == 1 &&
                    answer.pairs[0].answer.lower <= 2 && 2 <= answer.pairs[0].answer.upper,
-               "the scene is usable", swift_library_last_error_message(), __FILE__, line);
+               "the scene is usable", swiftprox_library_last_error_message(), __FILE__, line);
 }
 
 static void scenes(void)
 {
-    swift_scene *scene = NULL, *other = NULL;
-    swift_scene_options options;
-    swift_scene_query query;
-    swift_scene_answer answer;
-    swift_object_options object_options;
-    swift_object_info info;
-    swift_shape *shape = NULL;
-    const swift_shape *pieces[2] = {NULL, NULL};
-    const swift_shape *piece = NULL;
-    swift_object_id here, there, stale, foreign, id = 7;
+    swiftprox_scene *scene = NULL, *other = NULL;
+    swiftprox_scene_options options;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    swiftprox_object_options object_options;
+    swiftprox_object_info info;
+    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *pieces[2] = {NULL, NULL};
+    const swiftprox_shape *piece = NULL;
+    swiftprox_object_id here, there, stale, foreign, id = 7;
     int32_t active = 7;
     size_t i;
 
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_create(NULL, NULL));
-    CHECK_OK(swift_scene_options_init(&options));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_create(NULL, NULL));
+    CHECK_OK(swiftprox_scene_options_init(&options));
     options.rotation_limit = 0.5;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
-                swift_scene_create(&options, &scene));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
+                swiftprox_scene_create(&options, &scene));
     CHECK(scene == NULL);
-    CHECK_OK(swift_scene_destroy(NULL));
-    CHECK_OK(swift_scene_create(NULL, &scene));
-    CHECK_OK(swift_scene_create(NULL, &other));
+    CHECK_OK(swiftprox_scene_destroy(NULL));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_create(NULL, &other));
 
-    CHECK_OK(swift_object_options_init(&object_options));
+    CHECK_OK(swiftprox_object_options_init(&object_options));
     memcpy(object_options.pose, THERE, sizeof THERE);
-    CHECK_OK(swift_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &here));
-    CHECK_OK(swift_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, &object_options, &there));
-    CHECK_OK(swift_scene_copy_object(scene, there, &stale));
-    CHECK_OK(swift_scene_remove_object(scene, stale));
-    CHECK_OK(swift_scene_add_mesh(other, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &foreign));
+    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &here));
+    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, &object_options, &there));
+    CHECK_OK(swiftprox_scene_copy_object(scene, there, &stale));
+    CHECK_OK(swiftprox_scene_remove_object(scene, stale));
+    CHECK_OK(swiftprox_scene_add_mesh(other, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &foreign));
     still_usable(scene, __LINE__);
 
     /* Ids: null, stale, another scene's, made up. */
     {
-        const swift_object_id wrong[] = {SWIFT_OBJECT_ID_NULL, stale, foreign, here + 7, UINT64_MAX};
+        const swiftprox_object_id wrong[] = {SWIFTPROX_OBJECT_ID_NULL, stale, foreign, here + 7, UINT64_MAX};
         for (i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
-            CHECK(swift_scene_set_pose(scene, wrong[i], HERE) == SWIFT_ERROR_HANDLE);
-            CHECK(swift_scene_remove_object(scene, wrong[i]) == SWIFT_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_pose(scene, wrong[i], HERE) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_remove_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
             id = 7;
-            CHECK(swift_scene_copy_object(scene, wrong[i], &id) == SWIFT_ERROR_HANDLE && id == 0);
-            CHECK(swift_scene_activate_object(scene, wrong[i]) == SWIFT_ERROR_HANDLE);
-            CHECK(swift_scene_deactivate_pair(scene, here, wrong[i]) == SWIFT_ERROR_HANDLE);
-            CHECK(swift_scene_set_user_data(scene, wrong[i], 1) == SWIFT_ERROR_HANDLE);
-            CHECK(swift_scene_is_pair_active(scene, wrong[i], there, &active) == SWIFT_ERROR_HANDLE && active == 0);
+            CHECK(swiftprox_scene_copy_object(scene, wrong[i], &id) == SWIFTPROX_ERROR_HANDLE && id == 0);
+            CHECK(swiftprox_scene_activate_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_deactivate_pair(scene, here, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_user_data(scene, wrong[i], 1) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_is_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
             info.struct_size = sizeof info;
-            CHECK(swift_scene_get_object_info(scene, wrong[i], &info) == SWIFT_ERROR_HANDLE);
-            CHECK(swift_scene_get_piece(scene, wrong[i], 0, &piece) == SWIFT_ERROR_HANDLE && piece == NULL);
+            CHECK(swiftprox_scene_get_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_get_piece(scene, wrong[i], 0, &piece) == SWIFTPROX_ERROR_HANDLE && piece == NULL);
         }
     }
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "twice", swift_scene_deactivate_pair(scene, here, here));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "piece 1", swift_scene_get_piece(scene, here, 1, &piece));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_deactivate_pair(scene, here, here));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece 1", swiftprox_scene_get_piece(scene, here, 1, &piece));
     still_usable(scene, __LINE__);
 
     /* Adding. */
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "id", swift_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "vertices", swift_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
-    CHECK_FAILS(SWIFT_ERROR_MESH, "edge", swift_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 3, NULL, NULL, &id));
-    CHECK_FAILS(SWIFT_ERROR_FILE, "no-such-file", swift_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
-    CHECK_OK(swift_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 3, NULL, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file", swiftprox_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
     pieces[0] = shape;
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "pieces[1]", swift_scene_add_object(scene, pieces, 2, NULL, &id));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "pieces", swift_scene_add_object(scene, NULL, 2, NULL, &id));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "piece", swift_scene_add_object(scene, pieces, 0, NULL, &id));
-    CHECK_FAILS(SWIFT_ERROR_LIMIT, "pieces", swift_scene_add_object(scene, pieces, SIZE_MAX, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1]", swiftprox_scene_add_object(scene, pieces, 2, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces", swiftprox_scene_add_object(scene, NULL, 2, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece", swiftprox_scene_add_object(scene, pieces, 0, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "pieces", swiftprox_scene_add_object(scene, pieces, SIZE_MAX, NULL, &id));
     object_options.pose[0] = NAN;
-    CHECK_FAILS(SWIFT_ERROR_POSE, "finite", swift_scene_add_object(scene, pieces, 1, &object_options, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_scene_add_object(scene, pieces, 1, &object_options, &id));
     object_options.struct_size = 3;
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_object_options",
-                swift_scene_add_object(scene, pieces, 1, &object_options, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_object_options",
+                swiftprox_scene_add_object(scene, pieces, 1, &object_options, &id));
     CHECK(id == 0);
-    swift_shape_release(shape);
+    swiftprox_shape_release(shape);
     still_usable(scene, __LINE__);
 
     /* Moving: what is refused leaves the object where it is. */
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "pose", swift_scene_set_pose(scene, here, NULL));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "finite", swift_scene_set_pose(scene, here, with(3, INFINITY)));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_scene_set_pose(scene, here, with(10, 1e-300)));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "rotation", swift_scene_set_transform(scene, here, NULL, CORNERS));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "translation", swift_scene_set_transform(scene, here, CORNERS, NULL));
-    CHECK_FAILS(SWIFT_ERROR_POSE, "orthonormal", swift_scene_set_transform(scene, here, CORNERS, CORNERS));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "3 poses", swift_scene_set_all_poses(scene, HERE, 3));
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "poses", swift_scene_set_all_poses(scene, HERE, SIZE_MAX));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "poses", swift_scene_set_all_poses(scene, NULL, 2));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "rotations", swift_scene_set_all_transforms(scene, NULL, HERE, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose", swiftprox_scene_set_pose(scene, here, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_scene_set_pose(scene, here, with(3, INFINITY)));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_scene_set_pose(scene, here, with(10, 1e-300)));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotation", swiftprox_scene_set_transform(scene, here, NULL, CORNERS));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "translation", swiftprox_scene_set_transform(scene, here, CORNERS, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_scene_set_transform(scene, here, CORNERS, CORNERS));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "3 poses", swiftprox_scene_set_all_poses(scene, HERE, 3));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "poses", swiftprox_scene_set_all_poses(scene, HERE, SIZE_MAX));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses", swiftprox_scene_set_all_poses(scene, NULL, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotations", swiftprox_scene_set_all_transforms(scene, NULL, HERE, 2));
     {
         double poses[24];
         memcpy(poses, THERE, sizeof THERE);
         memcpy(poses + 12, with(0, 2), sizeof HERE);
-        CHECK_FAILS(SWIFT_ERROR_POSE, "pose 1", swift_scene_set_all_poses(scene, poses, 2));
+        CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_scene_set_all_poses(scene, poses, 2));
     }
     still_usable(scene, __LINE__);
 
     /* Asking. */
-    CHECK_OK(swift_scene_query_init(&query));
+    CHECK_OK(swiftprox_scene_query_init(&query));
     query.distance_tolerance = -1;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "tolerance", swift_scene_query_tolerance(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_tolerance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
     query.distance_tolerance = NAN;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "tolerance", swift_scene_query_exact_distance(scene, &query, &answer));
-    CHECK_OK(swift_scene_query_init(&query));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_init(&query));
     query.step_budget = 0;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "step_budget", swift_scene_query_intersection(scene, &query, &answer));
-    CHECK_OK(swift_scene_query_init(&query));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_init(&query));
     query.bounds = -3;
-    CHECK_FAILS(SWIFT_ERROR_INVALID_ARGUMENT, "bounds", swift_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "bounds", swiftprox_scene_query_contacts(scene, &query, &answer));
     query.struct_size = 0;
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_scene_query", swift_scene_query_contacts(scene, &query, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "answer", swift_scene_query_intersection(scene, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_query_intersection(scene, NULL, NULL));
     still_usable(scene, __LINE__);
 
     /* No scene. */
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_query_intersection(NULL, NULL, &answer));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "scene", swift_scene_set_pose(NULL, here, HERE));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "statistics", swift_scene_get_statistics(NULL, NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "statistics", swift_scene_get_statistics(scene, NULL));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "info", swift_scene_get_object_info(scene, here, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_query_intersection(NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_set_pose(NULL, here, HERE));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "statistics", swiftprox_scene_get_statistics(NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "statistics", swiftprox_scene_get_statistics(scene, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "info", swiftprox_scene_get_object_info(scene, here, NULL));
     info.struct_size = 1;
-    CHECK_FAILS(SWIFT_ERROR_STRUCT_SIZE, "swift_object_info", swift_scene_get_object_info(scene, here, &info));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_object_info", swiftprox_scene_get_object_info(scene, here, &info));
     still_usable(scene, __LINE__);
 
-    CHECK_OK(swift_scene_destroy(scene));
-    CHECK_OK(swift_scene_destroy(other));
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(other));
 }
 
 /* Any number gets words, one that is no enumerator, too. */
 static void words(void)
 {
-    CHECK(strcmp(swift_library_status_string(SWIFT_ERROR_POSE), "a pose is refused") == 0);
-    CHECK(strcmp(swift_library_status_string(-1), "not a status") == 0);
-    CHECK(strcmp(swift_library_outcome_string(SWIFT_OUTCOME_INTERSECTING), "intersecting") == 0);
-    CHECK(strcmp(swift_library_outcome_string(SWIFT_OUTCOME_UNDECIDED + 1), "not an outcome") == 0);
-    CHECK(strcmp(swift_library_outcome_string(INT32_MIN), "not an outcome") == 0);
-    CHECK(strcmp(swift_library_feature_kind_string(SWIFT_FEATURE_KIND_EDGE), "edge") == 0);
-    CHECK(strcmp(swift_library_feature_kind_string(SWIFT_FEATURE_KIND_FACE + 1), "not a feature kind") == 0);
-    CHECK(strcmp(swift_library_feature_kind_string(INT32_MIN), "not a feature kind") == 0);
+    CHECK(strcmp(swiftprox_library_status_string(SWIFTPROX_ERROR_POSE), "a pose is refused") == 0);
+    CHECK(strcmp(swiftprox_library_status_string(-1), "not a status") == 0);
+    CHECK(strcmp(swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_INTERSECTING), "intersecting") == 0);
+    CHECK(strcmp(swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_UNDECIDED + 1), "not an outcome") == 0);
+    CHECK(strcmp(swiftprox_library_outcome_string(INT32_MIN), "not an outcome") == 0);
+    CHECK(strcmp(swiftprox_library_feature_kind_string(SWIFTPROX_FEATURE_KIND_EDGE), "edge") == 0);
+    CHECK(strcmp(swiftprox_library_feature_kind_string(SWIFTPROX_FEATURE_KIND_FACE + 1), "not a feature kind") == 0);
+    CHECK(strcmp(swiftprox_library_feature_kind_string(INT32_MIN), "not a feature kind") == 0);
 }
 
 int main(int argc, char **argv)
 {
-    CHECK_OK(swift_library_check_version(SWIFT_VERSION_MAJOR, SWIFT_VERSION_MINOR, SWIFT_VERSION_PATCH));
-    CHECK_FAILS(SWIFT_ERROR_VERSION, "1000", swift_library_check_version(1000, 0, 0));
+    CHECK_OK(swiftprox_library_check_version(SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR, SWIFTPROX_VERSION_PATCH));
+    CHECK_FAILS(SWIFTPROX_ERROR_VERSION, "1000", swiftprox_library_check_version(1000, 0, 0));
     words();
     meshes();
     shape_options();

@@ -1,6 +1,6 @@
 /*
  * A scene used by two threads at once, or from within one of its own calls, which the header forbids: each call is done or answers
- * SWIFT_ERROR_BUSY, and the scene stays sound.
+ * SWIFTPROX_ERROR_BUSY, and the scene stays sound.
  *
  *     busy [rounds]
  */
@@ -17,9 +17,9 @@ static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 
 static const double HERE[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-static swift_shape *shape;
-static swift_scene *scene;
-static swift_object_id ids[OBJECTS];
+static swiftprox_shape *shape;
+static swiftprox_scene *scene;
+static swiftprox_object_id ids[OBJECTS];
 static int rounds = 2000;
 
 typedef struct worker {
@@ -29,43 +29,43 @@ typedef struct worker {
 } worker;
 
 /* One of the calls that a scene takes. */
-static swift_status call(int which, int round)
+static swiftprox_status call(int which, int round)
 {
     double pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    swift_scene_answer answer;
-    swift_scene_statistics statistics;
-    swift_object_info info;
-    swift_object_id id;
-    swift_status status;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_statistics statistics;
+    swiftprox_object_info info;
+    swiftprox_object_id id;
+    swiftprox_status status;
     int32_t active;
-    const swift_shape *piece = shape;
+    const swiftprox_shape *piece = shape;
     switch (which) {
     case 0:
         pose[3] = round % 7;
-        return swift_scene_set_pose(scene, ids[round % OBJECTS], pose);
+        return swiftprox_scene_set_pose(scene, ids[round % OBJECTS], pose);
     case 1:
-        return swift_scene_query_contacts(scene, NULL, &answer);
+        return swiftprox_scene_query_contacts(scene, NULL, &answer);
     case 2:
-        status = swift_scene_add_object(scene, &piece, 1, NULL, &id);
-        if (status == SWIFT_OK) {
-            while ((status = swift_scene_remove_object(scene, id)) == SWIFT_ERROR_BUSY) {
+        status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
+        if (status == SWIFTPROX_OK) {
+            while ((status = swiftprox_scene_remove_object(scene, id)) == SWIFTPROX_ERROR_BUSY) {
             }
         }
         return status;
     case 3:
-        return swift_scene_deactivate_pair(scene, ids[0], ids[1 + round % (OBJECTS - 1)]);
+        return swiftprox_scene_deactivate_pair(scene, ids[0], ids[1 + round % (OBJECTS - 1)]);
     case 4:
-        return swift_scene_activate_all(scene);
+        return swiftprox_scene_activate_all(scene);
     case 5:
-        return swift_scene_get_statistics(scene, &statistics);
+        return swiftprox_scene_get_statistics(scene, &statistics);
     case 6:
         memset(&info, 0, sizeof info);
         info.struct_size = sizeof info;
-        return swift_scene_get_object_info(scene, ids[round % OBJECTS], &info);
+        return swiftprox_scene_get_object_info(scene, ids[round % OBJECTS], &info);
     case 7:
-        return swift_scene_is_pair_active(scene, ids[0], ids[1], &active);
+        return swiftprox_scene_is_pair_active(scene, ids[0], ids[1], &active);
     default:
-        return swift_scene_query_approximate_distance(scene, NULL, &answer);
+        return swiftprox_scene_query_approximate_distance(scene, NULL, &answer);
     }
 }
 
@@ -74,10 +74,10 @@ static void *work(void *argument)
     worker *worker = (struct worker *)argument;
     int round;
     for (round = 0; round < rounds; ++round) {
-        const swift_status status = call((round + 2 * worker->number) % 9, round);
-        worker->done += status == SWIFT_OK;
-        worker->busy += status == SWIFT_ERROR_BUSY;
-        worker->other += status != SWIFT_OK && status != SWIFT_ERROR_BUSY;
+        const swiftprox_status status = call((round + 2 * worker->number) % 9, round);
+        worker->done += status == SWIFTPROX_OK;
+        worker->busy += status == SWIFTPROX_ERROR_BUSY;
+        worker->other += status != SWIFTPROX_OK && status != SWIFTPROX_ERROR_BUSY;
     }
     return NULL;
 }
@@ -85,7 +85,7 @@ static void *work(void *argument)
 static void test_threads(void)
 {
     static worker workers[THREADS];
-    swift_scene_answer answer;
+    swiftprox_scene_answer answer;
     long done = 0;
     int i;
     for (i = 0; i < THREADS; ++i) {
@@ -98,13 +98,13 @@ static void test_threads(void)
         done += workers[i].done;
     }
     CHECK(done > 0);
-    CHECK_OK(swift_scene_activate_all(scene));
-    CHECK_OK(swift_scene_query_contacts(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_activate_all(scene));
+    CHECK_OK(swiftprox_scene_query_contacts(scene, NULL, &answer));
     CHECK(answer.count == OBJECTS * (OBJECTS - 1) / 2);
 }
 
 static int inside; /* calls to the allocator left before it calls the scene */
-static swift_status said[3];
+static swiftprox_status said[3];
 
 /* Forbidden, and refused. */
 static void *take(void *user, size_t size, size_t alignment)
@@ -113,7 +113,7 @@ static void *take(void *user, size_t size, size_t alignment)
     if (inside > 0 && --inside == 0) {
         said[0] = call(0, 0);
         said[1] = call(5, 0);
-        said[2] = swift_scene_destroy(scene);
+        said[2] = swiftprox_scene_destroy(scene);
     }
     return aligned_alloc(alignment, size);
 }
@@ -128,18 +128,18 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
 
 static void test_calls_inside_calls(void)
 {
-    swift_scene_answer answer;
+    swiftprox_scene_answer answer;
     int i;
-    CHECK_OK(swift_library_set_allocator(take, give_back, NULL));
-    CHECK_OK(swift_scene_activate_all(scene)); /* so that the query makes its list anew */
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, NULL));
+    CHECK_OK(swiftprox_scene_activate_all(scene)); /* so that the query makes its list anew */
     inside = 1;
-    CHECK_OK(swift_scene_query_intersection(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
     for (i = 0; i < 3; ++i) {
-        CHECK(said[i] == SWIFT_ERROR_BUSY);
+        CHECK(said[i] == SWIFTPROX_ERROR_BUSY);
     }
     CHECK(answer.count == OBJECTS * (OBJECTS - 1) / 2);
-    CHECK_OK(swift_library_set_allocator(NULL, NULL, NULL));
-    CHECK(strcmp(swift_library_status_string(SWIFT_ERROR_BUSY), "the scene is in use") == 0);
+    CHECK_OK(swiftprox_library_set_allocator(NULL, NULL, NULL));
+    CHECK(strcmp(swiftprox_library_status_string(SWIFTPROX_ERROR_BUSY), "the scene is in use") == 0);
 }
 
 /* The callback of a shape that is being made may use the scene that it is for: nothing is in use yet. */
@@ -153,11 +153,11 @@ static int32_t on_progress(void *user, double fraction)
 
 static void test_progress(void)
 {
-    swift_shape_options options;
-    swift_object_id id;
-    CHECK_OK(swift_shape_options_init(&options));
+    swiftprox_shape_options options;
+    swiftprox_object_id id;
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.progress = on_progress;
-    CHECK_OK(swift_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, &options, NULL, &id));
+    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, &options, NULL, &id));
 }
 
 int main(int argc, char **argv)
@@ -166,19 +166,19 @@ int main(int argc, char **argv)
     if (argc > 1) {
         rounds = atoi(argv[1]);
     }
-    CHECK_OK(swift_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_OK(swift_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < OBJECTS; ++i) {
-        const swift_shape *piece = shape;
-        CHECK_OK(swift_scene_add_object(scene, &piece, 1, NULL, &ids[i]));
+        const swiftprox_shape *piece = shape;
+        CHECK_OK(swiftprox_scene_add_object(scene, &piece, 1, NULL, &ids[i]));
     }
     test_threads();
     for (i = 0; i < OBJECTS; ++i) {
-        CHECK_OK(swift_scene_set_pose(scene, ids[i], HERE));
+        CHECK_OK(swiftprox_scene_set_pose(scene, ids[i], HERE));
     }
     test_calls_inside_calls();
     test_progress();
-    CHECK_OK(swift_scene_destroy(scene));
-    CHECK_OK(swift_shape_release(shape));
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    CHECK_OK(swiftprox_shape_release(shape));
     return check_report("busy");
 }

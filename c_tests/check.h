@@ -17,7 +17,7 @@ enum { CHECK_MOST_MESSAGES = 20 };
 
 /* Checks that a call to the library succeeds; says its message if not. */
 #define CHECK_OK(call)                                                                             \
-    check_that((call) == SWIFT_OK, #call, swift_library_last_error_message(), __FILE__, __LINE__)
+    check_that((call) == SWIFTPROX_OK, #call, swiftprox_library_last_error_message(), __FILE__, __LINE__)
 
 static int check_that(int holds, const char *what, const char *why, const char *file, int line)
 {
@@ -32,13 +32,13 @@ static int check_that(int holds, const char *what, const char *why, const char *
 /* Checks that a call fails with a status and that the message names something. */
 #define CHECK_FAILS(expected, name, call) check_fails(expected, name, call, #call, __FILE__, __LINE__)
 
-static inline void check_fails(swift_status expected, const char *name, swift_status status, const char *what,
+static inline void check_fails(swiftprox_status expected, const char *name, swiftprox_status status, const char *what,
                                const char *file, int line)
 {
-    const char *message = swift_library_last_error_message();
+    const char *message = swiftprox_library_last_error_message();
     if (!check_that(status == expected && strstr(message, name) != NULL, what, message, file, line)) {
-        fprintf(stderr, "    %s, not %s naming \"%s\"\n", swift_library_status_string(status),
-                swift_library_status_string(expected), name);
+        fprintf(stderr, "    %s, not %s naming \"%s\"\n", swiftprox_library_status_string(status),
+                swiftprox_library_status_string(expected), name);
     }
 }
 

@@ -34,7 +34,7 @@ struct tally {
 /* ---- the library --------------------------------------------------------------------------------------------------- */
 
 /* Holds the parts of a separated answer against each other. */
-static void check_separated(const swift_pair_answer *answer)
+static void check_separated(const swiftprox_pair_answer *answer)
 {
     double square = 0, along_normal = 0;
     for (int k = 0; k < 3; ++k) {
@@ -49,10 +49,10 @@ static void check_separated(const swift_pair_answer *answer)
 }
 
 /* An intersecting pair has a contact: points and a direction. */
-static void check_contact(const swift_pair_answer *contact)
+static void check_contact(const swiftprox_pair_answer *contact)
 {
     double square = 0;
-    CHECK(contact->outcome == SWIFT_OUTCOME_INTERSECTING);
+    CHECK(contact->outcome == SWIFTPROX_OUTCOME_INTERSECTING);
     for (int k = 0; k < 3; ++k) {
         CHECK(isfinite(contact->world1[k]) && isfinite(contact->world2[k]));
         square += contact->normal[k] * contact->normal[k];
@@ -61,22 +61,22 @@ static void check_contact(const swift_pair_answer *contact)
 }
 
 /* Answers all poses of a scene by all three queries, every answer verified. */
-static void answer_all(const struct scene *scene, swift_pair_answer *answers)
+static void answer_all(const struct scene *scene, swiftprox_pair_answer *answers)
 {
-    const swift_shape *shape1 = scene->bodies[0].shape, *shape2 = scene->bodies[1].shape;
-    swift_pair_cache cache = {{0}}, verdict_cache = {{0}}, contact_cache = {{0}};
+    const swiftprox_shape *shape1 = scene->bodies[0].shape, *shape2 = scene->bodies[1].shape;
+    swiftprox_pair_cache cache = {{0}}, verdict_cache = {{0}}, contact_cache = {{0}};
     for (size_t i = 0; i < scene->pose_count; ++i) {
         const double *pose1 = scene->poses[i], *pose2 = pose1 + 12;
-        swift_pair_answer other, *answer = &answers[i];
-        if (!CHECK_OK(swift_pair_distance(shape1, pose1, shape2, pose2, &cache, NULL, answer)))
+        swiftprox_pair_answer other, *answer = &answers[i];
+        if (!CHECK_OK(swiftprox_pair_distance(shape1, pose1, shape2, pose2, &cache, NULL, answer)))
             continue;
-        CHECK_OK(swift_pair_verify(shape1, pose1, shape2, pose2, answer));
-        CHECK_OK(swift_pair_intersection(shape1, pose1, shape2, pose2, &verdict_cache, NULL, &other));
+        CHECK_OK(swiftprox_pair_verify(shape1, pose1, shape2, pose2, answer));
+        CHECK_OK(swiftprox_pair_intersection(shape1, pose1, shape2, pose2, &verdict_cache, NULL, &other));
         CHECK(other.outcome == answer->outcome);
-        if (answer->outcome == SWIFT_OUTCOME_SEPARATED) {
+        if (answer->outcome == SWIFTPROX_OUTCOME_SEPARATED) {
             check_separated(answer);
         } else {
-            CHECK_OK(swift_pair_contact(shape1, pose1, shape2, pose2, &contact_cache, NULL, &other));
+            CHECK_OK(swiftprox_pair_contact(shape1, pose1, shape2, pose2, &contact_cache, NULL, &other));
             check_contact(&other);
         }
     }
@@ -141,10 +141,10 @@ static void release(struct progress *progress, const struct scene *scene)
 
 /* ---- differences --------------------------------------------------------------------------------------------------- */
 
-static int verdicts_differ(const swift_pair_answer *answer, const struct peer_answer *peer)
+static int verdicts_differ(const swiftprox_pair_answer *answer, const struct peer_answer *peer)
 {
-    return (peer->outcome == PEER_SEPARATED && answer->outcome != SWIFT_OUTCOME_SEPARATED) ||
-           (peer->outcome == PEER_INTERSECTING && answer->outcome != SWIFT_OUTCOME_INTERSECTING);
+    return (peer->outcome == PEER_SEPARATED && answer->outcome != SWIFTPROX_OUTCOME_SEPARATED) ||
+           (peer->outcome == PEER_INTERSECTING && answer->outcome != SWIFTPROX_OUTCOME_INTERSECTING);
 }
 
 /* How far a peer's distance, or that of its nearest points, is from an interval; 0 when it says none. */
@@ -158,13 +158,13 @@ static double distance_error(double lower, double upper, const struct peer_answe
     return worst;
 }
 
-static int distances_differ(const swift_pair_answer *answer, const struct peer_answer *peer)
+static int distances_differ(const swiftprox_pair_answer *answer, const struct peer_answer *peer)
 {
-    return answer->outcome == SWIFT_OUTCOME_SEPARATED && peer->outcome == PEER_SEPARATED &&
+    return answer->outcome == SWIFTPROX_OUTCOME_SEPARATED && peer->outcome == PEER_SEPARATED &&
            distance_error(answer->lower, answer->upper, peer) > PEER_TOLERANCE;
 }
 
-static void count_differences(const struct scene *scene, const swift_pair_answer *answers,
+static void count_differences(const struct scene *scene, const swiftprox_pair_answer *answers,
                               const struct peer_answer *peers, struct tally *tally)
 {
     for (size_t i = 0; i < scene->pose_count; ++i) {
@@ -172,14 +172,14 @@ static void count_differences(const struct scene *scene, const swift_pair_answer
         ++tally->outcomes[peer->outcome];
         tally->verdicts_differ += verdicts_differ(&answers[i], peer);
         tally->distances_differ += distances_differ(&answers[i], peer);
-        if (peer->outcome == PEER_SEPARATED && answers[i].outcome == SWIFT_OUTCOME_SEPARATED)
+        if (peer->outcome == PEER_SEPARATED && answers[i].outcome == SWIFTPROX_OUTCOME_SEPARATED)
             tally->worst_error =
                 fmax(tally->worst_error, distance_error(answers[i].lower, answers[i].upper, peer));
     }
 }
 
 /* The numbers of the poses to judge: all where a peer differs, and a sample. */
-static size_t choose_poses(const struct scene *scene, const swift_pair_answer *answers, struct progress *const *peers,
+static size_t choose_poses(const struct scene *scene, const swiftprox_pair_answer *answers, struct progress *const *peers,
                            size_t peer_count, size_t *chosen)
 {
     size_t count = 0, stride = scene->pose_count / SAMPLES + 1;
@@ -196,10 +196,10 @@ static size_t choose_poses(const struct scene *scene, const swift_pair_answer *a
 }
 
 /* Holds the library's answer against the truth: no tolerance. */
-static void check_answer(const struct scene *scene, size_t pose, const swift_pair_answer *answer,
+static void check_answer(const struct scene *scene, size_t pose, const swiftprox_pair_answer *answer,
                          const struct truth *truth)
 {
-    int expected = truth->intersecting ? SWIFT_OUTCOME_INTERSECTING : SWIFT_OUTCOME_SEPARATED;
+    int expected = truth->intersecting ? SWIFTPROX_OUTCOME_INTERSECTING : SWIFTPROX_OUTCOME_SEPARATED;
     /* The bounds are doubles: lower <= distance exactly when it is at most the largest double below; upper alike. */
     int holds = answer->outcome == expected &&
                 (truth->intersecting || (0 < answer->lower && answer->lower <= truth->lower &&
@@ -262,7 +262,7 @@ static void add_tally(struct tally *sum, const struct tally *tally)
 static void compare_on_scene(const char *oracle, const struct peer *peers, size_t peer_count, struct scene *scene,
                              struct tally *sums)
 {
-    swift_pair_answer *answers = scene_allocate(scene->pose_count, sizeof *answers);
+    swiftprox_pair_answer *answers = scene_allocate(scene->pose_count, sizeof *answers);
     size_t *judged = scene_allocate(scene->pose_count, sizeof *judged);
     struct truth *truths = scene_allocate(scene->pose_count, sizeof *truths);
     struct progress **progress = scene_allocate(peer_count, sizeof *progress);
@@ -302,7 +302,7 @@ int compare(const char *program, const char *oracle, const struct peer *peers, s
         if (CHECK(scene_create(i, &scene)))
             compare_on_scene(oracle, peers, peer_count, &scene, sums);
         else
-            fprintf(stderr, "  %s: %s\n", scene.name, swift_library_last_error_message());
+            fprintf(stderr, "  %s: %s\n", scene.name, swiftprox_library_last_error_message());
         scene_destroy(&scene);
     }
     for (size_t p = 0; p < peer_count; ++p)

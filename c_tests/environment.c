@@ -116,24 +116,24 @@ static void tell(const void *bytes, size_t size)
 }
 
 /* Without the padding at its end. */
-static void tell_answer(const swift_pair_answer *answer)
+static void tell_answer(const swiftprox_pair_answer *answer)
 {
-    tell(answer, offsetof(swift_pair_answer, statistics) + sizeof answer->statistics);
+    tell(answer, offsetof(swiftprox_pair_answer, statistics) + sizeof answer->statistics);
 }
 
 /* A call: its status is told, and the environment is that of before. */
 #define CALL(call) after_call((call), #call, __LINE__)
 
-static swift_status after_call(swift_status status, const char *call, int line)
+static swiftprox_status after_call(swiftprox_status status, const char *call, int line)
 {
     check_that(control() == expected, call, "changes the environment", __FILE__, line);
     tell(&status, sizeof status);
     return status;
 }
 
-static void call_succeeds(swift_status status, const char *call, int line)
+static void call_succeeds(swiftprox_status status, const char *call, int line)
 {
-    check_that(status == SWIFT_OK, call, swift_library_last_error_message(), __FILE__, line);
+    check_that(status == SWIFTPROX_OK, call, swiftprox_library_last_error_message(), __FILE__, line);
     after_call(status, call, line);
 }
 
@@ -155,17 +155,17 @@ static int32_t progress(void *user, double fraction)
 static const double TETRAHEDRON[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t TETRAHEDRON_FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 
-static int32_t read_mesh(void *user, const char *data, size_t size, swift_mesh_sink *sink)
+static int32_t read_mesh(void *user, const char *data, size_t size, swiftprox_mesh_sink *sink)
 {
-    swift_shape *shape;
+    swiftprox_shape *shape;
     (void)user, (void)data, (void)size;
     CHECK(control() == expected);
     ++reader_calls;
-    CALL_OK(swift_mesh_sink_add_vertices(sink, TETRAHEDRON, 4));
+    CALL_OK(swiftprox_mesh_sink_add_vertices(sink, TETRAHEDRON, 4));
     /* The library, called from a function that it called. */
-    CALL_OK(swift_shape_create_from_points(TETRAHEDRON, 4, NULL, &shape));
-    CALL_OK(swift_shape_release(shape));
-    CALL_OK(swift_mesh_sink_add_faces(sink, TETRAHEDRON_FACES, NULL, 4));
+    CALL_OK(swiftprox_shape_create_from_points(TETRAHEDRON, 4, NULL, &shape));
+    CALL_OK(swiftprox_shape_release(shape));
+    CALL_OK(swiftprox_mesh_sink_add_faces(sink, TETRAHEDRON_FACES, NULL, 4));
     /* What it changes ends with it. */
     fesetround(FE_UPWARD);
     return 0;
@@ -244,107 +244,107 @@ static void prepare(const char *folder)
 
 /* ---- what is asked ---- */
 
-typedef swift_status pair_query(const swift_shape *, const double *, const swift_shape *, const double *, swift_pair_cache *,
-                                const swift_pair_config *, swift_pair_answer *);
+typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *, swiftprox_pair_cache *,
+                                const swiftprox_pair_config *, swiftprox_pair_answer *);
 
-static pair_query *const QUERIES[] = {swift_pair_distance, swift_pair_intersection, swift_pair_contact, swift_pair_approximate};
+static pair_query *const QUERIES[] = {swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate};
 enum { QUERY_COUNT = sizeof QUERIES / sizeof QUERIES[0] };
 
 /* All queries of a pair, and their verification. */
-static void ask(const swift_shape *shape1, const double *pose1, const swift_shape *shape2, const double *pose2,
-                swift_pair_cache caches[QUERY_COUNT], const swift_pair_config *config)
+static void ask(const swiftprox_shape *shape1, const double *pose1, const swiftprox_shape *shape2, const double *pose2,
+                swiftprox_pair_cache caches[QUERY_COUNT], const swiftprox_pair_config *config)
 {
     for (int i = 0; i < QUERY_COUNT; ++i) {
-        swift_pair_answer answer;
+        swiftprox_pair_answer answer;
         memset(&answer, 0, sizeof answer);
         CALL_OK(QUERIES[i](shape1, pose1, shape2, pose2, &caches[i], config, &answer));
         tell_answer(&answer);
         tell(&caches[i], sizeof caches[i]);
-        CALL(swift_pair_verify(shape1, pose1, shape2, pose2, &answer));
+        CALL(swiftprox_pair_verify(shape1, pose1, shape2, pose2, &answer));
     }
 }
 
-static void ask_once(const swift_shape *shape1, const swift_shape *shape2, double x)
+static void ask_once(const swiftprox_shape *shape1, const swiftprox_shape *shape2, double x)
 {
-    swift_pair_cache caches[QUERY_COUNT];
+    swiftprox_pair_cache caches[QUERY_COUNT];
     const double here[12] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     memset(caches, 0, sizeof caches);
     ask(shape1, here, shape2, there, caches, NULL);
 }
 
 /* All that can be told of a shape. */
-static void tell_shape(const swift_shape *shape)
+static void tell_shape(const swiftprox_shape *shape)
 {
     double *const vertices = malloc(3 * POINTS * sizeof *vertices);
-    swift_shape_info info;
-    swift_level_info level;
+    swiftprox_shape_info info;
+    swiftprox_level_info level;
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
-    CALL_OK(swift_shape_get_info(shape, &info));
+    CALL_OK(swiftprox_shape_get_info(shape, &info));
     tell(&info.dimension, sizeof info.dimension);
-    tell(&info.vertex_count, offsetof(swift_shape_info, hierarchy) - offsetof(swift_shape_info, vertex_count));
+    tell(&info.vertex_count, offsetof(swiftprox_shape_info, hierarchy) - offsetof(swiftprox_shape_info, vertex_count));
     tell(&info.hierarchy, sizeof info.hierarchy);
-    tell(&info.level_count, sizeof info - offsetof(swift_shape_info, level_count));
+    tell(&info.level_count, sizeof info - offsetof(swiftprox_shape_info, level_count));
     for (size_t i = 0; i <= info.level_count; ++i) {
         memset(&level, 0, sizeof level);
         level.struct_size = sizeof level;
-        CALL_OK(swift_shape_get_level_info(shape, i, &level));
+        CALL_OK(swiftprox_shape_get_level_info(shape, i, &level));
         tell(&level, sizeof level);
-        CALL_OK(swift_shape_copy_level_vertices(shape, i, vertices, POINTS));
+        CALL_OK(swiftprox_shape_copy_level_vertices(shape, i, vertices, POINTS));
         tell(vertices, 3 * level.vertex_count * sizeof *vertices);
     }
     free(vertices);
 }
 
-static swift_shape *shape_of(const double *points, size_t count, const swift_shape_options *options)
+static swiftprox_shape *shape_of(const double *points, size_t count, const swiftprox_shape_options *options)
 {
-    swift_shape *shape = NULL;
-    CALL_OK(swift_shape_create_from_points(points, count, options, &shape));
+    swiftprox_shape *shape = NULL;
+    CALL_OK(swiftprox_shape_create_from_points(points, count, options, &shape));
     tell_shape(shape);
     return shape;
 }
 
 static void build_and_ask(void)
 {
-    static const int32_t hierarchies[] = {SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
-                                          SWIFT_HIERARCHY_OUTER_CUTS};
-    swift_shape_options options;
-    swift_pair_config config;
-    CALL_OK(swift_shape_options_init(&options));
-    CALL_OK(swift_pair_config_init(&config));
+    static const int32_t hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
+                                          SWIFTPROX_HIERARCHY_OUTER_CUTS};
+    swiftprox_shape_options options;
+    swiftprox_pair_config config;
+    CALL_OK(swiftprox_shape_options_init(&options));
+    CALL_OK(swiftprox_pair_config_init(&config));
     options.progress = progress;
     options.scale = 0.7;
     config.relative_error = 0.01;
-    config.levels = SWIFT_LEVELS_ALL;
+    config.levels = SWIFTPROX_LEVELS_ALL;
     for (size_t k = 0; k < sizeof hierarchies / sizeof hierarchies[0]; ++k) {
-        swift_shape *shape, *loaded = NULL;
-        swift_pair_cache caches[QUERY_COUNT];
+        swiftprox_shape *shape, *loaded = NULL;
+        swiftprox_pair_cache caches[QUERY_COUNT];
         options.hierarchy = hierarchies[k];
         shape = shape_of(sphere, POINTS, &options);
-        CALL_OK(swift_shape_prepare(shape, progress, NULL));
-        CALL_OK(swift_shape_save(shape, shape_path));
-        CALL_OK(swift_shape_load(shape_path, progress, NULL, &loaded));
+        CALL_OK(swiftprox_shape_prepare(shape, progress, NULL));
+        CALL_OK(swiftprox_shape_save(shape, shape_path));
+        CALL_OK(swiftprox_shape_load(shape_path, progress, NULL, &loaded));
         tell_shape(loaded);
         memset(caches, 0, sizeof caches);
         for (int i = 0; i < POSES; ++i)
             ask(shape, poses[0], loaded, poses[i], caches, k == 0 ? NULL : &config);
-        CALL_OK(swift_shape_release(shape));
-        CALL_OK(swift_shape_release(loaded));
+        CALL_OK(swiftprox_shape_release(shape));
+        CALL_OK(swiftprox_shape_release(loaded));
     }
 }
 
 static void read_files(void)
 {
-    swift_shape_options options;
-    swift_shape *shape = NULL;
-    CALL_OK(swift_shape_options_init(&options));
-    options.input = SWIFT_INPUT_HULL;
-    CALL_OK(swift_shape_create_from_file(mesh_path, &options, &shape));
+    swiftprox_shape_options options;
+    swiftprox_shape *shape = NULL;
+    CALL_OK(swiftprox_shape_options_init(&options));
+    options.input = SWIFTPROX_INPUT_HULL;
+    CALL_OK(swiftprox_shape_create_from_file(mesh_path, &options, &shape));
     tell_shape(shape);
-    CALL_OK(swift_shape_release(shape));
-    CALL_OK(swift_shape_create_from_file(reader_path, &options, &shape));
+    CALL_OK(swiftprox_shape_release(shape));
+    CALL_OK(swiftprox_shape_create_from_file(reader_path, &options, &shape));
     tell_shape(shape);
-    CALL_OK(swift_shape_release(shape));
+    CALL_OK(swiftprox_shape_release(shape));
 }
 
 /* Contact and gaps below the normal numbers, bodies across the range of doubles, bodies in each other, and what is refused. */
@@ -352,12 +352,12 @@ static void ask_hard_questions(void)
 {
     static const double shifts[] = {-1e-310, 0, 1e-310, 0.5, -0.5, 1, 1e-300, 3, 1e10};
     const double not_a_number[12] = {NAN};
-    swift_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
-    swift_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
-    swift_shape_options options;
-    swift_pair_cache cache = {{0}};
-    swift_pair_answer answer;
-    swift_shape *none = NULL;
+    swiftprox_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
+    swiftprox_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
+    swiftprox_shape_options options;
+    swiftprox_pair_cache cache = {{0}};
+    swiftprox_pair_answer answer;
+    swiftprox_shape *none = NULL;
     const int heard = log_calls;
     for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; ++i) {
         ask_once(unit, low, shifts[i]);
@@ -368,26 +368,26 @@ static void ask_hard_questions(void)
     }
     ask_once(huge, huge, 1e300);
     ask_once(huge, huge, 2e300);
-    CHECK(CALL(swift_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFT_ERROR_POSE);
-    CALL_OK(swift_shape_options_init(&options));
+    CHECK(CALL(swiftprox_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFTPROX_ERROR_POSE);
+    CALL_OK(swiftprox_shape_options_init(&options));
     options.convexity_tolerance = NAN;
-    CHECK(CALL(swift_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFT_ERROR_INVALID_ARGUMENT);
-    CHECK(CALL(swift_shape_create_from_file("no such file", NULL, &none)) == SWIFT_ERROR_FILE);
+    CHECK(CALL(swiftprox_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(CALL(swiftprox_shape_create_from_file("no such file", NULL, &none)) == SWIFTPROX_ERROR_FILE);
     CHECK(log_calls == heard + 3);
-    CALL_OK(swift_shape_release(unit));
-    CALL_OK(swift_shape_release(low));
-    CALL_OK(swift_shape_release(huge));
-    CALL_OK(swift_shape_release(tiny));
+    CALL_OK(swiftprox_shape_release(unit));
+    CALL_OK(swiftprox_shape_release(low));
+    CALL_OK(swiftprox_shape_release(huge));
+    CALL_OK(swiftprox_shape_release(tiny));
 }
 
-typedef swift_status scene_query(swift_scene *, const swift_scene_query *, swift_scene_answer *);
+typedef swiftprox_status scene_query(swiftprox_scene *, const swiftprox_scene_query *, swiftprox_scene_answer *);
 
 /* Of ids only the order counts: they differ from scene to scene. */
-static void tell_pairs(const swift_scene_answer *answer)
+static void tell_pairs(const swiftprox_scene_answer *answer)
 {
     tell(&answer->count, sizeof answer->count);
     for (size_t i = 0; i < answer->count; ++i) {
-        const swift_pair_result *const pair = &answer->pairs[i];
+        const swiftprox_pair_result *const pair = &answer->pairs[i];
         tell(&pair->user_data1, sizeof pair->user_data1);
         tell(&pair->user_data2, sizeof pair->user_data2);
         tell_answer(&pair->answer);
@@ -396,41 +396,41 @@ static void tell_pairs(const swift_scene_answer *answer)
 
 static void ask_a_scene(void)
 {
-    scene_query *const queries[] = {swift_scene_query_intersection, swift_scene_query_tolerance,
-                                    swift_scene_query_exact_distance, swift_scene_query_contacts,
-                                    swift_scene_query_approximate_distance};
-    swift_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
-    swift_scene_statistics statistics;
-    swift_scene_query query;
-    swift_scene *scene = NULL;
-    swift_object_id ids[5];
-    CALL_OK(swift_scene_create(NULL, &scene));
-    CALL_OK(swift_scene_query_init(&query));
+    scene_query *const queries[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_tolerance,
+                                    swiftprox_scene_query_exact_distance, swiftprox_scene_query_contacts,
+                                    swiftprox_scene_query_approximate_distance};
+    swiftprox_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
+    swiftprox_scene_statistics statistics;
+    swiftprox_scene_query query;
+    swiftprox_scene *scene = NULL;
+    swiftprox_object_id ids[5];
+    CALL_OK(swiftprox_scene_create(NULL, &scene));
+    CALL_OK(swiftprox_scene_query_init(&query));
     query.distance_tolerance = 2;
     query.relative_error = 0.05;
     for (int i = 0; i < 4; ++i) {
-        const swift_shape *const piece = shapes[i % 2];
-        swift_object_options options;
-        CALL_OK(swift_object_options_init(&options));
+        const swiftprox_shape *const piece = shapes[i % 2];
+        swiftprox_object_options options;
+        CALL_OK(swiftprox_object_options_init(&options));
         memcpy(options.pose, poses[5 * i], sizeof poses[0]);
         options.user_data = (uint64_t)i;
-        CALL_OK(swift_scene_add_object(scene, &piece, 1, &options, &ids[i]));
+        CALL_OK(swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]));
     }
-    CALL_OK(swift_scene_add_mesh(scene, TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, NULL, &ids[4]));
+    CALL_OK(swiftprox_scene_add_mesh(scene, TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, NULL, &ids[4]));
     for (int i = 0; i < POSES; ++i) {
-        CALL_OK(swift_scene_set_pose(scene, ids[i % 5], poses[i]));
+        CALL_OK(swiftprox_scene_set_pose(scene, ids[i % 5], poses[i]));
         for (size_t k = 0; k < sizeof queries / sizeof queries[0]; ++k) {
-            swift_scene_answer answer;
+            swiftprox_scene_answer answer;
             CALL_OK(queries[k](scene, &query, &answer));
             tell_pairs(&answer);
         }
     }
     memset(&statistics, 0, sizeof statistics);
-    CALL_OK(swift_scene_get_statistics(scene, &statistics));
+    CALL_OK(swiftprox_scene_get_statistics(scene, &statistics));
     tell(&statistics, sizeof statistics);
-    CALL_OK(swift_scene_destroy(scene));
-    CALL_OK(swift_shape_release(shapes[0]));
-    CALL_OK(swift_shape_release(shapes[1]));
+    CALL_OK(swiftprox_scene_destroy(scene));
+    CALL_OK(swiftprox_shape_release(shapes[0]));
+    CALL_OK(swiftprox_shape_release(shapes[1]));
 }
 
 static void raise_underflow(void)
@@ -459,17 +459,17 @@ static void run(const environment *environment)
 int main(int argument_count, char **arguments)
 {
     struct record first;
-    swift_status set;
+    swiftprox_status set;
 #ifdef NOT_HERE
     puts("environment: not on this processor");
     return 0;
 #endif
     enter(&ENVIRONMENTS[0]);
     prepare(argument_count > 1 ? arguments[1] : ".");
-    set = swift_library_set_allocator(allocate, deallocate, NULL);
-    CHECK(set == SWIFT_OK || set == SWIFT_ERROR_UNSUPPORTED);
-    swift_library_set_log(hear, NULL);
-    CHECK_OK(swift_library_register_mesh_reader("ENVIRONMENT", read_mesh, NULL));
+    set = swiftprox_library_set_allocator(allocate, deallocate, NULL);
+    CHECK(set == SWIFTPROX_OK || set == SWIFTPROX_ERROR_UNSUPPORTED);
+    swiftprox_library_set_log(hear, NULL);
+    CHECK_OK(swiftprox_library_register_mesh_reader("ENVIRONMENT", read_mesh, NULL));
     run(&ENVIRONMENTS[0]);
     first = told;
     memset(&told, 0, sizeof told);
@@ -480,10 +480,10 @@ int main(int argument_count, char **arguments)
         if (check_failures > failures)
             fprintf(stderr, "    in the environment \"%s\"\n", ENVIRONMENTS[i].name);
     }
-    CHECK(progress_calls > 100 && reader_calls == 17 && log_calls > 17 && (memory_calls > 0) == (set == SWIFT_OK));
-    CHECK_OK(swift_library_register_mesh_reader("ENVIRONMENT", NULL, NULL));
-    swift_library_set_log(NULL, NULL);
-    swift_library_set_allocator(NULL, NULL, NULL);
+    CHECK(progress_calls > 100 && reader_calls == 17 && log_calls > 17 && (memory_calls > 0) == (set == SWIFTPROX_OK));
+    CHECK_OK(swiftprox_library_register_mesh_reader("ENVIRONMENT", NULL, NULL));
+    swiftprox_library_set_log(NULL, NULL);
+    swiftprox_library_set_allocator(NULL, NULL, NULL);
     remove(mesh_path);
     remove(reader_path);
     remove(shape_path);

@@ -1,5 +1,5 @@
 /*
- * Memory that is not there: an allocator refuses one block after the other. Each call then ends in SWIFT_ERROR_MEMORY, keeps
+ * Memory that is not there: an allocator refuses one block after the other. Each call then ends in SWIFTPROX_ERROR_MEMORY, keeps
  * nothing, and has changed nothing; queries of pairs go on without what they would have made.
  *
  *     memory [folder for the files that it writes]
@@ -46,87 +46,87 @@ static double points[3 * VERTICES], rotations[9 * OBJECTS], translations[3 * OBJ
 static double vertices[3 * VERTICES];
 static uint32_t corners[6 * VERTICES];
 static size_t triangle_count;
-static swift_shape *ball;
-static swift_scene *scene;
-static swift_object_id id;
+static swiftprox_shape *ball;
+static swiftprox_scene *scene;
+static swiftprox_object_id id;
 static char mesh_path[4096], shape_path[4096];
 static int32_t kind;
 
 /* What a call made, to be given back where it succeeds. */
-static swift_shape *made;
+static swiftprox_shape *made;
 
-static swift_status from_points(void)
+static swiftprox_status from_points(void)
 {
-    swift_shape_options options;
-    CHECK_OK(swift_shape_options_init(&options));
+    swiftprox_shape_options options;
+    CHECK_OK(swiftprox_shape_options_init(&options));
     options.hierarchy = kind;
-    return swift_shape_create_from_points(points, VERTICES, &options, &made);
+    return swiftprox_shape_create_from_points(points, VERTICES, &options, &made);
 }
 
-static swift_status from_mesh(void)
+static swiftprox_status from_mesh(void)
 {
-    return swift_shape_create_from_mesh(vertices, VERTICES, corners, NULL, triangle_count, NULL, &made);
+    return swiftprox_shape_create_from_mesh(vertices, VERTICES, corners, NULL, triangle_count, NULL, &made);
 }
 
-static swift_status from_levels(void)
+static swiftprox_status from_levels(void)
 {
-    swift_mesh meshes[2] = {{vertices, VERTICES, corners, NULL, triangle_count}, {vertices, VERTICES, NULL, NULL, 0}};
-    return swift_shape_create_from_levels(meshes, 2, NULL, &made);
+    swiftprox_mesh meshes[2] = {{vertices, VERTICES, corners, NULL, triangle_count}, {vertices, VERTICES, NULL, NULL, 0}};
+    return swiftprox_shape_create_from_levels(meshes, 2, NULL, &made);
 }
 
-static swift_status from_file(void)
+static swiftprox_status from_file(void)
 {
-    return swift_shape_create_from_file(mesh_path, NULL, &made);
+    return swiftprox_shape_create_from_file(mesh_path, NULL, &made);
 }
 
-static swift_status from_saved(void)
+static swiftprox_status from_saved(void)
 {
-    return swift_shape_load(shape_path, NULL, NULL, &made);
+    return swiftprox_shape_load(shape_path, NULL, NULL, &made);
 }
 
-static swift_status save(void)
+static swiftprox_status save(void)
 {
-    return swift_shape_save(ball, shape_path);
+    return swiftprox_shape_save(ball, shape_path);
 }
 
-static swift_status add_mesh(void)
-{
-    id = 7;
-    return swift_scene_add_mesh(scene, vertices, VERTICES, corners, NULL, triangle_count, NULL, NULL, &id);
-}
-
-static swift_status add_file(void)
+static swiftprox_status add_mesh(void)
 {
     id = 7;
-    return swift_scene_add_file(scene, mesh_path, NULL, NULL, &id);
+    return swiftprox_scene_add_mesh(scene, vertices, VERTICES, corners, NULL, triangle_count, NULL, NULL, &id);
 }
 
-static swift_status add_object(void)
+static swiftprox_status add_file(void)
 {
-    const swift_shape *pieces[OBJECTS];
+    id = 7;
+    return swiftprox_scene_add_file(scene, mesh_path, NULL, NULL, &id);
+}
+
+static swiftprox_status add_object(void)
+{
+    const swiftprox_shape *pieces[OBJECTS];
     int i;
     for (i = 0; i < OBJECTS; ++i) {
         pieces[i] = ball;
     }
     id = 7;
-    return swift_scene_add_object(scene, pieces, OBJECTS, NULL, &id);
+    return swiftprox_scene_add_object(scene, pieces, OBJECTS, NULL, &id);
 }
 
-static swift_status move_all(void)
+static swiftprox_status move_all(void)
 {
-    return swift_scene_set_all_transforms(scene, rotations, translations, OBJECTS);
+    return swiftprox_scene_set_all_transforms(scene, rotations, translations, OBJECTS);
 }
 
 /*
  * Refuses one block after the other until the call gets all that it asks for: the first ones all, then a few of a hundred, so that
  * building a body a thousand times is not what takes the time.
  */
-static void refuse_each(const char *what, swift_status (*call)(void))
+static void refuse_each(const char *what, swiftprox_status (*call)(void))
 {
     size_t number;
     for (number = 1;; number += 1 + number / 16) {
         int turn;
-        swift_status status = SWIFT_OK;
+        swiftprox_status status = SWIFTPROX_OK;
         for (turn = 0; turn < 1 + (number % 8 == 1); ++turn) {
             /* The last message and the like are there already. */
             const long before = blocks;
@@ -139,27 +139,27 @@ static void refuse_each(const char *what, swift_status (*call)(void))
             if (asked < number) {
                 break;
             }
-            if (!CHECK(status == SWIFT_ERROR_MEMORY && made == NULL && blocks == before)) {
+            if (!CHECK(status == SWIFTPROX_ERROR_MEMORY && made == NULL && blocks == before)) {
                 fprintf(stderr, "    %s, block %lu: %s, %ld blocks\n", what, (unsigned long)number,
-                        swift_library_last_error_message(), blocks - before);
-                swift_shape_release(made);
+                        swiftprox_library_last_error_message(), blocks - before);
+                swiftprox_shape_release(made);
                 return;
             }
-            CHECK(strstr(swift_library_last_error_message(), "memory") != NULL);
+            CHECK(strstr(swiftprox_library_last_error_message(), "memory") != NULL);
         }
         if (asked < number) {
-            CHECK(number > 1 && status == SWIFT_OK);
+            CHECK(number > 1 && status == SWIFTPROX_OK);
             break;
         }
     }
 }
 
 /* As above for what makes a shape. */
-static void refuse_each_of_shape(const char *what, swift_status (*call)(void))
+static void refuse_each_of_shape(const char *what, swiftprox_status (*call)(void))
 {
     refuse_each(what, call);
     CHECK(made != NULL);
-    CHECK_OK(swift_shape_release(made));
+    CHECK_OK(swiftprox_shape_release(made));
     made = NULL;
 }
 
@@ -182,8 +182,8 @@ static void write_mesh(void)
 
 static void test_shapes(void)
 {
-    static const int32_t kinds[4] = {SWIFT_HIERARCHY_AUTOMATIC, SWIFT_HIERARCHY_QUADRIC,
-                                     SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFT_HIERARCHY_OUTER_CUTS};
+    static const int32_t kinds[4] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_QUADRIC,
+                                     SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFTPROX_HIERARCHY_OUTER_CUTS};
     int i;
     for (i = 0; i < 4; ++i) {
         kind = kinds[i];
@@ -203,110 +203,110 @@ static void test_first_queries(void)
     const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     size_t number;
     for (number = 1;; ++number) {
-        swift_pair_cache cache;
-        swift_pair_answer answer;
-        swift_shape *shape = NULL;
-        CHECK_OK(swift_shape_create_from_points(points, VERTICES, NULL, &shape));
+        swiftprox_pair_cache cache;
+        swiftprox_pair_answer answer;
+        swiftprox_shape *shape = NULL;
+        CHECK_OK(swiftprox_shape_create_from_points(points, VERTICES, NULL, &shape));
         memset(&cache, 0, sizeof cache);
         for_good = 0;
         asked = 0;
         refused = number;
-        CHECK_OK(swift_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
         refused = 0;
-        CHECK(answer.outcome == SWIFT_OUTCOME_SEPARATED && answer.upper - answer.lower < 1e-12);
-        CHECK_OK(swift_pair_verify(shape, here, shape, there, &answer));
+        CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.upper - answer.lower < 1e-12);
+        CHECK_OK(swiftprox_pair_verify(shape, here, shape, there, &answer));
         if (asked < number) {
-            CHECK_OK(swift_shape_release(shape));
+            CHECK_OK(swiftprox_shape_release(shape));
             break;
         }
         asked = 0;
         refused = 1;
-        CHECK_FAILS(SWIFT_ERROR_MEMORY, "memory", swift_shape_prepare(shape, NULL, NULL));
+        CHECK_FAILS(SWIFTPROX_ERROR_MEMORY, "memory", swiftprox_shape_prepare(shape, NULL, NULL));
         refused = 0;
-        CHECK_OK(swift_shape_prepare(shape, NULL, NULL));
-        CHECK_OK(swift_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
-        CHECK_OK(swift_shape_release(shape));
+        CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
+        CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_shape_release(shape));
     }
     CHECK(number > 3);
 }
 
 static void test_scenes(void)
 {
-    swift_scene_answer answer;
-    swift_scene_statistics statistics;
-    swift_object_info info;
-    swift_status status;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_statistics statistics;
+    swiftprox_object_info info;
+    swiftprox_status status;
     size_t number;
     int i;
 
     /* What is not added leaves no id. */
-    CHECK_OK(swift_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
     refuse_each("add_object", add_object);
-    CHECK_OK(swift_scene_remove_object(scene, id));
+    CHECK_OK(swiftprox_scene_remove_object(scene, id));
     refuse_each("add_mesh", add_mesh);
-    CHECK_OK(swift_scene_remove_object(scene, id));
+    CHECK_OK(swiftprox_scene_remove_object(scene, id));
     refuse_each("add_file", add_file);
-    CHECK_OK(swift_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(scene));
 
     /* Lists that grow: each call again where it is refused. */
-    CHECK_OK(swift_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < OBJECTS; ++i) {
-        const swift_shape *piece = ball;
+        const swiftprox_shape *piece = ball;
         id = 7;
         asked = 0;
         refused = 1;
-        status = swift_scene_add_object(scene, &piece, 1, NULL, &id);
+        status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
         refused = 0;
-        if (status == SWIFT_ERROR_MEMORY) {
+        if (status == SWIFTPROX_ERROR_MEMORY) {
             CHECK(id == 0);
-            status = swift_scene_add_object(scene, &piece, 1, NULL, &id);
+            status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
         }
-        CHECK(status == SWIFT_OK && id != 0);
+        CHECK(status == SWIFTPROX_OK && id != 0);
     }
     refuse_each("move_all", move_all);
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
-    CHECK_OK(swift_scene_get_object_info(scene, id, &info));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, id, &info));
     CHECK(info.pose[3] == translations[3 * (OBJECTS - 1)]);
     for (number = 1;; ++number) {
         asked = 0;
         refused = number;
-        status = swift_scene_query_intersection(scene, NULL, &answer);
+        status = swiftprox_scene_query_intersection(scene, NULL, &answer);
         refused = 0;
         if (asked < number) {
             break;
         }
-        CHECK(status == SWIFT_ERROR_MEMORY && answer.count == 0 && answer.pairs == NULL);
-        CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+        CHECK(status == SWIFTPROX_ERROR_MEMORY && answer.count == 0 && answer.pairs == NULL);
+        CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
         CHECK(statistics.queries == 0);
     }
     CHECK(number > 2);
     CHECK_OK(status);
     CHECK(answer.count == OBJECTS - 1 && answer.pairs != NULL);
-    CHECK_OK(swift_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
 /* A reader of the program: its file is the ball's mesh, whatever it says. */
-static int32_t read_ball(void *user, const char *data, size_t size, swift_mesh_sink *sink)
+static int32_t read_ball(void *user, const char *data, size_t size, swiftprox_mesh_sink *sink)
 {
     (void)user;
     (void)data;
     (void)size;
-    swift_mesh_sink_add_vertices(sink, vertices, VERTICES);
-    swift_mesh_sink_add_faces(sink, corners, NULL, triangle_count);
+    swiftprox_mesh_sink_add_vertices(sink, vertices, VERTICES);
+    swiftprox_mesh_sink_add_faces(sink, corners, NULL, triangle_count);
     return 0;
 }
 
 static void test_readers(void)
 {
-    CHECK_OK(swift_library_register_mesh_reader("v ", read_ball, NULL));
+    CHECK_OK(swiftprox_library_register_mesh_reader("v ", read_ball, NULL));
     refuse_each_of_shape("reader", from_file);
-    CHECK_OK(swift_library_register_mesh_reader("v ", NULL, NULL));
+    CHECK_OK(swiftprox_library_register_mesh_reader("v ", NULL, NULL));
 }
 
 int main(int argc, char **argv)
 {
-    swift_shape_info info;
+    swiftprox_shape_info info;
     int i;
     const char *folder = argc > 1 ? argv[1] : ".";
     snprintf(mesh_path, sizeof mesh_path, "%s/memory.obj", folder);
@@ -321,24 +321,24 @@ int main(int argc, char **argv)
         rotations[9 * i] = rotations[9 * i + 4] = rotations[9 * i + 8] = 1;
         translations[3 * i + 2] = 1.99 * i;
     }
-    CHECK_OK(swift_library_set_allocator(take, give_back, NULL));
-    CHECK_OK(swift_shape_create_from_points(points, VERTICES, NULL, &ball));
-    CHECK_OK(swift_shape_prepare(ball, NULL, NULL));
+    CHECK_OK(swiftprox_library_set_allocator(take, give_back, NULL));
+    CHECK_OK(swiftprox_shape_create_from_points(points, VERTICES, NULL, &ball));
+    CHECK_OK(swiftprox_shape_prepare(ball, NULL, NULL));
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
-    CHECK_OK(swift_shape_get_info(ball, &info));
+    CHECK_OK(swiftprox_shape_get_info(ball, &info));
     triangle_count = info.triangle_count;
     CHECK(info.vertex_count == VERTICES);
-    CHECK_OK(swift_shape_copy_vertices(ball, vertices, NULL, VERTICES));
-    CHECK_OK(swift_shape_copy_triangles(ball, corners, 2 * VERTICES));
+    CHECK_OK(swiftprox_shape_copy_vertices(ball, vertices, NULL, VERTICES));
+    CHECK_OK(swiftprox_shape_copy_triangles(ball, corners, 2 * VERTICES));
     write_mesh();
-    CHECK(swift_shape_create_from_points(NULL, 1, NULL, &made) == SWIFT_ERROR_NULL_POINTER);
+    CHECK(swiftprox_shape_create_from_points(NULL, 1, NULL, &made) == SWIFTPROX_ERROR_NULL_POINTER);
 
     test_shapes();
     test_first_queries();
     test_scenes();
     test_readers();
-    CHECK_OK(swift_shape_release(ball));
+    CHECK_OK(swiftprox_shape_release(ball));
     remove(mesh_path);
     remove(shape_path);
     return check_report("memory");

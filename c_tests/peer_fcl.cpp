@@ -18,15 +18,15 @@ using Convex = fcl::Convex<double>;
 // FCL walks over edges to find supports, so it gets the hull's triangles.
 void *create(const body *body)
 {
-    swift_shape_info info;
+    swiftprox_shape_info info;
     info.struct_size = sizeof info;
-    if (swift_shape_get_info(body->shape, &info) != SWIFT_OK)
+    if (swiftprox_shape_get_info(body->shape, &info) != SWIFTPROX_OK)
         return nullptr;
     std::vector<double> coordinates(3 * info.vertex_count);
     std::vector<uint32_t> corners(3 * info.triangle_count);
-    if (swift_shape_copy_vertices(body->shape, coordinates.data(), nullptr, info.vertex_count) != SWIFT_OK ||
+    if (swiftprox_shape_copy_vertices(body->shape, coordinates.data(), nullptr, info.vertex_count) != SWIFTPROX_OK ||
         (info.triangle_count > 0 &&
-         swift_shape_copy_triangles(body->shape, corners.data(), info.triangle_count) != SWIFT_OK))
+         swiftprox_shape_copy_triangles(body->shape, corners.data(), info.triangle_count) != SWIFTPROX_OK))
         return nullptr;
     auto vertices = std::make_shared<std::vector<fcl::Vector3d>>();
     for (std::size_t i = 0; i < info.vertex_count; ++i)

@@ -1,6 +1,6 @@
 /*
- * What tells how far it is and can be cancelled besides making a shape: swift_shape_prepare of a body that gets automatic levels of
- * detail, which leaves a shape that answers as ever and can be prepared again, and swift_shape_load.
+ * What tells how far it is and can be cancelled besides making a shape: swiftprox_shape_prepare of a body that gets automatic
+ * levels of detail, which leaves a shape that answers as ever and can be prepared again, and swiftprox_shape_load.
  *
  *     progress [folder for the file that it writes]
  */
@@ -27,50 +27,50 @@ static int32_t tell(void *user, double fraction)
     return fraction >= told->stop_at;
 }
 
-static swift_shape_info info_of(const swift_shape *shape)
+static swiftprox_shape_info info_of(const swiftprox_shape *shape)
 {
-    swift_shape_info info = {sizeof info};
-    CHECK_OK(swift_shape_get_info(shape, &info));
+    swiftprox_shape_info info = {sizeof info};
+    CHECK_OK(swiftprox_shape_get_info(shape, &info));
     return info;
 }
 
 /* The distance of two such bodies, two radii apart. */
-static void check_distance(const swift_shape *shape)
+static void check_distance(const swiftprox_shape *shape)
 {
     static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 4};
-    swift_pair_cache cache = {{0}};
-    swift_pair_answer answer;
-    CHECK_OK(swift_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+    swiftprox_pair_cache cache = {{0}};
+    swiftprox_pair_answer answer;
+    CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
     CHECK(fabs(answer.distance - 2) < 1e-3);
-    CHECK_OK(swift_pair_verify(shape, here, shape, there, &answer));
+    CHECK_OK(swiftprox_pair_verify(shape, here, shape, there, &answer));
 }
 
 /* Saved and loaded again; the load tells how far it is, and cancelled anywhere there is no shape. */
-static void check_loading(const swift_shape *shape, const char *folder)
+static void check_loading(const swiftprox_shape *shape, const char *folder)
 {
     char path[1024];
-    swift_shape *loaded = (swift_shape *)(void *)path; /* not null: a failure must make it so */
+    swiftprox_shape *loaded = (swiftprox_shape *)(void *)path; /* not null: a failure must make it so */
     told told = {0, 0, 2};
     snprintf(path, sizeof path, "%s/progress.shape", folder);
-    CHECK_OK(swift_shape_save(shape, path));
+    CHECK_OK(swiftprox_shape_save(shape, path));
     for (int i = 0; i <= 4; ++i) {
         told.last = 0;
         told.stop_at = 0.25 * i;
-        CHECK_FAILS(SWIFT_ERROR_CANCELLED, "progress callback", swift_shape_load(path, tell, &told, &loaded));
+        CHECK_FAILS(SWIFTPROX_ERROR_CANCELLED, "progress callback", swiftprox_shape_load(path, tell, &told, &loaded));
         CHECK(loaded == NULL && told.last >= told.stop_at);
     }
     told.count = 0;
     told.last = 0;
     told.stop_at = 2;
-    CHECK_OK(swift_shape_load(path, tell, &told, &loaded));
+    CHECK_OK(swiftprox_shape_load(path, tell, &told, &loaded));
     CHECK(told.count > 5 && told.last == 1);
     check_distance(loaded);
-    CHECK_OK(swift_shape_release(loaded));
-    CHECK_OK(swift_shape_load(path, NULL, NULL, &loaded));
-    CHECK_OK(swift_shape_release(loaded));
-    CHECK_FAILS(SWIFT_ERROR_NULL_POINTER, "path", swift_shape_load(NULL, tell, &told, &loaded));
+    CHECK_OK(swiftprox_shape_release(loaded));
+    CHECK_OK(swiftprox_shape_load(path, NULL, NULL, &loaded));
+    CHECK_OK(swiftprox_shape_release(loaded));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "path", swiftprox_shape_load(NULL, tell, &told, &loaded));
     remove(path);
-    CHECK_FAILS(SWIFT_ERROR_FILE, "progress.shape: cannot be read: ", swift_shape_load(path, tell, &told, &loaded));
+    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "progress.shape: cannot be read: ", swiftprox_shape_load(path, tell, &told, &loaded));
     CHECK(loaded == NULL);
 }
 
@@ -78,8 +78,8 @@ int main(int argument_count, char **arguments)
 {
     static double points[3 * COUNT];
     static const double stops[] = {0, 0.25, 0.5, 0.75, 1};
-    swift_shape *shape;
-    swift_shape_info info;
+    swiftprox_shape *shape;
+    swiftprox_shape_info info;
     told told = {0, 0, 2};
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
         const double z = 1 - (2 * i + 1.0) / COUNT, r = sqrt(1 - z * z);
@@ -87,16 +87,16 @@ int main(int argument_count, char **arguments)
         points[3 * i + 1] = r * sin(2.4 * i);
         points[3 * i + 2] = z;
     }
-    CHECK(swift_shape_prepare(NULL, tell, &told) == SWIFT_ERROR_NULL_POINTER && told.count == 0);
-    if (!CHECK_OK(swift_shape_create_from_points(points, COUNT, NULL, &shape)))
+    CHECK(swiftprox_shape_prepare(NULL, tell, &told) == SWIFTPROX_ERROR_NULL_POINTER && told.count == 0);
+    if (!CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, NULL, &shape)))
         return check_report("progress");
-    CHECK(info_of(shape).level_count == 0 && info_of(shape).hierarchy == SWIFT_HIERARCHY_AUTOMATIC);
+    CHECK(info_of(shape).level_count == 0 && info_of(shape).hierarchy == SWIFTPROX_HIERARCHY_AUTOMATIC);
 
     for (size_t i = 0; i < sizeof stops / sizeof stops[0]; ++i) {
         told.count = 0;
         told.last = 0;
         told.stop_at = stops[i];
-        CHECK_FAILS(SWIFT_ERROR_CANCELLED, "progress callback", swift_shape_prepare(shape, tell, &told));
+        CHECK_FAILS(SWIFTPROX_ERROR_CANCELLED, "progress callback", swiftprox_shape_prepare(shape, tell, &told));
         CHECK(told.count > 0 && told.last >= stops[i]);
         CHECK(info_of(shape).level_count == 0);
         check_distance(shape);
@@ -105,7 +105,7 @@ int main(int argument_count, char **arguments)
     told.count = 0;
     told.last = 0;
     told.stop_at = 2;
-    CHECK_OK(swift_shape_prepare(shape, tell, &told));
+    CHECK_OK(swiftprox_shape_prepare(shape, tell, &told));
     CHECK(told.count > 10 && told.last == 1);
     info = info_of(shape);
     CHECK(info.level_count > 0 && info.lookup_bytes > 0);
@@ -114,16 +114,16 @@ int main(int argument_count, char **arguments)
     /* What is made is not made again; without a callback, too. */
     told.count = 0;
     told.last = 0;
-    CHECK_OK(swift_shape_prepare(shape, tell, &told));
+    CHECK_OK(swiftprox_shape_prepare(shape, tell, &told));
     CHECK(told.count == 2 && told.last == 1);
-    CHECK_OK(swift_shape_prepare(shape, NULL, NULL));
+    CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
     check_loading(shape, argument_count > 1 ? arguments[1] : ".");
-    CHECK_OK(swift_shape_release(shape));
+    CHECK_OK(swiftprox_shape_release(shape));
 
-    CHECK_OK(swift_shape_create_from_points(points, COUNT, NULL, &shape));
-    CHECK_OK(swift_shape_prepare(shape, NULL, NULL));
+    CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, NULL, &shape));
+    CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
-    CHECK_OK(swift_shape_release(shape));
+    CHECK_OK(swiftprox_shape_release(shape));
     return check_report("progress");
 }

@@ -58,7 +58,7 @@ struct body_spec {
 };
 
 /* Points on an ellipsoid, scaled to bounding radius 1. */
-static swift_status create_ellipsoid(const struct body_spec *spec, uint64_t *random, struct body *body)
+static swiftprox_status create_ellipsoid(const struct body_spec *spec, uint64_t *random, struct body *body)
 {
     double largest = 0;
     for (size_t i = 0; i < spec->size; ++i) {
@@ -70,11 +70,11 @@ static swift_status create_ellipsoid(const struct body_spec *spec, uint64_t *ran
     }
     for (size_t i = 0; i < 3 * spec->size; ++i)
         body->points[i] /= largest;
-    return swift_shape_create_from_points(body->points, body->point_count, NULL, &body->shape);
+    return swiftprox_shape_create_from_points(body->points, body->point_count, NULL, &body->shape);
 }
 
 /* Points in a ball: most of them are inside the hull. */
-static swift_status create_random_hull(const struct body_spec *spec, uint64_t *random, struct body *body)
+static swiftprox_status create_random_hull(const struct body_spec *spec, uint64_t *random, struct body *body)
 {
     for (size_t i = 0; i < spec->size; ++i) {
         double *p = body->points + 3 * i, radius = cbrt(uniform(random));
@@ -82,11 +82,11 @@ static swift_status create_random_hull(const struct body_spec *spec, uint64_t *r
         for (int k = 0; k < 3; ++k)
             p[k] *= radius * spec->axes[k];
     }
-    return swift_shape_create_from_points(body->points, body->point_count, NULL, &body->shape);
+    return swiftprox_shape_create_from_points(body->points, body->point_count, NULL, &body->shape);
 }
 
 /* A prism about the z axis over a polygon of `sides` corners, as a mesh of two polygons and a belt of quadrilaterals. */
-static swift_status create_prism(size_t sides, struct body *body)
+static swiftprox_status create_prism(size_t sides, struct body *body)
 {
     uint32_t *valences = scene_allocate(sides + 2, sizeof *valences);
     uint32_t *indices = scene_allocate(6 * sides, sizeof *indices), *next = indices;
@@ -103,14 +103,14 @@ static swift_status create_prism(size_t sides, struct body *body)
         *next++ = (uint32_t)(sides + i);
         valences[2 + i] = 4;
     }
-    swift_status status = swift_shape_create_from_mesh(body->points, body->point_count, indices, valences,
+    swiftprox_status status = swiftprox_shape_create_from_mesh(body->points, body->point_count, indices, valences,
                                                        sides + 2, NULL, &body->shape);
     free(indices);
     free(valences);
     return status;
 }
 
-static swift_status create_body(const struct body_spec *spec, uint64_t *random, struct body *body)
+static swiftprox_status create_body(const struct body_spec *spec, uint64_t *random, struct body *body)
 {
     size_t sides = spec->kind == BOX ? 4 : spec->size;
     int is_prism = spec->kind == BOX || spec->kind == PRISM;
@@ -189,8 +189,8 @@ static void near_contact(const struct scene *scene, size_t count, uint64_t *rand
 {
     for (size_t i = 0; i < count; ++i) {
         double *pose = poses[i] + 12, direction[3];
-        swift_pair_cache cache = {{0}};
-        swift_pair_answer answer;
+        swiftprox_pair_cache cache = {{0}};
+        swiftprox_pair_answer answer;
         memcpy(poses[i], identity, sizeof identity);
         set_random_rotation(poses[i], random);
         set_random_rotation(pose, random);
@@ -198,9 +198,9 @@ static void near_contact(const struct scene *scene, size_t count, uint64_t *rand
         for (int k = 0; k < 3; ++k)
             pose[4 * k + 3] = 3 * direction[k];
         double gap = pow(10, -3 - 13 * uniform(random)) * (next_random(random) & 1 ? 1 : -1);
-        swift_status status = swift_pair_distance(scene->bodies[0].shape, poses[i], scene->bodies[1].shape, pose,
+        swiftprox_status status = swiftprox_pair_distance(scene->bodies[0].shape, poses[i], scene->bodies[1].shape, pose,
                                                   &cache, NULL, &answer);
-        if (status == SWIFT_OK && answer.outcome == SWIFT_OUTCOME_SEPARATED)
+        if (status == SWIFTPROX_OK && answer.outcome == SWIFTPROX_OUTCOME_SEPARATED)
             for (int k = 0; k < 3; ++k)
                 pose[4 * k + 3] += (answer.distance - gap) * answer.normal[k];
     }
@@ -277,7 +277,7 @@ int scene_create(size_t index, struct scene *scene)
         const struct body_spec *spec = &specs[index].bodies[k];
         if (k == 1 && spec->kind == ELLIPSOID)
             spec = &specs[index].bodies[0];
-        if (create_body(spec, &random, &scene->bodies[k]) != SWIFT_OK)
+        if (create_body(spec, &random, &scene->bodies[k]) != SWIFTPROX_OK)
             return 0;
     }
     size_t per_motion = specs[index].per_motion, near = specs[index].near_contact, on_lattice = specs[index].lattice;
@@ -295,7 +295,7 @@ int scene_create(size_t index, struct scene *scene)
 void scene_destroy(struct scene *scene)
 {
     for (int k = 0; k < 2; ++k) {
-        swift_shape_release(scene->bodies[k].shape);
+        swiftprox_shape_release(scene->bodies[k].shape);
         free(scene->bodies[k].points);
     }
     free(scene->poses);

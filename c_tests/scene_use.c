@@ -20,138 +20,138 @@ static void set_pose_at(double pose[12], double x)
 }
 
 /* Adds a cube whose lower corner is at x, its user data ten times x. */
-static swift_object_id add_cube(swift_scene *scene, double x)
+static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 {
-    swift_object_options options;
-    swift_object_id id;
-    CHECK_OK(swift_object_options_init(&options));
+    swiftprox_object_options options;
+    swiftprox_object_id id;
+    CHECK_OK(swiftprox_object_options_init(&options));
     options.user_data = (uint64_t)(10 * x);
     set_pose_at(options.pose, x);
-    CHECK_OK(swift_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
+    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
     return id;
 }
 
 /* Whether the exact query lists these distances in this order; 0 stands for an intersecting pair. */
-static int lists(swift_scene *scene, size_t count, const double *distances)
+static int lists(swiftprox_scene *scene, size_t count, const double *distances)
 {
-    swift_scene_answer answer;
-    int right = CHECK_OK(swift_scene_query_exact_distance(scene, NULL, &answer)) && answer.count == count;
+    swiftprox_scene_answer answer;
+    int right = CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer)) && answer.count == count;
     for (size_t i = 0; right && i < count; ++i)
         right = fabs(answer.pairs[i].answer.distance - distances[i]) < 1e-13 &&
-                (answer.pairs[i].answer.outcome == SWIFT_OUTCOME_INTERSECTING) == (distances[i] == 0);
+                (answer.pairs[i].answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING) == (distances[i] == 0);
     return right;
 }
 
 static void queries(void)
 {
-    swift_scene *scene;
-    swift_scene_query query;
-    swift_scene_answer answer;
-    CHECK_OK(swift_scene_create(NULL, &scene));
-    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    swiftprox_scene *scene;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
 
-    CHECK_OK(swift_scene_query_intersection(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 1);
     CHECK(answer.pairs[0].object1 == a && answer.pairs[0].object2 == b);
     CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
 
-    CHECK_OK(swift_scene_query_init(&query));
+    CHECK_OK(swiftprox_scene_query_init(&query));
     query.distance_tolerance = 1.75;
-    CHECK_OK(swift_scene_query_tolerance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_tolerance(scene, &query, &answer));
     CHECK(answer.count == 2 && answer.pairs[1].object1 == b && answer.pairs[1].object2 == c);
     CHECK(answer.pairs[0].answer.proof_count > 0 && isnan(answer.pairs[0].answer.world1[0]));
     CHECK(fabs(answer.pairs[1].answer.world1[0] - 1.5) < 1e-13 && answer.pairs[1].answer.normal[0] == -1);
 
-    CHECK_OK(swift_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
     CHECK(answer.count == 2);
     /* Points on both, in both frames, and the normal from object 2 to object 1. */
-    const swift_pair_answer *apart = &answer.pairs[1].answer;
+    const swiftprox_pair_answer *apart = &answer.pairs[1].answer;
     CHECK(fabs(apart->world1[0] - 1.5) < 1e-13 && fabs(apart->world2[0] - 3) < 1e-13 && apart->normal[0] == -1);
     CHECK(fabs(apart->local1[0] - 1) < 1e-13 && fabs(apart->local2[0]) < 1e-13);
     CHECK(isfinite(answer.pairs[0].answer.world1[0]) && isfinite(answer.pairs[0].answer.normal[0]));
 
     CHECK(answer.found == NULL);
     query.early_exit = 1;
-    CHECK_OK(swift_scene_query_exact_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 0 && answer.pairs == NULL);
     CHECK(answer.found != NULL && answer.found->object1 == a && answer.found->object2 == b);
-    CHECK(answer.found->answer.outcome == SWIFT_OUTCOME_INTERSECTING && answer.found->user_data2 == 5);
+    CHECK(answer.found->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING && answer.found->user_data2 == 5);
 
-    swift_scene_statistics statistics;
-    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    swiftprox_scene_statistics statistics;
+    CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 5 && statistics.pairs > 0);
     CHECK(statistics.marched + statistics.coherent + statistics.fallback + statistics.exact +
               statistics.bounding_spheres == statistics.pairs);
-    CHECK_OK(swift_scene_reset_statistics(scene));
-    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK_OK(swiftprox_scene_reset_statistics(scene));
+    CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 0 && statistics.pairs == 0);
-    CHECK_OK(swift_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
 static void motion(void)
 {
-    swift_scene *scene;
-    swift_object_info info;
+    swiftprox_scene *scene;
+    swiftprox_object_info info;
     double pose[12], poses[24];
-    CHECK_OK(swift_scene_create(NULL, &scene));
-    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5);
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5);
 
     set_pose_at(pose, 3);
-    CHECK_OK(swift_scene_set_pose(scene, b, pose));
+    CHECK_OK(swiftprox_scene_set_pose(scene, b, pose));
     CHECK(lists(scene, 1, (const double[]){2}));
 
     /* Turned about its own corner, the cube at 4 reaches down to 3. */
     const double at_4[3] = {4, 0, 0};
-    CHECK_OK(swift_scene_set_transform(scene, b, QUARTER, at_4));
+    CHECK_OK(swiftprox_scene_set_transform(scene, b, QUARTER, at_4));
     CHECK(lists(scene, 1, (const double[]){2}));
     info.struct_size = sizeof info;
-    CHECK_OK(swift_scene_get_object_info(scene, b, &info));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, b, &info));
     CHECK(info.pose[1] == -1 && info.pose[3] == 4 && info.pose[4] == 1 && info.user_data == 5 && info.piece_count == 1);
 
     set_pose_at(poses, 1);
     set_pose_at(poses + 12, 6);
-    CHECK_OK(swift_scene_set_all_poses(scene, poses, 2));
+    CHECK_OK(swiftprox_scene_set_all_poses(scene, poses, 2));
     CHECK(lists(scene, 1, (const double[]){4}));
 
     const double identity_and_quarter[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 1, 0, 0, 0, 0, 1};
     const double translations[6] = {-1, 0, 0, 4, 0, 0};
-    CHECK_OK(swift_scene_set_all_transforms(scene, identity_and_quarter, translations, 2));
+    CHECK_OK(swiftprox_scene_set_all_transforms(scene, identity_and_quarter, translations, 2));
     CHECK(lists(scene, 1, (const double[]){3}));
 
     /* A copy stands where its original does. */
-    swift_object_id copy;
-    CHECK_OK(swift_scene_copy_object(scene, a, &copy));
+    swiftprox_object_id copy;
+    CHECK_OK(swiftprox_scene_copy_object(scene, a, &copy));
     CHECK(lists(scene, 3, (const double[]){3, 0, 3}));
-    CHECK_OK(swift_scene_remove_object(scene, a));
+    CHECK_OK(swiftprox_scene_remove_object(scene, a));
     CHECK(lists(scene, 1, (const double[]){3}));
-    CHECK_OK(swift_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
 static void activation(void)
 {
-    swift_scene *scene;
+    swiftprox_scene *scene;
     int32_t active;
-    CHECK_OK(swift_scene_create(NULL, &scene));
-    const swift_object_id a = add_cube(scene, 0), b = add_cube(scene, 2), c = add_cube(scene, 5);
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 2), c = add_cube(scene, 5);
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swift_scene_deactivate_pair(scene, c, a));
-    CHECK_OK(swift_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_deactivate_pair(scene, c, a));
+    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
     CHECK(active == 0 && lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swift_scene_activate_pair(scene, a, c));
-    CHECK_OK(swift_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_activate_pair(scene, a, c));
+    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
     CHECK(active == 1 && lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swift_scene_deactivate_object(scene, b));
+    CHECK_OK(swiftprox_scene_deactivate_object(scene, b));
     CHECK(lists(scene, 1, (const double[]){4}));
-    CHECK_OK(swift_scene_deactivate_all(scene));
+    CHECK_OK(swiftprox_scene_deactivate_all(scene));
     CHECK(lists(scene, 0, NULL));
-    CHECK_OK(swift_scene_activate_object(scene, b));
+    CHECK_OK(swiftprox_scene_activate_object(scene, b));
     CHECK(lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swift_scene_activate_all(scene));
+    CHECK_OK(swiftprox_scene_activate_all(scene));
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
-    CHECK_OK(swift_scene_destroy(scene));
+    CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
 /* Round bodies with levels of detail, four radii apart: what was built and what it takes, which levels answered, and how much of
@@ -160,72 +160,72 @@ static void levels(void)
 {
     enum { COUNT = 500 };
     double points[3 * COUNT], pose[12];
-    swift_shape_options options;
-    swift_shape *shape;
-    swift_shape_info info = {sizeof info};
-    CHECK_OK(swift_shape_options_init(&options));
-    options.hierarchy = SWIFT_HIERARCHY_QUADRIC;
+    swiftprox_shape_options options;
+    swiftprox_shape *shape;
+    swiftprox_shape_info info = {sizeof info};
+    CHECK_OK(swiftprox_shape_options_init(&options));
+    options.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
         const double z = 1 - (2 * i + 1.0) / COUNT, r = sqrt(1 - z * z);
         points[3 * i] = r * cos(2.4 * i);
         points[3 * i + 1] = r * sin(2.4 * i);
         points[3 * i + 2] = z;
     }
-    if (!CHECK_OK(swift_shape_create_from_points(points, COUNT, &options, &shape)))
+    if (!CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, &options, &shape)))
         return;
-    CHECK_OK(swift_shape_get_info(shape, &info));
-    CHECK(info.hierarchy == SWIFT_HIERARCHY_QUADRIC && info.level_count > 0 && info.lookup == SWIFT_LOOKUP_SHELLS);
+    CHECK_OK(swiftprox_shape_get_info(shape, &info));
+    CHECK(info.hierarchy == SWIFTPROX_HIERARCHY_QUADRIC && info.level_count > 0 && info.lookup == SWIFTPROX_LOOKUP_SHELLS);
     CHECK(info.level_bytes > 0 && info.level_bytes + info.lookup_bytes < info.bytes);
     const size_t level_bytes = info.level_bytes, without_tables = info.bytes - info.lookup_bytes - level_bytes;
 
-    swift_shape *prepared;
-    CHECK_OK(swift_shape_create_from_points(points, COUNT, &options, &prepared));
-    CHECK_OK(swift_shape_prepare(prepared, NULL, NULL));
-    CHECK_OK(swift_shape_get_info(prepared, &info));
+    swiftprox_shape *prepared;
+    CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, &options, &prepared));
+    CHECK_OK(swiftprox_shape_prepare(prepared, NULL, NULL));
+    CHECK_OK(swiftprox_shape_get_info(prepared, &info));
     CHECK(info.lookup_bytes > 0 && info.level_bytes > level_bytes); /* levels have tables, too */
     CHECK(info.bytes == without_tables + info.lookup_bytes + info.level_bytes);
-    swift_shape_release(prepared);
+    swiftprox_shape_release(prepared);
 
-    swift_scene *scene;
-    swift_scene_query query;
-    swift_scene_answer answer;
-    swift_scene_statistics statistics;
-    swift_object_options where;
-    swift_object_id id;
-    CHECK_OK(swift_scene_create(NULL, &scene));
-    CHECK_OK(swift_object_options_init(&where));
+    swiftprox_scene *scene;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_statistics statistics;
+    swiftprox_object_options where;
+    swiftprox_object_id id;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_object_options_init(&where));
     for (int i = 0; i < 3; ++i) {
         set_pose_at(pose, 4.0 * i);
         memcpy(where.pose, pose, sizeof pose);
-        CHECK_OK(swift_scene_add_object(scene, (const swift_shape *const *)&shape, 1, &where, &id));
+        CHECK_OK(swiftprox_scene_add_object(scene, (const swiftprox_shape *const *)&shape, 1, &where, &id));
     }
-    CHECK_OK(swift_scene_query_init(&query));
-    query.levels = SWIFT_LEVELS_ALL;
+    CHECK_OK(swiftprox_scene_query_init(&query));
+    query.levels = SWIFTPROX_LEVELS_ALL;
     query.error_budget = 3;
-    CHECK_OK(swift_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
     CHECK(answer.count == 3);
-    CHECK_OK(swift_shape_get_info(shape, &info));
+    CHECK_OK(swiftprox_shape_get_info(shape, &info));
     CHECK(info.level_bytes > level_bytes); /* the levels' own tables said where to start, and levels answered */
     CHECK(info.bytes == without_tables + info.lookup_bytes + info.level_bytes);
-    swift_shape_release(shape);
+    swiftprox_shape_release(shape);
     for (size_t i = 0; i < answer.count; ++i) {
-        const swift_pair_answer *pair = &answer.pairs[i].answer;
-        CHECK(pair->status == SWIFT_PAIR_STATUS_WITHIN_TOLERANCE && pair->upper - pair->lower <= 1);
+        const swiftprox_pair_answer *pair = &answer.pairs[i].answer;
+        CHECK(pair->status == SWIFTPROX_PAIR_STATUS_WITHIN_TOLERANCE && pair->upper - pair->lower <= 1);
         CHECK(pair->statistics.levels[0] > 0 && pair->statistics.levels[1] > 0);
     }
-    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.pairs == 3 && statistics.within_tolerance == 3 && statistics.by_level[0] == 0);
     CHECK(statistics.error_spent > 0 && statistics.error_spent <= 3);
-    CHECK_OK(swift_scene_reset_statistics(scene));
-    CHECK_OK(swift_scene_query_intersection(scene, NULL, &answer));
-    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK_OK(swiftprox_scene_reset_statistics(scene));
+    CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.pairs == 3 && statistics.error_spent == 0);
     query.error_budget = 0;
-    CHECK_OK(swift_scene_reset_statistics(scene));
-    CHECK_OK(swift_scene_query_approximate_distance(scene, &query, &answer));
-    CHECK_OK(swift_scene_get_statistics(scene, &statistics));
+    CHECK_OK(swiftprox_scene_reset_statistics(scene));
+    CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.within_tolerance == 0 && statistics.by_level[0] == 3 && statistics.error_spent < 1e-12);
-    swift_scene_destroy(scene);
+    swiftprox_scene_destroy(scene);
 }
 
 int main(void)

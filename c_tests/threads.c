@@ -16,9 +16,9 @@ enum { THREADS = 4, SHAPES = 3, STEPS = 16 };
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 
-static swift_shape *shapes[SHAPES];
-static swift_scene *scene;
-static swift_object_id ids[SHAPES];
+static swiftprox_shape *shapes[SHAPES];
+static swiftprox_scene *scene;
+static swiftprox_object_id ids[SHAPES];
 static int rounds = 50;
 
 /* Of one thread; the first failed line, or 0. */
@@ -46,19 +46,19 @@ static void set_pose_at(double pose[12], double x, double y)
 /* Pair queries from touching to far apart and back; the last of them in `distances`. */
 static void query_pairs(worker *worker)
 {
-    swift_pair_cache cache = {{0}};
+    swiftprox_pair_cache cache = {{0}};
     for (int i = 0; i < STEPS; ++i) {
-        swift_pair_answer answer;
+        swiftprox_pair_answer answer;
         double pose1[12], pose2[12];
-        const swift_shape *a = shapes[i % SHAPES], *b = shapes[(i + 1) % SHAPES];
+        const swiftprox_shape *a = shapes[i % SHAPES], *b = shapes[(i + 1) % SHAPES];
         set_pose_at(pose1, 0, 0);
         set_pose_at(pose2, 0.375 * i, 0.25 * i);
         if (i % 4 == 3)
             memset(&cache, 0, sizeof cache);
-        REQUIRE(swift_shape_retain(a) == SWIFT_OK);
-        REQUIRE(swift_pair_contact(a, pose1, b, pose2, &cache, NULL, &answer) == SWIFT_OK);
-        REQUIRE(swift_pair_verify(a, pose1, b, pose2, &answer) == SWIFT_OK);
-        REQUIRE(swift_shape_release(a) == SWIFT_OK);
+        REQUIRE(swiftprox_shape_retain(a) == SWIFTPROX_OK);
+        REQUIRE(swiftprox_pair_contact(a, pose1, b, pose2, &cache, NULL, &answer) == SWIFTPROX_OK);
+        REQUIRE(swiftprox_pair_verify(a, pose1, b, pose2, &answer) == SWIFTPROX_OK);
+        REQUIRE(swiftprox_shape_release(a) == SWIFTPROX_OK);
         worker->distances[i] = answer.distance;
     }
 }
@@ -66,41 +66,41 @@ static void query_pairs(worker *worker)
 /* What the scene that all share can be asked for. */
 static void look_at_scene(worker *worker)
 {
-    swift_scene_statistics statistics;
-    REQUIRE(swift_scene_get_statistics(scene, &statistics) == SWIFT_OK && statistics.queries == 1);
+    swiftprox_scene_statistics statistics;
+    REQUIRE(swiftprox_scene_get_statistics(scene, &statistics) == SWIFTPROX_OK && statistics.queries == 1);
     for (int i = 0; i < SHAPES; ++i) {
-        swift_object_info info;
-        const swift_shape *piece;
+        swiftprox_object_info info;
+        const swiftprox_shape *piece;
         int32_t active;
         info.struct_size = sizeof info;
-        REQUIRE(swift_scene_get_object_info(scene, ids[i], &info) == SWIFT_OK && info.user_data == (uint64_t)i);
-        REQUIRE(swift_scene_get_piece(scene, ids[i], 0, &piece) == SWIFT_OK && piece == shapes[i]);
-        REQUIRE(swift_scene_is_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFT_OK && active == 1);
+        REQUIRE(swiftprox_scene_get_object_info(scene, ids[i], &info) == SWIFTPROX_OK && info.user_data == (uint64_t)i);
+        REQUIRE(swiftprox_scene_get_piece(scene, ids[i], 0, &piece) == SWIFTPROX_OK && piece == shapes[i]);
+        REQUIRE(swiftprox_scene_is_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFTPROX_OK && active == 1);
     }
 }
 
 /* A scene of the thread's own, over shapes that all share. */
 static void use_own_scene(worker *worker)
 {
-    swift_scene *own;
-    swift_scene_answer answer;
-    swift_object_id id;
-    REQUIRE(swift_scene_create(NULL, &own) == SWIFT_OK);
+    swiftprox_scene *own;
+    swiftprox_scene_answer answer;
+    swiftprox_object_id id;
+    REQUIRE(swiftprox_scene_create(NULL, &own) == SWIFTPROX_OK);
     for (int i = 0; i < SHAPES; ++i) {
-        swift_object_options options;
-        const swift_shape *piece = shapes[i];
-        REQUIRE(swift_object_options_init(&options) == SWIFT_OK);
+        swiftprox_object_options options;
+        const swiftprox_shape *piece = shapes[i];
+        REQUIRE(swiftprox_object_options_init(&options) == SWIFTPROX_OK);
         set_pose_at(options.pose, 3.0 * i, worker->number);
-        REQUIRE(swift_scene_add_object(own, &piece, 1, &options, &id) == SWIFT_OK);
+        REQUIRE(swiftprox_scene_add_object(own, &piece, 1, &options, &id) == SWIFTPROX_OK);
     }
-    REQUIRE(swift_scene_query_exact_distance(own, NULL, &answer) == SWIFT_OK && answer.count == SHAPES);
-    REQUIRE(swift_scene_remove_object(own, id) == SWIFT_OK);
+    REQUIRE(swiftprox_scene_query_exact_distance(own, NULL, &answer) == SWIFTPROX_OK && answer.count == SHAPES);
+    REQUIRE(swiftprox_scene_remove_object(own, id) == SWIFTPROX_OK);
     /* Each thread fails in its own way and reads its own message. */
-    REQUIRE(swift_scene_remove_object(own, id) == SWIFT_ERROR_HANDLE);
-    REQUIRE(strstr(swift_library_last_error_message(), "stale") != NULL);
-    REQUIRE(swift_library_check_version(100 + worker->number, 0, 0) == SWIFT_ERROR_VERSION);
-    REQUIRE(strstr(swift_library_last_error_message(), (const char *[]){"100.", "101.", "102.", "103."}[worker->number]) != NULL);
-    REQUIRE(swift_scene_destroy(own) == SWIFT_OK);
+    REQUIRE(swiftprox_scene_remove_object(own, id) == SWIFTPROX_ERROR_HANDLE);
+    REQUIRE(strstr(swiftprox_library_last_error_message(), "stale") != NULL);
+    REQUIRE(swiftprox_library_check_version(100 + worker->number, 0, 0) == SWIFTPROX_ERROR_VERSION);
+    REQUIRE(strstr(swiftprox_library_last_error_message(), (const char *[]){"100.", "101.", "102.", "103."}[worker->number]) != NULL);
+    REQUIRE(swiftprox_scene_destroy(own) == SWIFTPROX_OK);
 }
 
 static void *work(void *argument)
@@ -117,28 +117,28 @@ static void *work(void *argument)
 int main(int argument_count, char **arguments)
 {
     worker workers[THREADS] = {{0}};
-    swift_scene_answer answer;
+    swiftprox_scene_answer answer;
     int failures = 0;
     if (argument_count > 1)
         rounds = atoi(arguments[1]);
-    if (swift_scene_create(NULL, &scene) != SWIFT_OK)
+    if (swiftprox_scene_create(NULL, &scene) != SWIFTPROX_OK)
         return 1;
     for (int i = 0; i < SHAPES; ++i) {
-        swift_object_options options;
+        swiftprox_object_options options;
         double corners[24];
         for (int k = 0; k < 24; ++k)
             corners[k] = CORNERS[k] * (1 + i % (1 + k % 3));
-        const swift_shape *piece;
-        if (swift_shape_create_from_points(corners, 8, NULL, &shapes[i]) != SWIFT_OK)
+        const swiftprox_shape *piece;
+        if (swiftprox_shape_create_from_points(corners, 8, NULL, &shapes[i]) != SWIFTPROX_OK)
             return 1;
         piece = shapes[i];
-        swift_object_options_init(&options);
+        swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
         set_pose_at(options.pose, 3.0 * i, 0);
-        if (swift_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFT_OK)
+        if (swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFTPROX_OK)
             return 1;
     }
-    if (swift_scene_query_exact_distance(scene, NULL, &answer) != SWIFT_OK)
+    if (swiftprox_scene_query_exact_distance(scene, NULL, &answer) != SWIFTPROX_OK)
         return 1;
     for (int i = 0; i < THREADS; ++i) {
         workers[i].number = i;
@@ -158,8 +158,8 @@ int main(int argument_count, char **arguments)
         }
     }
     for (int i = 0; i < SHAPES; ++i)
-        swift_shape_release(shapes[i]);
-    swift_scene_destroy(scene);
+        swiftprox_shape_release(shapes[i]);
+    swiftprox_scene_destroy(scene);
     printf("threads: %d threads, %d rounds, %d failures\n", THREADS, rounds, failures);
     return failures == 0 ? 0 : 1;
 }

@@ -37,9 +37,9 @@ static const double PI = 3.14159265358979323846;
 
 struct flight {
     const char *names[2];
-    swift_shape *shapes[2];
+    swiftprox_shape *shapes[2];
     double poses[POSES][2][12];
-    swift_pair_answer answers[POSES];
+    swiftprox_pair_answer answers[POSES];
     double distances[POSES];
     double nanoseconds[ROWS]; /* a query */
     char title[512];
@@ -74,7 +74,7 @@ static void pose_at(const double rotation[9], const double centre[3], const doub
     }
 }
 
-static void plan_orbit(struct flight *flight, const swift_shape_info infos[2], double orbit)
+static void plan_orbit(struct flight *flight, const swiftprox_shape_info infos[2], double orbit)
 {
     static const double ORIGIN[3] = {0.0, 0.0, 0.0};
     static const double TILT_AXIS[3] = {0.6, 0.0, 0.8};
@@ -98,7 +98,7 @@ static void plan_orbit(struct flight *flight, const swift_shape_info infos[2], d
 
 static bool failed(const char *what)
 {
-    fprintf(stderr, "demo: %s: %s\n", what, swift_library_last_error_message());
+    fprintf(stderr, "demo: %s: %s\n", what, swiftprox_library_last_error_message());
     return false;
 }
 
@@ -112,12 +112,12 @@ static double nanoseconds_now(void)
 static bool fly(struct flight *flight)
 {
     for (int pass = 0; pass < PASSES; pass++) {
-        swift_pair_cache cache = {{0}};
+        swiftprox_pair_cache cache = {{0}};
         for (int row = 0; row < ROWS; row++) {
             const double start = nanoseconds_now();
             for (int i = row * POSES_A_ROW; i < (row + 1) * POSES_A_ROW; i++) {
-                if (swift_pair_distance(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
-                                        &cache, NULL, &flight->answers[i]) != SWIFT_OK) {
+                if (swiftprox_pair_distance(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
+                                        &cache, NULL, &flight->answers[i]) != SWIFTPROX_OK) {
                     return failed("a query failed");
                 }
             }
@@ -134,8 +134,8 @@ static bool fly(struct flight *flight)
 static bool verify(const struct flight *flight)
 {
     for (int i = 0; i < POSES; i++) {
-        if (swift_pair_verify(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
-                              &flight->answers[i]) != SWIFT_OK) {
+        if (swiftprox_pair_verify(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
+                              &flight->answers[i]) != SWIFTPROX_OK) {
             return failed("an answer does not hold");
         }
     }
@@ -144,22 +144,22 @@ static bool verify(const struct flight *flight)
 
 /* ---- the table ---- */
 
-static unsigned steps_of(const swift_pair_answer *answer)
+static unsigned steps_of(const swiftprox_pair_answer *answer)
 {
-    const swift_statistics *statistics = &answer->statistics;
+    const swiftprox_statistics *statistics = &answer->statistics;
     return statistics->marching_steps + statistics->fallback_iterations + statistics->exact_iterations;
 }
 
-static void describe_feature(const swift_feature *feature, char *text, size_t size)
+static void describe_feature(const swiftprox_feature *feature, char *text, size_t size)
 {
     switch (feature->kind) {
-    case SWIFT_FEATURE_KIND_VERTEX:
+    case SWIFTPROX_FEATURE_KIND_VERTEX:
         snprintf(text, size, "vertex %u", feature->ids[0]);
         break;
-    case SWIFT_FEATURE_KIND_EDGE:
+    case SWIFTPROX_FEATURE_KIND_EDGE:
         snprintf(text, size, "edge %u-%u", feature->ids[0], feature->ids[1]);
         break;
-    case SWIFT_FEATURE_KIND_FACE:
+    case SWIFTPROX_FEATURE_KIND_FACE:
         snprintf(text, size, "face %u", feature->ids[0]);
         break;
     default:
@@ -169,13 +169,13 @@ static void describe_feature(const swift_feature *feature, char *text, size_t si
 
 static void print_row(const struct flight *flight, int row)
 {
-    const swift_pair_answer *answer = &flight->answers[row * POSES_A_ROW];
+    const swiftprox_pair_answer *answer = &flight->answers[row * POSES_A_ROW];
     double steps = 0.0;
     for (int i = row * POSES_A_ROW; i < (row + 1) * POSES_A_ROW; i++) {
         steps += steps_of(&flight->answers[i]);
     }
     printf("  %4d", row * 360 / ROWS);
-    if (answer->outcome == SWIFT_OUTCOME_INTERSECTING) {
+    if (answer->outcome == SWIFTPROX_OUTCOME_INTERSECTING) {
         printf("  %18s  %8s", "intersecting", "");
     } else {
         printf("  %18.15f  %8.1e", answer->distance, answer->upper - answer->lower);
@@ -192,10 +192,10 @@ static void report(struct flight *flight)
     double nanoseconds = 0.0;
     int intersecting = 0;
     for (int i = 0; i < POSES; i++) {
-        const swift_pair_answer *answer = &flight->answers[i];
+        const swiftprox_pair_answer *answer = &flight->answers[i];
         flight->distances[i] = answer->distance;
         widest = fmax(widest, answer->upper - answer->lower);
-        intersecting += answer->outcome == SWIFT_OUTCOME_INTERSECTING;
+        intersecting += answer->outcome == SWIFTPROX_OUTCOME_INTERSECTING;
     }
     printf("\n%s\n  time           distance     error  steps      ns  features\n", flight->title);
     for (int row = 0; row < ROWS; row++) {
@@ -260,34 +260,34 @@ static const char *base_name(const char *path)
 }
 
 /* The model in a file, or the convex hull of one that is not convex; says so. */
-static bool load_shape(const char *path, swift_shape **shape)
+static bool load_shape(const char *path, swiftprox_shape **shape)
 {
-    const swift_status status = swift_shape_create_from_file(path, NULL, shape);
-    if (status == SWIFT_ERROR_MESH) {
-        fprintf(stderr, "demo: %s; its convex hull flies instead\n", swift_library_last_error_message());
-        swift_shape_options options;
-        swift_shape_options_init(&options);
-        options.input = SWIFT_INPUT_HULL;
-        return swift_shape_create_from_file(path, &options, shape) == SWIFT_OK || failed("cannot load");
+    const swiftprox_status status = swiftprox_shape_create_from_file(path, NULL, shape);
+    if (status == SWIFTPROX_ERROR_MESH) {
+        fprintf(stderr, "demo: %s; its convex hull flies instead\n", swiftprox_library_last_error_message());
+        swiftprox_shape_options options;
+        swiftprox_shape_options_init(&options);
+        options.input = SWIFTPROX_INPUT_HULL;
+        return swiftprox_shape_create_from_file(path, &options, shape) == SWIFTPROX_OK || failed("cannot load");
     }
-    return status == SWIFT_OK || failed("cannot load");
+    return status == SWIFTPROX_OK || failed("cannot load");
 }
 
 static bool load(struct flight *flight, double orbit)
 {
-    swift_shape_info infos[2];
+    swiftprox_shape_info infos[2];
     if (!load_shape(flight->names[0], &flight->shapes[0])) {
         return false;
     }
     if (strcmp(flight->names[0], flight->names[1]) == 0) { /* any number of bodies may share a shape */
-        swift_shape_retain(flight->shapes[0]);
+        swiftprox_shape_retain(flight->shapes[0]);
         flight->shapes[1] = flight->shapes[0];
     } else if (!load_shape(flight->names[1], &flight->shapes[1])) {
         return false;
     }
     for (int i = 0; i < 2; i++) {
         infos[i].struct_size = sizeof infos[i];
-        if (swift_shape_get_info(flight->shapes[i], &infos[i]) != SWIFT_OK) {
+        if (swiftprox_shape_get_info(flight->shapes[i], &infos[i]) != SWIFTPROX_OK) {
             return failed(flight->names[i]);
         }
     }
@@ -316,7 +316,7 @@ static bool run(struct flight *flights, int count, const struct arguments *argum
         fprintf(stderr, "demo: %s: cannot be written: %s\n", arguments->svg, strerror(errno));
         return false;
     }
-    printf("\nevery answer was checked again by swift_pair_verify; distances over time: %s\n", arguments->svg);
+    printf("\nevery answer was checked again by swiftprox_pair_verify; distances over time: %s\n", arguments->svg);
     return true;
 }
 
@@ -344,8 +344,8 @@ int main(int argc, char **argv)
     }
     const bool good = run(flights, count, &arguments);
     for (int i = 0; i < count; i++) {
-        swift_shape_release(flights[i].shapes[0]);
-        swift_shape_release(flights[i].shapes[1]);
+        swiftprox_shape_release(flights[i].shapes[0]);
+        swiftprox_shape_release(flights[i].shapes[1]);
     }
     free(flights);
     return good ? EXIT_SUCCESS : EXIT_FAILURE;

@@ -11,32 +11,32 @@ enum { STEPS = 5 };
 static const char *const NAMES[] = {"box", "ball", "prism"}; /* by user data */
 
 /* Ends the program where a call failed. */
-static void demand(swift_status status)
+static void demand(swiftprox_status status)
 {
-    if (status != SWIFT_OK) {
-        fprintf(stderr, "scene: %s\n", swift_library_last_error_message());
+    if (status != SWIFTPROX_OK) {
+        fprintf(stderr, "scene: %s\n", swiftprox_library_last_error_message());
         exit(EXIT_FAILURE);
     }
 }
 
-static swift_object_id add(swift_scene *scene, const char *folder, const char *model, uint64_t name, int fixed)
+static swiftprox_object_id add(swiftprox_scene *scene, const char *folder, const char *model, uint64_t name, int fixed)
 {
     char path[1024];
-    swift_object_options options;
-    swift_object_id id;
+    swiftprox_object_options options;
+    swiftprox_object_id id;
     snprintf(path, sizeof path, "%s/%s", folder, model);
-    demand(swift_object_options_init(&options));
+    demand(swiftprox_object_options_init(&options));
     options.user_data = name;
     options.fixed = fixed;
-    demand(swift_scene_add_file(scene, path, NULL, &options, &id));
+    demand(swiftprox_scene_add_file(scene, path, NULL, &options, &id));
     return id;
 }
 
-static void print_pair(const swift_pair_result *pair)
+static void print_pair(const swiftprox_pair_result *pair)
 {
-    const swift_pair_answer *answer = &pair->answer;
+    const swiftprox_pair_answer *answer = &pair->answer;
     printf("  %s and %s: ", NAMES[pair->user_data1], NAMES[pair->user_data2]);
-    if (answer->outcome == SWIFT_OUTCOME_INTERSECTING) {
+    if (answer->outcome == SWIFTPROX_OUTCOME_INTERSECTING) {
         printf("intersecting\n");
     } else {
         printf("%.3f, normal (%.2f %.2f %.2f)\n", answer->distance, answer->normal[0], answer->normal[1],
@@ -47,31 +47,31 @@ static void print_pair(const swift_pair_result *pair)
 int main(int argc, char **argv)
 {
     const char *const folder = argc > 1 ? argv[1] : "examples/models";
-    swift_scene *scene;
-    demand(swift_scene_create(NULL, &scene));
+    swiftprox_scene *scene;
+    demand(swiftprox_scene_create(NULL, &scene));
     add(scene, folder, "box.off", 0, 1);
-    const swift_object_id ball = add(scene, folder, "sphere.stl", 1, 0);
-    const swift_object_id prism = add(scene, folder, "prism.obj", 2, 0);
+    const swiftprox_object_id ball = add(scene, folder, "sphere.stl", 1, 0);
+    const swiftprox_object_id prism = add(scene, folder, "prism.obj", 2, 0);
 
     const double at_the_side[12] = {1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 1}; /* rows of [R|T] */
-    demand(swift_scene_set_pose(scene, ball, at_the_side));
+    demand(swiftprox_scene_set_pose(scene, ball, at_the_side));
 
-    swift_scene_query query;
-    demand(swift_scene_query_init(&query));
+    swiftprox_scene_query query;
+    demand(swiftprox_scene_query_init(&query));
     query.distance_tolerance = 1.0; /* who is farther apart is not listed */
 
     for (int step = 0; step < STEPS; step++) {
         const double upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
         const double place[3] = {0, 0, 3.0 - 0.5 * step};
-        demand(swift_scene_set_transform(scene, prism, upright, place));
+        demand(swiftprox_scene_set_transform(scene, prism, upright, place));
 
-        swift_scene_answer answer; /* its list is the scene's, valid until the next change or query */
-        demand(swift_scene_query_exact_distance(scene, &query, &answer));
+        swiftprox_scene_answer answer; /* its list is the scene's, valid until the next change or query */
+        demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
         printf("prism at height %g: %zu near\n", place[2], answer.count);
         for (size_t i = 0; i < answer.count; i++) {
             print_pair(&answer.pairs[i]);
         }
     }
-    demand(swift_scene_destroy(scene));
+    demand(swiftprox_scene_destroy(scene));
     return EXIT_SUCCESS;
 }

@@ -13,7 +13,7 @@ use std::sync::Mutex;
 
 use random::Random;
 use swiftprox::ffi::StatusCode;
-use swiftprox::ffi::allocator::swift_library_set_allocator;
+use swiftprox::ffi::allocator::swiftprox_library_set_allocator;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::object::*;
@@ -34,7 +34,7 @@ const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
 
 fn last_message() -> String {
     // SAFETY: never null, terminated, unchanged until the next failure of this thread.
-    unsafe { CStr::from_ptr(swift_library_last_error_message()) }.to_string_lossy().into_owned()
+    unsafe { CStr::from_ptr(swiftprox_library_last_error_message()) }.to_string_lossy().into_owned()
 }
 
 /// A tetrahedron with one share, the caller's.
@@ -42,14 +42,14 @@ fn tetrahedron() -> *mut Shape {
     let mut shape = null_mut();
     // SAFETY: arrays of the sizes that are given, and room for the shape.
     let status =
-        unsafe { swift_shape_create_from_mesh(CORNERS.as_ptr(), 4, FACES.as_ptr(), null(), 4, null(), &mut shape) };
+        unsafe { swiftprox_shape_create_from_mesh(CORNERS.as_ptr(), 4, FACES.as_ptr(), null(), 4, null(), &mut shape) };
     assert_eq!(status, StatusCode::Ok, "{}", last_message());
     shape
 }
 
 fn release(shape: *const Shape) {
     // SAFETY: a living shape whose share is given up.
-    assert_eq!(unsafe { swift_shape_release(shape) }, StatusCode::Ok);
+    assert_eq!(unsafe { swiftprox_shape_release(shape) }, StatusCode::Ok);
 }
 
 /// The identity moved along x.
@@ -65,8 +65,15 @@ fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const PairConf
     unsafe {
         answer.as_mut_ptr().cast::<u8>().write_bytes(0xa5, size_of::<PairAnswer>());
         let poses = [moved(0.0), moved(3.0)];
-        let status =
-            swift_pair_distance(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), cache, config, answer.as_mut_ptr());
+        let status = swiftprox_pair_distance(
+            shape,
+            poses[0].as_ptr(),
+            shape,
+            poses[1].as_ptr(),
+            cache,
+            config,
+            answer.as_mut_ptr(),
+        );
         (status, answer.assume_init())
     }
 }
@@ -106,7 +113,7 @@ fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
     newer.unknown[5] = 1;
     let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
     assert_eq!((status, answer.outcome), (StatusCode::ErrorStructSize, Outcome::None));
-    assert!(last_message().contains("swift_pair_config"), "{}", last_message());
+    assert!(last_message().contains("swiftprox_pair_config"), "{}", last_message());
 
     for size in [0, 8, size_of::<PairConfig>() - 1, 1 << 20, usize::MAX] {
         let config = PairConfig { struct_size: size, ..PairConfig::default() };
@@ -122,14 +129,14 @@ fn unknown_enumerators_are_refused() {
     // SAFETY: every pointer is valid; the structs are written as bytes and never read here.
     unsafe {
         let mut config = MaybeUninit::<PairConfig>::uninit();
-        assert_eq!(swift_pair_config_init(config.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_pair_config_init(config.as_mut_ptr()), StatusCode::Ok);
         (&raw mut (*config.as_mut_ptr()).bounds).cast::<i32>().write(2);
         assert_eq!(distance(shape, &mut CPairCache::default(), config.as_ptr()).0, StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("bounds is 2"), "{}", last_message());
 
         let (_, answer) = distance(shape, &mut CPairCache::default(), null());
         let poses = [moved(0.0), moved(3.0)];
-        let verify = |answer| swift_pair_verify(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), answer);
+        let verify = |answer| swiftprox_pair_verify(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), answer);
         assert_eq!(verify(&answer), StatusCode::Ok, "{}", last_message());
         let mut changed = MaybeUninit::new(answer);
         (&raw mut (*changed.as_mut_ptr()).outcome).cast::<i32>().write(-1);
@@ -138,11 +145,11 @@ fn unknown_enumerators_are_refused() {
         assert_eq!(verify(&wrong), StatusCode::ErrorUnverified);
 
         let mut shape_options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swift_shape_options_init(shape_options.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_options_init(shape_options.as_mut_ptr()), StatusCode::Ok);
         let mut shape_options = shape_options.assume_init();
         shape_options.input = 3;
         let mut made = shape;
-        let status = swift_shape_create_from_points(CORNERS.as_ptr(), 4, &shape_options, &mut made);
+        let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &shape_options, &mut made);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
         assert!(made.is_null());
     }
@@ -155,23 +162,23 @@ fn info_is_cut_to_the_size_that_the_caller_has() {
     // SAFETY: every pointer is valid; the info is all zero first.
     unsafe {
         let mut info = MaybeUninit::<ShapeInfo>::zeroed().assume_init();
-        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::ErrorStructSize);
+        assert_eq!(swiftprox_shape_get_info(shape, &mut info), StatusCode::ErrorStructSize);
         info.struct_size = size_of::<ShapeInfo>();
-        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::Ok, "{}", last_message());
+        assert_eq!(swiftprox_shape_get_info(shape, &mut info), StatusCode::Ok, "{}", last_message());
         assert_eq!((info.dimension, info.vertex_count, info.edge_count), (3, 4, 6));
         assert_eq!((info.face_count, info.triangle_count), (4, 4));
         assert!((info.volume - 1.0 / 6.0).abs() < 1e-15 && info.bytes > 1000, "{info:?}");
         assert_eq!((info.lower, info.upper), ([0.0; 3], [1.0; 3]));
 
         let (mut vertices, mut labels, mut corners) = ([f64::NAN; 12], [9; 4], [9; 12]);
-        let status = swift_shape_copy_vertices(shape, vertices.as_mut_ptr(), labels.as_mut_ptr(), 4);
+        let status = swiftprox_shape_copy_vertices(shape, vertices.as_mut_ptr(), labels.as_mut_ptr(), 4);
         assert_eq!(status, StatusCode::Ok);
         for (vertex, &label) in vertices.chunks(3).zip(&labels) {
             assert_eq!(vertex, &CORNERS[3 * label as usize..][..3]);
         }
-        assert_eq!(swift_shape_copy_triangles(shape, corners.as_mut_ptr(), 4), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_copy_triangles(shape, corners.as_mut_ptr(), 4), StatusCode::Ok);
         assert!(corners.iter().all(|&corner| corner < 4));
-        let status = swift_shape_copy_triangles(shape, corners.as_mut_ptr(), 3);
+        let status = swiftprox_shape_copy_triangles(shape, corners.as_mut_ptr(), 3);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
     }
     release(shape);
@@ -208,40 +215,40 @@ fn levels_are_built_counted_and_read_back() {
     // SAFETY: every pointer is valid; the options are initialised, the infos all zero first.
     unsafe {
         let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
         let mut options = options.assume_init();
         let mut told = Told { reports: 0, last: 0.0, stop_after: usize::MAX };
         options.hierarchy = HierarchyKind::Quadric as i32;
         options.progress = Some(tell);
         options.progress_user = (&raw mut told).cast();
         let mut shape = null_mut();
-        let status = swift_shape_create_from_points(points.as_ptr(), 400, &options, &mut shape);
+        let status = swiftprox_shape_create_from_points(points.as_ptr(), 400, &options, &mut shape);
         assert_eq!(status, StatusCode::Ok, "{}", last_message());
         assert!(told.reports > 4 && told.last == 1.0, "{}", told.reports);
 
         let mut info = MaybeUninit::<ShapeInfo>::zeroed().assume_init();
         info.struct_size = size_of::<ShapeInfo>();
-        assert_eq!(swift_shape_get_info(shape, &mut info), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_get_info(shape, &mut info), StatusCode::Ok);
         assert_eq!((info.hierarchy, info.level_count), (HierarchyKind::Quadric as i32, 1));
         let mut level = MaybeUninit::<LevelInfo>::zeroed().assume_init();
-        assert_eq!(swift_shape_get_level_info(shape, 0, &mut level), StatusCode::ErrorStructSize);
+        assert_eq!(swiftprox_shape_get_level_info(shape, 0, &mut level), StatusCode::ErrorStructSize);
         level.struct_size = size_of::<LevelInfo>();
-        assert_eq!(swift_shape_get_level_info(shape, 0, &mut level), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_get_level_info(shape, 0, &mut level), StatusCode::Ok);
         assert_eq!((level.vertex_count, level.triangle_count, level.deviation), (400, 796, 0.0));
-        assert_eq!(swift_shape_get_level_info(shape, 1, &mut level), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_get_level_info(shape, 1, &mut level), StatusCode::Ok);
         assert!((50..200).contains(&level.triangle_count) && level.deviation > 0.0 && level.deviation < 0.3);
         assert_eq!(level.bytes, info.level_bytes);
         assert!(info.bytes > info.level_bytes);
         let mut none = level;
-        assert_eq!(swift_shape_get_level_info(shape, 2, &mut none), StatusCode::ErrorInvalidArgument);
+        assert_eq!(swiftprox_shape_get_level_info(shape, 2, &mut none), StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("no level 2"), "{}", last_message());
 
         // The level holds the points and is read back as it is; given back as a level of the same body it stays as it is, nearly.
         let (count, triangles) = (level.vertex_count, level.triangle_count);
         let (mut vertices, mut corners) = (vec![f64::NAN; 3 * count], vec![u32::MAX; 3 * triangles]);
-        let status = swift_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count);
+        let status = swiftprox_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count);
         assert_eq!(status, StatusCode::Ok);
-        let status = swift_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), triangles);
+        let status = swiftprox_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), triangles);
         assert_eq!(status, StatusCode::Ok);
         for [a, b, c] in corners.as_chunks::<3>().0 {
             let corner = |v: &u32| Vector::from_column_slice(&vertices[3 * *v as usize..][..3]);
@@ -251,16 +258,16 @@ fn levels_are_built_counted_and_read_back() {
             assert!(!points.as_chunks::<3>().0.iter().any(above));
         }
         for call in [
-            swift_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count - 1),
-            swift_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), 0),
-            swift_shape_copy_level_vertices(shape, 9, vertices.as_mut_ptr(), count),
+            swiftprox_shape_copy_level_vertices(shape, 1, vertices.as_mut_ptr(), count - 1),
+            swiftprox_shape_copy_level_triangles(shape, 1, corners.as_mut_ptr(), 0),
+            swiftprox_shape_copy_level_vertices(shape, 9, vertices.as_mut_ptr(), count),
         ] {
             assert_eq!(call, StatusCode::ErrorInvalidArgument);
         }
 
         let (mut fine, mut faces) = (vec![f64::NAN; 3 * 400], vec![0; 3 * 796]);
-        assert_eq!(swift_shape_copy_vertices(shape, fine.as_mut_ptr(), null_mut(), 400), StatusCode::Ok);
-        assert_eq!(swift_shape_copy_triangles(shape, faces.as_mut_ptr(), 796), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_copy_vertices(shape, fine.as_mut_ptr(), null_mut(), 400), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_copy_triangles(shape, faces.as_mut_ptr(), 796), StatusCode::Ok);
         let mesh = |vertices: &[f64], faces: &[u32]| CMesh {
             vertices: vertices.as_ptr(),
             vertex_count: vertices.len() / 3,
@@ -271,13 +278,13 @@ fn levels_are_built_counted_and_read_back() {
         let levels = [mesh(&fine, &faces), mesh(&vertices, &[])];
         let mut given = null_mut();
         assert_eq!(
-            swift_shape_create_from_levels(levels.as_ptr(), 2, null(), &mut given),
+            swiftprox_shape_create_from_levels(levels.as_ptr(), 2, null(), &mut given),
             StatusCode::Ok,
             "{}",
             last_message()
         );
         let mut same = level;
-        assert_eq!(swift_shape_get_level_info(given, 1, &mut same), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_get_level_info(given, 1, &mut same), StatusCode::Ok);
         assert_eq!((same.vertex_count, same.triangle_count), (count, triangles));
         assert!((same.deviation - level.deviation).abs() < 1e-12, "{:e} {:e}", same.deviation, level.deviation);
 
@@ -285,35 +292,41 @@ fn levels_are_built_counted_and_read_back() {
         let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_interface.shape");
         let path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
         let mut loaded = null_mut();
-        assert_eq!(swift_shape_save(given, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+        assert_eq!(swiftprox_shape_save(given, path.as_ptr()), StatusCode::Ok, "{}", last_message());
         assert_eq!(
-            swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
+            swiftprox_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
             StatusCode::Ok,
             "{}",
             last_message()
         );
         assert!(*loaded == *given);
         release(loaded);
-        assert_eq!(swift_shape_save(null(), path.as_ptr()), StatusCode::ErrorNullPointer);
-        assert_eq!(swift_shape_load(null(), None, null_mut(), &mut loaded), StatusCode::ErrorNullPointer);
-        assert_eq!(swift_shape_load(c"no/such/file".as_ptr(), None, null_mut(), &mut loaded), StatusCode::ErrorFile);
+        assert_eq!(swiftprox_shape_save(null(), path.as_ptr()), StatusCode::ErrorNullPointer);
+        assert_eq!(swiftprox_shape_load(null(), None, null_mut(), &mut loaded), StatusCode::ErrorNullPointer);
+        assert_eq!(
+            swiftprox_shape_load(c"no/such/file".as_ptr(), None, null_mut(), &mut loaded),
+            StatusCode::ErrorFile
+        );
         assert!(loaded.is_null() && last_message().contains("no/such/file"), "{}", last_message());
         release(given);
 
         let bad = [levels[0], mesh(&vertices[..9], &[])];
-        assert_eq!(swift_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given), StatusCode::ErrorMesh);
+        assert_eq!(swiftprox_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given), StatusCode::ErrorMesh);
         assert!(last_message().contains("level 1") && given.is_null(), "{}", last_message());
         let bad = [levels[0], CMesh { vertices: null(), ..levels[1] }];
-        assert_eq!(swift_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
+        assert_eq!(
+            swiftprox_shape_create_from_levels(bad.as_ptr(), 2, null(), &mut given),
+            StatusCode::ErrorNullPointer
+        );
         assert!(last_message().contains("levels[1]"), "{}", last_message());
-        assert_eq!(swift_shape_create_from_levels(null(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
-        assert_eq!(swift_shape_create_from_levels(null(), 0, null(), &mut given), StatusCode::ErrorInvalidArgument);
+        assert_eq!(swiftprox_shape_create_from_levels(null(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
+        assert_eq!(swiftprox_shape_create_from_levels(null(), 0, null(), &mut given), StatusCode::ErrorInvalidArgument);
         let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
         let options = CShapeOptions { hierarchy: HierarchyKind::Given as i32, ..options.assume_init() };
-        let status = swift_shape_create_from_levels(levels.as_ptr(), 2, &options, &mut given);
+        let status = swiftprox_shape_create_from_levels(levels.as_ptr(), 2, &options, &mut given);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
-        assert!(last_message().contains("SWIFT_HIERARCHY_NONE"), "{}", last_message());
+        assert!(last_message().contains("SWIFTPROX_HIERARCHY_NONE"), "{}", last_message());
         release(shape);
     }
 }
@@ -330,9 +343,9 @@ fn a_path_may_be_any_bytes_and_messages_are_utf8() {
     let mut loaded = null_mut();
     // SAFETY: strings, a living shape, and room for another.
     unsafe {
-        assert_eq!(swift_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+        assert_eq!(swiftprox_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
         assert_eq!(
-            swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
+            swiftprox_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
             StatusCode::Ok,
             "{}",
             last_message()
@@ -341,8 +354,8 @@ fn a_path_may_be_any_bytes_and_messages_are_utf8() {
         release(loaded);
         let file = <std::ffi::OsStr as std::os::unix::ffi::OsStrExt>::from_bytes(path.to_bytes());
         std::fs::remove_file(file).unwrap();
-        assert_eq!(swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded), StatusCode::ErrorFile);
-        let message = CStr::from_ptr(swift_library_last_error_message()).to_str().unwrap();
+        assert_eq!(swiftprox_shape_load(path.as_ptr(), None, null_mut(), &mut loaded), StatusCode::ErrorFile);
+        let message = CStr::from_ptr(swiftprox_library_last_error_message()).to_str().unwrap();
         assert!(message.contains("Grüße \u{fffd}\u{fffd}(.shape: cannot be read"), "{message}");
     }
     release(shape);
@@ -354,7 +367,7 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
     // SAFETY: every pointer is valid; the options are initialised.
     unsafe {
         let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swift_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
         let mut options = options.assume_init();
         let mut told = Told { reports: 0, last: 0.0, stop_after: 2 };
         options.hierarchy = HierarchyKind::DobkinKirkpatrick as i32;
@@ -362,7 +375,7 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
         options.progress_user = (&raw mut told).cast();
         let mut shape = null_mut();
         let mut make = |options: &CShapeOptions| {
-            let status = swift_shape_create_from_points(points.as_ptr(), 400, options, &mut shape);
+            let status = swiftprox_shape_create_from_points(points.as_ptr(), 400, options, &mut shape);
             assert!(status == StatusCode::Ok || shape.is_null());
             status
         };
@@ -376,7 +389,7 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
         for hierarchy in [HierarchyKind::Given as i32, 99, -1] {
             assert_eq!(make(&CShapeOptions { hierarchy, ..options }), StatusCode::ErrorInvalidArgument);
             // Who gives levels is told where they go.
-            let is_told = last_message().contains("swift_shape_create_from_levels");
+            let is_told = last_message().contains("swiftprox_shape_create_from_levels");
             assert_eq!(is_told, hierarchy == HierarchyKind::Given as i32, "{}", last_message());
         }
         for (decimation, shown) in [(0.0, "0.0"), (1.0, "1.0"), (f64::NAN, "NaN")] {
@@ -393,21 +406,21 @@ fn a_scene_holds_shares_of_its_own() {
     // SAFETY: every pointer is valid, and the scene is used by this thread only.
     unsafe {
         let mut scene = null_mut();
-        assert_eq!(swift_scene_create(null(), &mut scene), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_create(null(), &mut scene), StatusCode::Ok);
         let mut options = MaybeUninit::<CObjectOptions>::uninit();
-        assert_eq!(swift_object_options_init(options.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_object_options_init(options.as_mut_ptr()), StatusCode::Ok);
         let mut options = options.assume_init();
         let mut ids = [ObjectId::NULL; 2];
         for (i, id) in ids.iter_mut().enumerate() {
             options.user_data = 10 + i as u64;
             options.pose = moved(3.0 * i as f64);
             let pieces = [shape.cast_const(); 2];
-            assert_eq!(swift_scene_add_object(scene, pieces.as_ptr(), 2, &options, id), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_add_object(scene, pieces.as_ptr(), 2, &options, id), StatusCode::Ok);
         }
         // The scene's shares outlive the caller's.
         release(shape);
         let mut answer = MaybeUninit::<CSceneAnswer>::uninit();
-        assert_eq!(swift_scene_query_exact_distance(scene, null(), answer.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_query_exact_distance(scene, null(), answer.as_mut_ptr()), StatusCode::Ok);
         let answer = answer.assume_init();
         assert_eq!((answer.count, answer.intersecting), (4, 0));
         for (k, pair) in std::slice::from_raw_parts(answer.pairs, answer.count).iter().enumerate() {
@@ -418,10 +431,10 @@ fn a_scene_holds_shares_of_its_own() {
         }
 
         let mut piece = null();
-        assert_eq!(swift_scene_get_piece(scene, ids[0], 1, &mut piece), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_get_piece(scene, ids[0], 1, &mut piece), StatusCode::Ok);
         assert_eq!(piece, shape.cast_const());
-        assert_eq!(swift_shape_retain(piece), StatusCode::Ok);
-        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+        assert_eq!(swiftprox_shape_retain(piece), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
         // And the caller's share outlives the scene.
         assert_eq!(distance(piece, &mut CPairCache::default(), null()).0, StatusCode::Ok);
         release(piece);
@@ -435,10 +448,10 @@ fn messages_belong_to_their_thread() {
             threads.spawn(move || {
                 assert_eq!(last_message(), "");
                 for _ in 0..100 {
-                    assert_eq!(swift_library_check_version(9, i as i32, 0), StatusCode::ErrorVersion);
+                    assert_eq!(swiftprox_library_check_version(9, i as i32, 0), StatusCode::ErrorVersion);
                     assert!(last_message().contains(&format!("9.{i}.0")), "{}", last_message());
                     assert_eq!(
-                        swift_library_check_version(VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH),
+                        swiftprox_library_check_version(VERSION_MAJOR, VERSION_MINOR, VERSION_PATCH),
                         StatusCode::Ok
                     );
                     assert!(last_message().contains(&format!("9.{i}.0")), "a success leaves the message");
@@ -459,10 +472,10 @@ fn the_log_hears_of_every_failure() {
             HEARD.lock().unwrap().push((status, message));
         }
     }
-    swift_library_set_log(Some(hear), std::ptr::without_provenance_mut(42));
-    swift_library_check_version(7331, 0, 0);
-    swift_library_set_log(None, null_mut());
-    swift_library_check_version(7331, 1, 0);
+    swiftprox_library_set_log(Some(hear), std::ptr::without_provenance_mut(42));
+    swiftprox_library_check_version(7331, 0, 0);
+    swiftprox_library_set_log(None, null_mut());
+    swiftprox_library_check_version(7331, 1, 0);
     let heard = HEARD.lock().unwrap();
     assert_eq!(heard.len(), 1, "{heard:?}");
     assert_eq!(heard[0].0, StatusCode::ErrorVersion as i32);
@@ -472,7 +485,7 @@ fn the_log_hears_of_every_failure() {
 #[test]
 #[cfg(not(feature = "allocator"))]
 fn a_rust_program_keeps_its_allocator() {
-    assert_eq!(swift_library_set_allocator(None, None, null_mut()), StatusCode::ErrorUnsupported);
+    assert_eq!(swiftprox_library_set_allocator(None, None, null_mut()), StatusCode::ErrorUnsupported);
     assert!(last_message().contains("feature `allocator`"));
 }
 
@@ -480,9 +493,9 @@ fn a_rust_program_keeps_its_allocator() {
 fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
     type InWords = extern "C" fn(i32) -> *const c_char;
     for (in_words, last, unknown) in [
-        (swift_library_status_string as InWords, StatusCode::ErrorBusy as i32, "not a status"),
-        (swift_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
-        (swift_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
+        (swiftprox_library_status_string as InWords, StatusCode::ErrorBusy as i32, "not a status"),
+        (swiftprox_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
+        (swiftprox_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
     ] {
         let words = |number: i32| {
             // SAFETY: never null, terminated, valid for ever.
@@ -507,7 +520,8 @@ fn what_a_failed_call_does_not_say_is_nan() {
     let (here, there) = (here.as_ptr(), there.as_ptr());
     let config = PairConfig { distance_tolerance: -1.0, ..PairConfig::default() };
     let small = PairConfig { struct_size: 8, ..PairConfig::default() };
-    let queries = [swift_pair_distance, swift_pair_intersection, swift_pair_contact, swift_pair_approximate];
+    let queries =
+        [swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate];
     let arguments = [
         (null(), here, shape as *const Shape, there, null()),
         (shape, null(), shape, there, null()),
@@ -546,9 +560,9 @@ fn what_a_failed_call_does_not_say_is_nan() {
     let mut scene = null_mut();
     // SAFETY: every pointer is valid or null; all bytes are zero but the sizes, which make valid structs.
     unsafe {
-        assert_eq!(swift_scene_create(null(), &mut scene), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_create(null(), &mut scene), StatusCode::Ok);
         (*shape_info.as_mut_ptr()).struct_size = size_of::<ShapeInfo>();
-        assert_eq!(swift_shape_get_info(null(), shape_info.as_mut_ptr()), StatusCode::ErrorNullPointer);
+        assert_eq!(swiftprox_shape_get_info(null(), shape_info.as_mut_ptr()), StatusCode::ErrorNullPointer);
         let info = shape_info.assume_init();
         let vectors = [info.centre_of_mass, info.lower, info.upper];
         assert!(vectors.iter().flatten().chain(&[info.volume, info.radius]).all(|x| x.is_nan()), "{info:?}");
@@ -556,7 +570,7 @@ fn what_a_failed_call_does_not_say_is_nan() {
         for (of, level) in [(null(), 0), (shape.cast_const(), 1), (shape, usize::MAX)] {
             level_info.as_mut_ptr().write_bytes(0, 1);
             (*level_info.as_mut_ptr()).struct_size = size_of::<LevelInfo>();
-            assert_ne!(swift_shape_get_level_info(of, level, level_info.as_mut_ptr()), StatusCode::Ok);
+            assert_ne!(swiftprox_shape_get_level_info(of, level, level_info.as_mut_ptr()), StatusCode::Ok);
             let info = level_info.assume_init();
             assert!(info.deviation.is_nan() && info.vertex_count == 0, "{info:?}");
         }
@@ -564,15 +578,15 @@ fn what_a_failed_call_does_not_say_is_nan() {
         for (of, id) in [(null(), 1), (scene.cast_const(), 0), (scene, 99)] {
             object_info.as_mut_ptr().write_bytes(0, 1);
             (*object_info.as_mut_ptr()).struct_size = size_of::<ObjectInfo>();
-            let status = swift_scene_get_object_info(of, ObjectId::from_bits(id), object_info.as_mut_ptr());
+            let status = swiftprox_scene_get_object_info(of, ObjectId::from_bits(id), object_info.as_mut_ptr());
             assert_ne!(status, StatusCode::Ok);
             let info = object_info.assume_init();
             assert!(info.pose.iter().all(|x| x.is_nan()) && info.piece_count == 0, "{info:?}");
         }
 
-        assert_eq!(swift_scene_get_statistics(null(), &mut statistics), StatusCode::ErrorNullPointer);
+        assert_eq!(swiftprox_scene_get_statistics(null(), &mut statistics), StatusCode::ErrorNullPointer);
         assert!(statistics.error_spent.is_nan() && statistics.queries == 0, "{statistics:?}");
-        assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
     }
     release(shape);
 }

@@ -38,7 +38,8 @@ fn generate() -> String {
     builder.generate().expect("cbindgen reads the source").write(&mut bytes);
     let text = String::from_utf8(bytes).expect("cbindgen writes UTF-8");
     let text = old_standards(&text);
-    let text = text.replace("SWIFT_STATUS_", "SWIFT_").replace("swift_object_id_NULL", "SWIFT_OBJECT_ID_NULL");
+    let text =
+        text.replace("SWIFTPROX_STATUS_", "SWIFTPROX_").replace("swiftprox_object_id_NULL", "SWIFTPROX_OBJECT_ID_NULL");
     ascii(&links(&short_comments(&text), &names))
 }
 
@@ -166,14 +167,14 @@ fn version_macros_are_those_of_the_crate() {
         ("MINOR", env!("CARGO_PKG_VERSION_MINOR")),
         ("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
     ] {
-        let line = format!("#define SWIFT_VERSION_{name} {value}");
+        let line = format!("#define SWIFTPROX_VERSION_{name} {value}");
         assert!(generate().lines().any(|l| l == line), "no line `{line}`");
     }
 }
 
 /// All libraries share the names of C.
 #[test]
-fn every_name_begins_with_swift() {
+fn every_name_begins_with_swiftprox() {
     let header = generate();
     let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut count = 0;
@@ -188,7 +189,7 @@ fn every_name_begins_with_swift() {
         let Some(name) = declared.map(|name| name.trim_end_matches(|c| !is_name(c))) else { continue };
         // The last word of a function type is an argument, that of an opening brace nothing.
         if !name.is_empty() && !line.contains('(') {
-            assert!(name.to_lowercase().starts_with("swift"), "{line}");
+            assert!(name.to_lowercase().starts_with("swiftprox"), "{line}");
             count += 1;
         }
     }
@@ -200,7 +201,7 @@ fn every_name_begins_with_swift() {
 #[test]
 fn header_compiles_in_every_standard() {
     let source = "#include \"swiftprox.h\"\n#include \"swiftprox.h\"\nint unit(void);\n\
-                  int unit(void) { swift_pair_cache cache = {{0}}; return (int)cache.words[0] + SWIFT_OK; }\n";
+                  int unit(void) { swiftprox_pair_cache cache = {{0}}; return (int)cache.words[0] + SWIFTPROX_OK; }\n";
     let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
     fs::write(scratch.join("swiftprox.h"), generate()).expect("the scratch folder can be written");
     let mut tested = HashSet::new();

@@ -353,7 +353,7 @@ fn flat_bodies_need_the_option() {
     let square = cube_vertices()[..4].to_vec();
     let two_sided = mesh(&square, &[&[0, 1, 3, 2], &[2, 3, 1, 0]]);
     let flat = "the mesh is flat: all vertices lie in the plane of vertices 0, 1 and 3; \
-                the input policy Flat (SWIFT_INPUT_FLAT) admits bodies without interior";
+                the input policy Flat (SWIFTPROX_INPUT_FLAT) admits bodies without interior";
     refused(&two_sided, 1e-9, flat);
     check_mesh(&two_sided, 0.0, true).unwrap();
     let mut oblique = two_sided.clone();
@@ -364,7 +364,7 @@ fn flat_bodies_need_the_option() {
     check_mesh(&cut, 0.0, true).unwrap();
     let line = [0.0, 1.0, 2.0].map(|x| Vector::new(x, x, 0.0));
     let straight = "the mesh is flat: all vertices lie on the line of vertices 0 and 2; \
-                    the input policy Hull (SWIFT_INPUT_HULL) admits segments and points";
+                    the input policy Hull (SWIFTPROX_INPUT_HULL) admits segments and points";
     refused(&mesh(&line, &[&[0, 1, 2], &[2, 1, 0]]), 1e-9, straight);
 }
 

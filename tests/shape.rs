@@ -158,16 +158,16 @@ fn refusals_of_bodies_without_interior_say_which_policy_admits_them() {
     let line = line.unwrap();
     let (strict, flat, hull) = (with(InputPolicy::Strict), with(InputPolicy::Flat), with(InputPolicy::Hull));
     for (refused, named) in [
-        (Shape::from_mesh(&square(), &strict), "SWIFT_INPUT_FLAT"),
-        (Shape::from_mesh(&line, &strict), "SWIFT_INPUT_HULL"),
-        (Shape::from_mesh(&line, &flat), "SWIFT_INPUT_HULL"),
-        (Shape::from_points(&corners, &strict), "SWIFT_INPUT_FLAT"),
-        (Shape::from_points(&corners[..2], &strict), "SWIFT_INPUT_HULL"),
-        (Shape::from_points(&corners[..2], &flat), "SWIFT_INPUT_HULL"),
-        (Shape::from_points(&corners[..1], &flat), "SWIFT_INPUT_HULL"),
+        (Shape::from_mesh(&square(), &strict), "SWIFTPROX_INPUT_FLAT"),
+        (Shape::from_mesh(&line, &strict), "SWIFTPROX_INPUT_HULL"),
+        (Shape::from_mesh(&line, &flat), "SWIFTPROX_INPUT_HULL"),
+        (Shape::from_points(&corners, &strict), "SWIFTPROX_INPUT_FLAT"),
+        (Shape::from_points(&corners[..2], &strict), "SWIFTPROX_INPUT_HULL"),
+        (Shape::from_points(&corners[..2], &flat), "SWIFTPROX_INPUT_HULL"),
+        (Shape::from_points(&corners[..1], &flat), "SWIFTPROX_INPUT_HULL"),
     ] {
         let message = mesh_message(refused);
-        assert_eq!(message.matches("SWIFT_INPUT_").count(), 1, "{message}");
+        assert_eq!(message.matches("SWIFTPROX_INPUT_").count(), 1, "{message}");
         assert!(message.contains(named), "{message}");
     }
     // And they do.

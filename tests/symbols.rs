@@ -1,28 +1,11 @@
-//! What the shared library exports: functions of our nouns, and nothing that the runtime of the Swift language, which may live
-//! in the same process, exports under the same prefix. Needs `nm`, which `make test` installs.
+//! What the shared library exports: functions of our nouns under our own prefix (`swift_` is that of the Swift language's runtime, which
+//! may live in the same process), and nothing else. Needs `nm`, which `make test` installs.
 
 use std::path::PathBuf;
 use std::process::Command;
 
 /// The nouns of the C interface.
 const NOUNS: [&str; 6] = ["library", "mesh", "shape", "pair", "object", "scene"];
-
-/// First words behind `swift_` of the entry points that docs/Runtime.md of github.com/swiftlang/swift lists, and of its libraries
-/// for concurrency, time and reflection. Most go on in camel case, which our names never do; a noun that is such a word
-/// could one day be theirs in full.
-const RUNTIME_WORDS: &str = "
-    alloc allocBox allocError allocObject allocateGenericClassMetadata allocateGenericValueMetadata
-    assignExistentialWithCopy asyncLet bridgeErrorTypeToNSError bridgeNonVerbatimFromObjectiveC bridgeObjectRelease
-    bridgeObjectRetain bufferAllocate bufferHeaderSize class clock conformsToProtocol continuation copyPOD dealloc
-    deallocBox deallocClassInstance deallocError deallocObject deallocPartialClassInstance distributed dynamicCast
-    dynamicCastClass errorRelease errorRetain executor get getDynamicType getEnumCaseMultiPayload getErrorValue
-    getGenericMetadata getObjectType getTypeName initClassMetadata initEnumMetadataMultiPayload initStackObject
-    initializeSuperclass instantiateObjCClass isClassType isDeallocating isOptionalType isUniquelyReferenced job
-    objc objcRespondsToSelector once projectBox reflectAny reflectionMirror registerProtocolConformances release
-    reportError reportMissingMethod retain retainCount rootObjCDealloc slowAlloc slowDealloc stdlib
-    storeEnumTagMultiPayload task taskGroup time tryPin tryRetain unknownRelease unknownRetain unknownWeakAssign
-    unownedCheck unownedRelease unownedRetain unpin verifyEndOfLifetime weakAssign weakDestroy weakInit weakLoadStrong
-    willThrow";
 
 /// The shared library that this test run built, beside the test.
 fn library() -> PathBuf {
@@ -45,7 +28,7 @@ fn only_functions_of_our_nouns_are_exported() {
     let header = include_str!("../include/swiftprox.h");
     assert!(exports.len() > 30, "{exports:?}");
     for name in exports {
-        let word = name.strip_prefix("swift_").unwrap_or_else(|| panic!("{name} is exported without the prefix"));
+        let word = name.strip_prefix("swiftprox_").unwrap_or_else(|| panic!("{name} is exported without the prefix"));
         let noun = word.split('_').next().unwrap_or_default();
         assert!(NOUNS.contains(&noun), "{name}: `{noun}` is no noun of the interface");
         assert!(header.contains(&format!("{name}(")), "{name} is exported and not in the header");
@@ -57,22 +40,14 @@ fn only_functions_of_our_nouns_are_exported() {
 fn every_function_of_the_header_is_exported() {
     let exports = exports();
     for line in include_str!("../include/swiftprox.h").lines() {
-        let declares = ["swift_status swift_", "const char *swift_", "void swift_"].iter().any(|s| line.starts_with(s));
+        let declares = ["swiftprox_status swiftprox_", "const char *swiftprox_", "void swiftprox_"]
+            .iter()
+            .any(|s| line.starts_with(s));
         if let Some((declaration, _)) = line.split_once('(')
             && declares
         {
             let name = declaration.split([' ', '*']).next_back().unwrap_or_default();
             assert!(exports.iter().any(|export| export == name), "{name} is not exported");
         }
-    }
-}
-
-#[test]
-fn no_noun_of_ours_is_a_word_of_the_swift_runtime() {
-    for noun in NOUNS {
-        assert!(
-            RUNTIME_WORDS.split_whitespace().all(|word| word != noun),
-            "swift_{noun}… may be a function of the Swift runtime"
-        );
     }
 }

@@ -80,17 +80,17 @@ static const char HELP[] =
 
 /* ---- the command line ---- */
 
-typedef swift_status pair_query(const swift_shape *, const double *, const swift_shape *, const double *,
-                                swift_pair_cache *, const swift_pair_config *, swift_pair_answer *);
+typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
+                                swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
     pair_query *query;
-    swift_input input;
-    swift_bounds bounds;
-    swift_start start;
-    swift_hierarchy hierarchy;
-    swift_levels levels;
+    swiftprox_input input;
+    swiftprox_bounds bounds;
+    swiftprox_start start;
+    swiftprox_hierarchy hierarchy;
+    swiftprox_levels levels;
     double error;
     size_t count;
     size_t passes; /* 0: answers, not times */
@@ -141,19 +141,19 @@ static bool parse_error(const char *word, double *error)
 static bool parse_option(const char *name, const char *value, struct arguments *arguments)
 {
     static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate"};
-    static pair_query *const QUERY_FUNCTIONS[] = {swift_pair_contact, swift_pair_distance, swift_pair_intersection,
-                                                  swift_pair_approximate};
+    static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
+                                                  swiftprox_pair_approximate};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
-    static const swift_input INPUT_VALUES[] = {SWIFT_INPUT_STRICT, SWIFT_INPUT_FLAT, SWIFT_INPUT_HULL};
+    static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
     static const char *const BOUNDS[] = {"tight", "verdict"};
-    static const swift_bounds BOUNDS_VALUES[] = {SWIFT_BOUNDS_TIGHT, SWIFT_BOUNDS_VERDICT};
+    static const swiftprox_bounds BOUNDS_VALUES[] = {SWIFTPROX_BOUNDS_TIGHT, SWIFTPROX_BOUNDS_VERDICT};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
-    static const swift_start START_VALUES[] = {SWIFT_START_AUTOMATIC, SWIFT_START_CACHE, SWIFT_START_TABLE,
-                                               SWIFT_START_COLD};
+    static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
+                                               SWIFTPROX_START_COLD};
     static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer"};
-    static const swift_hierarchy HIERARCHIES[] = {SWIFT_HIERARCHY_AUTOMATIC, SWIFT_HIERARCHY_NONE,
-                                                  SWIFT_HIERARCHY_QUADRIC, SWIFT_HIERARCHY_DOBKIN_KIRKPATRICK,
-                                                  SWIFT_HIERARCHY_OUTER_CUTS};
+    static const swiftprox_hierarchy HIERARCHIES[] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_NONE,
+                                                  SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
+                                                  SWIFTPROX_HIERARCHY_OUTER_CUTS};
 
     int choice;
     if (strcmp(name, "--query") == 0) {
@@ -185,7 +185,7 @@ static bool parse_option(const char *name, const char *value, struct arguments *
             return wrong_usage("--levels does not know ", value);
         }
         arguments->hierarchy = HIERARCHIES[choice];
-        arguments->levels = choice < 2 ? SWIFT_LEVELS_AUTOMATIC : SWIFT_LEVELS_ALL;
+        arguments->levels = choice < 2 ? SWIFTPROX_LEVELS_AUTOMATIC : SWIFTPROX_LEVELS_ALL;
     } else { /* --error */
         return parse_error(value, &arguments->error) || wrong_usage("--error wants a number from 0 on, not ", value);
     }
@@ -196,12 +196,12 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
     static const char *const WITH_VALUE[] = {"--query", "--input",  "--bounds", "--count",
                                              "--bench", "--error", "--start",  "--levels"};
-    *arguments = (struct arguments){.query = swift_pair_contact,
-                                    .input = SWIFT_INPUT_STRICT,
-                                    .bounds = SWIFT_BOUNDS_TIGHT,
-                                    .start = SWIFT_START_AUTOMATIC,
-                                    .hierarchy = SWIFT_HIERARCHY_AUTOMATIC,
-                                    .levels = SWIFT_LEVELS_AUTOMATIC,
+    *arguments = (struct arguments){.query = swiftprox_pair_contact,
+                                    .input = SWIFTPROX_INPUT_STRICT,
+                                    .bounds = SWIFTPROX_BOUNDS_TIGHT,
+                                    .start = SWIFTPROX_START_AUTOMATIC,
+                                    .hierarchy = SWIFTPROX_HIERARCHY_AUTOMATIC,
+                                    .levels = SWIFTPROX_LEVELS_AUTOMATIC,
                                     .count = SIZE_MAX};
     int files = 0;
     for (int i = 1; i < argc; i++) {
@@ -287,40 +287,40 @@ static void progress_look(struct progress *progress, size_t done, size_t total)
 /* ---- queries ---- */
 
 struct job {
-    const swift_shape *shapes[2];
+    const swiftprox_shape *shapes[2];
     struct pose_list poses;
     const char *pose_path;
     pair_query *query;
-    swift_pair_config config;
+    swiftprox_pair_config config;
 };
 
-static swift_status answer_query(const struct job *job, size_t index, swift_pair_cache *cache, swift_pair_answer *answer)
+static swiftprox_status answer_query(const struct job *job, size_t index, swiftprox_pair_cache *cache, swiftprox_pair_answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
     return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, cache, &job->config, answer);
 }
 
 /* What the library refused, with the line of the pose file; the exit status. */
-static int refused(const struct job *job, size_t index, swift_status status)
+static int refused(const struct job *job, size_t index, swiftprox_status status)
 {
-    fprintf(stderr, "%s:%zu: %s\n", job->pose_path, job->poses.lines[index], swift_library_last_error_message());
-    return status == SWIFT_ERROR_POSE ? BAD_FILE : FAILED;
+    fprintf(stderr, "%s:%zu: %s\n", job->pose_path, job->poses.lines[index], swiftprox_library_last_error_message());
+    return status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
 }
 
-static const char *status_word(swift_pair_status status)
+static const char *status_word(swiftprox_pair_status status)
 {
     switch (status) {
-    case SWIFT_PAIR_STATUS_MARCHED:
+    case SWIFTPROX_PAIR_STATUS_MARCHED:
         return "marched";
-    case SWIFT_PAIR_STATUS_COHERENT:
+    case SWIFTPROX_PAIR_STATUS_COHERENT:
         return "coherent";
-    case SWIFT_PAIR_STATUS_FALLBACK:
+    case SWIFTPROX_PAIR_STATUS_FALLBACK:
         return "fallback";
-    case SWIFT_PAIR_STATUS_EXACT:
+    case SWIFTPROX_PAIR_STATUS_EXACT:
         return "exact";
-    case SWIFT_PAIR_STATUS_WITHIN_TOLERANCE:
+    case SWIFTPROX_PAIR_STATUS_WITHIN_TOLERANCE:
         return "tolerance";
-    case SWIFT_PAIR_STATUS_BOUNDING_SPHERES:
+    case SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES:
         return "spheres";
     default:
         return "none";
@@ -353,12 +353,12 @@ static void print_rounded(double value, int direction)
     fesetround(before);
 }
 
-static void print_answer(const struct job *job, const swift_pair_answer *answer)
+static void print_answer(const struct job *job, const swiftprox_pair_answer *answer)
 {
     static const double NOTHING[3] = {NAN, NAN, NAN};
     /* The verdict's query needs some direction and says which, but it is not the normal at nearest points. */
-    const bool verdict_only = job->query == swift_pair_intersection && answer->outcome == SWIFT_OUTCOME_SEPARATED;
-    const swift_statistics *statistics = &answer->statistics;
+    const bool verdict_only = job->query == swiftprox_pair_intersection && answer->outcome == SWIFTPROX_OUTCOME_SEPARATED;
+    const swiftprox_statistics *statistics = &answer->statistics;
     print_number(verdict_only ? NAN : answer->distance);
     print_number(NAN); /* depth */
     print_vector(verdict_only ? NOTHING : answer->world1);
@@ -374,11 +374,11 @@ static int print_answers(const struct job *job)
 {
     const size_t count = job->poses.count;
     struct progress progress = progress_start();
-    swift_pair_cache cache = {0};
+    swiftprox_pair_cache cache = {0};
     for (size_t i = 0; i < count; i++) {
-        swift_pair_answer answer;
-        const swift_status status = answer_query(job, i, &cache, &answer);
-        if (status != SWIFT_OK) {
+        swiftprox_pair_answer answer;
+        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        if (status != SWIFTPROX_OK) {
             progress_erase(&progress);
             fflush(stdout);
             return refused(job, i, status);
@@ -394,11 +394,11 @@ static int print_answers(const struct job *job)
 
 static int run_pass(const struct job *job)
 {
-    swift_pair_cache cache = {0};
-    swift_pair_answer answer;
+    swiftprox_pair_cache cache = {0};
+    swiftprox_pair_answer answer;
     for (size_t i = 0; i < job->poses.count; i++) {
-        const swift_status status = answer_query(job, i, &cache, &answer);
-        if (status != SWIFT_OK) {
+        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        if (status != SWIFTPROX_OK) {
             return refused(job, i, status);
         }
     }
@@ -459,34 +459,34 @@ static int32_t building_look(void *user, double fraction)
     return 0;
 }
 
-static bool load_shape(const char *path, char name, swift_shape_options options, swift_shape **shape)
+static bool load_shape(const char *path, char name, swiftprox_shape_options options, swiftprox_shape **shape)
 {
     struct building building = {progress_start(), name};
     options.progress = building_look;
     options.progress_user = &building;
-    const swift_status status = swift_shape_create_from_file(path, &options, shape);
+    const swiftprox_status status = swiftprox_shape_create_from_file(path, &options, shape);
     progress_erase(&building.progress);
-    if (status == SWIFT_OK) {
+    if (status == SWIFTPROX_OK) {
         return true;
     }
     /* The messages about the file as a file and about the mesh in it name it. */
-    const bool named = status == SWIFT_ERROR_FILE || status == SWIFT_ERROR_MESH;
-    fprintf(stderr, "%s%s%s\n", named ? "" : path, named ? "" : ": ", swift_library_last_error_message());
+    const bool named = status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH;
+    fprintf(stderr, "%s%s%s\n", named ? "" : path, named ? "" : ": ", swiftprox_library_last_error_message());
     return false;
 }
 
 /* One shape for both objects when both are one file. */
-static bool load_shapes(const struct arguments *arguments, swift_shape *shapes[2])
+static bool load_shapes(const struct arguments *arguments, swiftprox_shape *shapes[2])
 {
-    swift_shape_options options;
-    swift_shape_options_init(&options);
+    swiftprox_shape_options options;
+    swiftprox_shape_options_init(&options);
     options.input = arguments->input;
     options.hierarchy = arguments->hierarchy;
     if (!load_shape(arguments->files[0], 'A', options, &shapes[0])) {
         return false;
     }
     if (strcmp(arguments->files[0], arguments->files[1]) == 0) {
-        swift_shape_retain(shapes[0]);
+        swiftprox_shape_retain(shapes[0]);
         shapes[1] = shapes[0];
         return true;
     }
@@ -497,9 +497,9 @@ static int run(const struct arguments *arguments)
 {
     static char buffer[OUTPUT_BUFFER];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    swift_shape *shapes[2] = {NULL, NULL};
+    swiftprox_shape *shapes[2] = {NULL, NULL};
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
-    swift_pair_config_init(&job.config);
+    swiftprox_pair_config_init(&job.config);
     job.config.bounds = arguments->bounds;
     job.config.start = arguments->start;
     job.config.levels = arguments->levels;
@@ -512,8 +512,8 @@ static int run(const struct arguments *arguments)
         result = arguments->passes ? print_times(&job, arguments->passes) : print_answers(&job);
     }
     pose_list_free(&job.poses);
-    swift_shape_release(shapes[0]);
-    swift_shape_release(shapes[1]);
+    swiftprox_shape_release(shapes[0]);
+    swiftprox_shape_release(shapes[1]);
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == GOOD) {
         fprintf(stderr, "swiftprox-query: the output cannot be written: %s\n", strerror(errno));
         return FAILED;
@@ -529,7 +529,7 @@ int main(int argc, char **argv)
             return GOOD;
         }
         if (strcmp(argv[i], "--version") == 0) {
-            printf("swiftprox-query %s\n", swift_library_version());
+            printf("swiftprox-query %s\n", swiftprox_library_version());
             return GOOD;
         }
     }

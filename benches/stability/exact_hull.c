@@ -9,12 +9,12 @@
 
 static bool write_hull(const struct body *body)
 {
-    swift_shape_info info;
+    swiftprox_shape_info info;
     info.struct_size = sizeof info;
-    if (swift_shape_get_info(body->shape, &info) != SWIFT_OK)
+    if (swiftprox_shape_get_info(body->shape, &info) != SWIFTPROX_OK)
         return false;
     uint32_t *corners = scene_allocate(3 * info.triangle_count + 1, sizeof *corners);
-    const bool copied = swift_shape_copy_triangles(body->shape, corners, info.triangle_count) == SWIFT_OK;
+    const bool copied = swiftprox_shape_copy_triangles(body->shape, corners, info.triangle_count) == SWIFTPROX_OK;
     if (copied) {
         printf("OFF\n%zu %zu 0\n", body->point_count, info.triangle_count);
         for (size_t i = 0; i < body->point_count; ++i)

@@ -18,39 +18,39 @@ static double seconds(void)
 }
 
 /* Answers one pose from what the cache holds, and leaves in it what the query learned. */
-static swift_status answer_pose(const struct run *run, size_t i, swift_pair_cache *cache, swift_pair_answer *answer,
+static swiftprox_status answer_pose(const struct run *run, size_t i, swiftprox_pair_cache *cache, swiftprox_pair_answer *answer,
                                 double *shortest)
 {
     const struct pose_pair *pose = &run->poses.pairs[i];
-    const swift_pair_cache before = *cache;
+    const swiftprox_pair_cache before = *cache;
     *shortest = 1e300;
     for (int k = 0; k < REPETITIONS; ++k) {
         *cache = before;
         const double start = seconds();
-        const swift_status status = swift_pair_distance(run->bodies[0].shape, pose->first, run->bodies[1].shape,
+        const swiftprox_status status = swiftprox_pair_distance(run->bodies[0].shape, pose->first, run->bodies[1].shape,
                                                         pose->second, cache, NULL, answer);
         const double time = seconds() - start;
-        if (status != SWIFT_OK)
+        if (status != SWIFTPROX_OK)
             return status;
         if (time < *shortest)
             *shortest = time;
     }
-    return SWIFT_OK;
+    return SWIFTPROX_OK;
 }
 
 static void answer_all(const struct run *run)
 {
-    swift_pair_cache cache = {{0}};
+    swiftprox_pair_cache cache = {{0}};
     for (size_t i = 0; i < run->poses.count; ++i) {
-        swift_pair_answer answer;
+        swiftprox_pair_answer answer;
         double time;
-        if (answer_pose(run, i, &cache, &answer, &time) != SWIFT_OK) {
+        if (answer_pose(run, i, &cache, &answer, &time) != SWIFTPROX_OK) {
             puts("failed");
-            fprintf(stderr, "%s\n", swift_library_last_error_message());
+            fprintf(stderr, "%s\n", swiftprox_library_last_error_message());
         } else {
-            const swift_statistics *did = &answer.statistics;
+            const swiftprox_statistics *did = &answer.statistics;
             printf("%s %.17g %.17g %.17g %u %u %u %.0f\n",
-                   answer.outcome == SWIFT_OUTCOME_SEPARATED ? "separated" : "intersecting", answer.distance, answer.lower,
+                   answer.outcome == SWIFTPROX_OUTCOME_SEPARATED ? "separated" : "intersecting", answer.distance, answer.lower,
                    answer.upper, (unsigned)did->marching_steps, (unsigned)did->fallback_iterations,
                    (unsigned)did->exact_iterations, 1e9 * time);
         }
@@ -67,7 +67,7 @@ int main(int argc, char **argv)
     struct run run;
     const bool loaded = run_load(argv + 1, &run);
     if (loaded) {
-        puts("ready swift_pair_distance, defaults");
+        puts("ready swiftprox_pair_distance, defaults");
         fflush(stdout);
         answer_all(&run);
     }

@@ -6,19 +6,19 @@
 
 bool run_load_body(const char *path, struct body *body)
 {
-    swift_shape_options options;
-    swift_shape_info info;
-    swift_shape_options_init(&options);
-    options.input = SWIFT_INPUT_HULL;
+    swiftprox_shape_options options;
+    swiftprox_shape_info info;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_HULL;
     info.struct_size = sizeof info;
-    if (swift_shape_create_from_file(path, &options, &body->shape) != SWIFT_OK ||
-        swift_shape_get_info(body->shape, &info) != SWIFT_OK) {
-        fprintf(stderr, "%s: %s\n", path, swift_library_last_error_message());
+    if (swiftprox_shape_create_from_file(path, &options, &body->shape) != SWIFTPROX_OK ||
+        swiftprox_shape_get_info(body->shape, &info) != SWIFTPROX_OK) {
+        fprintf(stderr, "%s: %s\n", path, swiftprox_library_last_error_message());
         return false;
     }
     body->point_count = info.vertex_count;
     body->points = scene_allocate(3 * body->point_count, sizeof *body->points);
-    return swift_shape_copy_vertices(body->shape, body->points, NULL, body->point_count) == SWIFT_OK;
+    return swiftprox_shape_copy_vertices(body->shape, body->points, NULL, body->point_count) == SWIFTPROX_OK;
 }
 
 bool run_load(char *const files[3], struct run *run)
@@ -37,6 +37,6 @@ void run_free(struct run *run)
 
 void run_free_body(struct body *body)
 {
-    swift_shape_release(body->shape);
+    swiftprox_shape_release(body->shape);
     free(body->points);
 }

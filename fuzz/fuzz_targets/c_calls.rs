@@ -31,7 +31,7 @@ fuzz_target!(|bytes: &[u8]| {
 fn step(program: &mut Program, u: &mut Unstructured) -> Result<()> {
     let status = program.call(u)?;
     // SAFETY: never null, terminated, valid for ever.
-    let words = unsafe { CStr::from_ptr(swift_library_status_string(status as i32)) };
+    let words = unsafe { CStr::from_ptr(swiftprox_library_status_string(status as i32)) };
     assert_ne!(words.to_bytes(), b"not a status");
     let bug = matches!(status, StatusCode::ErrorBug | StatusCode::ErrorPoisoned | StatusCode::ErrorVersion);
     assert!(!bug, "{status:?}: {}", last_message());

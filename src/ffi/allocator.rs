@@ -14,14 +14,14 @@ use super::{Failure, StatusCode, guard, must_return};
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
 /// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
-/// runs out: for what grows with the caller's input or a scene the call then ends in SWIFT_ERROR_MEMORY; for what is small the
+/// runs out: for what grows with the caller's input or a scene the call then ends in SWIFTPROX_ERROR_MEMORY; for what is small the
 /// program ends with a message (the head of this file says what that is). `user` is the pointer given to
-/// swift_library_set_allocator.
+/// swiftprox_library_set_allocator.
 pub type AllocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 
-/// Takes back memory that the swift_allocate_callback set with it gave for the same size and alignment. `user` is the pointer given
-/// with both.
+/// Takes back memory that the swiftprox_allocate_callback set with it gave for the same size and alignment. `user` is the pointer
+/// given with both.
 pub type DeallocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
 
@@ -33,8 +33,8 @@ struct Functions {
     user: *mut c_void,
 }
 
-// SAFETY: `user` is only ever handed back to the functions, which swift_library_set_allocator requires to be callable from every
-// thread.
+// SAFETY: `user` is only ever handed back to the functions, which swiftprox_library_set_allocator requires to be callable from
+// every thread.
 unsafe impl Send for Functions {}
 // SAFETY: as above.
 unsafe impl Sync for Functions {}
@@ -59,7 +59,7 @@ static SOURCES: Mutex<Option<&'static Source>> = Mutex::new(None);
 /// The source of new blocks; null for the system.
 static CURRENT: AtomicPtr<Source> = AtomicPtr::new(null_mut());
 
-/// An allocator that takes memory from where swift_library_set_allocator says.
+/// An allocator that takes memory from where swiftprox_library_set_allocator says.
 ///
 /// Behind what a block is for stands its source, null for the system.
 pub struct Replaceable;
@@ -164,11 +164,11 @@ unsafe impl GlobalAlloc for Replaceable {
 /// The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
 /// library, and a C++ exception that leaves them ends the program.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFT_ERROR_UNSUPPORTED: the library was
-/// not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator. Nothing has
-/// changed then.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFTPROX_ERROR_UNSUPPORTED: the
+/// library was not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator.
+/// Nothing has changed then.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_set_allocator(
+pub extern "C" fn swiftprox_library_set_allocator(
     allocate: AllocateCallback,
     deallocate: DeallocateCallback,
     user: *mut c_void,

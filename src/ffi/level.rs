@@ -8,7 +8,7 @@ use crate::base::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
-/// A polygon mesh in the caller's arrays, as swift_shape_create_from_mesh takes it.
+/// A polygon mesh in the caller's arrays, as swiftprox_shape_create_from_mesh takes it.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CMesh {
@@ -24,7 +24,7 @@ pub struct CMesh {
     pub face_count: usize,
 }
 
-/// What a level of detail is. Set struct_size to sizeof(swift_level_info) before asking for it.
+/// What a level of detail is. Set struct_size to sizeof(swiftprox_level_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct LevelInfo {
@@ -47,7 +47,7 @@ pub struct LevelInfo {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for LevelInfo {
-    const NAME: &'static str = "swift_level_info";
+    const NAME: &'static str = "swiftprox_level_info";
     const FIRST_SIZE: usize = size_of::<LevelInfo>();
 }
 
@@ -65,20 +65,20 @@ impl LevelInfo {
 }
 
 /// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
-/// swift_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
+/// swiftprox_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
 /// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
-/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFT_HIERARCHY_NONE or automatic; the input transform
+/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input transform
 /// goes for all levels.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_MESH: the body breaks the contract of swift_shape_create_from_mesh, or a level has no interior; the message
-/// names it. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_LIMIT: a count does not fit 32 bits.
-/// SWIFT_ERROR_MEMORY.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
+/// names it. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit 32 bits.
+/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_create_from_levels(
+pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     levels: *const CMesh,
     level_count: usize,
     options: *const CShapeOptions,
@@ -102,13 +102,13 @@ pub unsafe extern "C" fn swift_shape_create_from_levels(
     })
 }
 
-/// Says what a level of detail is: `level` is from 0, the body itself, to swift_shape_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swift_level_info) first. On failure the deviation is NaN, all else 0.
+/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_info.level_count, the coarsest. Set
+/// info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level. SWIFT_ERROR_NULL_POINTER: shape or info is null.
-/// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_get_level_info(
+pub unsafe extern "C" fn swiftprox_shape_get_level_info(
     shape: *const Shape,
     level: usize,
     info: *mut LevelInfo,
@@ -135,13 +135,13 @@ pub unsafe extern "C" fn swift_shape_get_level_info(
 }
 
 /// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
-/// swift_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
-/// swift_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+/// swiftprox_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
+/// swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFT_ERROR_NULL_POINTER: shape or vertices is null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_level_vertices(
+pub unsafe extern "C" fn swiftprox_shape_copy_level_vertices(
     shape: *const Shape,
     level: usize,
     vertices: *mut f64,
@@ -156,13 +156,13 @@ pub unsafe extern "C" fn swift_shape_copy_level_vertices(
 }
 
 /// Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
-/// swift_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
-/// swift_level_info.triangle_count.
+/// swiftprox_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
+/// swiftprox_level_info.triangle_count.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
+/// SWIFTPROX_ERROR_NULL_POINTER: shape or corners is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_level_triangles(
+pub unsafe extern "C" fn swiftprox_shape_copy_level_triangles(
     shape: *const Shape,
     level: usize,
     corners: *mut u32,

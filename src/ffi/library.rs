@@ -16,17 +16,17 @@ pub const VERSION_PATCH: i32 = 0;
 
 /// The version of the library that runs, as "major.minor.patch". Never null, valid for ever.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_version() -> *const c_char {
+pub extern "C" fn swiftprox_library_version() -> *const c_char {
     const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
     VERSION.as_ptr().cast()
 }
 
 /// Whether a program compiled with the header of the given version can run with this library. Call it once with
-/// SWIFT_VERSION_MAJOR, SWIFT_VERSION_MINOR and SWIFT_VERSION_PATCH, which are then those of the program.
+/// SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and SWIFTPROX_VERSION_PATCH, which are then those of the program.
 ///
-/// SWIFT_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+/// SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_check_version(major: i32, minor: i32, patch: i32) -> StatusCode {
+pub extern "C" fn swiftprox_library_check_version(major: i32, minor: i32, patch: i32) -> StatusCode {
     guard(|| {
         let fits = major == VERSION_MAJOR
             && if major == 0 { minor == VERSION_MINOR } else { (0..=VERSION_MINOR).contains(&minor) };
@@ -45,7 +45,7 @@ pub extern "C" fn swift_library_check_version(major: i32, minor: i32, patch: i32
 
 /// A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_status_string(status: i32) -> *const c_char {
     const STRINGS: [(StatusCode, &CStr); 17] = [
         (StatusCode::Ok, c"ok"),
         (StatusCode::ErrorNullPointer, c"a pointer is null"),
@@ -69,10 +69,10 @@ pub extern "C" fn swift_library_status_string(status: i32) -> *const c_char {
     known.map_or(c"not a status", |(_, string)| string).as_ptr()
 }
 
-/// An outcome of a pair query, a swift_outcome, in words. Never null, valid for ever; a number that is no outcome gets a string
+/// An outcome of a pair query, a swiftprox_outcome, in words. Never null, valid for ever; a number that is no outcome gets a string
 /// that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_outcome_string(outcome: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_outcome_string(outcome: i32) -> *const c_char {
     let string = match Outcome::from_number(outcome) {
         Some(Outcome::None) => c"nothing is said",
         Some(Outcome::Separated) => c"separated",
@@ -84,10 +84,10 @@ pub extern "C" fn swift_library_outcome_string(outcome: i32) -> *const c_char {
     string.as_ptr()
 }
 
-/// A kind of features, a swift_feature_kind, in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a number
-/// that is no kind gets a string that says so.
+/// A kind of features, a swiftprox_feature_kind, in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
+/// number that is no kind gets a string that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_feature_kind_string(kind: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_feature_kind_string(kind: i32) -> *const c_char {
     let string = match FeatureKind::from_number(kind) {
         Some(FeatureKind::None) => c"none",
         Some(FeatureKind::Vertex) => c"vertex",
@@ -98,15 +98,15 @@ pub extern "C" fn swift_library_feature_kind_string(kind: i32) -> *const c_char 
     string.as_ptr()
 }
 
-/// What went wrong in the last call of this thread that did not return SWIFT_OK; the empty string before the first. Never
+/// What went wrong in the last call of this thread that did not return SWIFTPROX_OK; the empty string before the first. Never
 /// null; valid until the next such call of the same thread, or its end.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_last_error_message() -> *const c_char {
+pub extern "C" fn swiftprox_library_last_error_message() -> *const c_char {
     LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
 /// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
-/// and the pointer given to swift_library_set_log. It must return; a C++ exception that leaves it ends the program.
+/// and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
 pub type LogCallback = Option<unsafe extern "C-unwind" fn(status: i32, message: *const c_char, user: *mut c_void)>;
 
 #[derive(Clone, Copy)]
@@ -115,7 +115,7 @@ struct Log {
     user: *mut c_void,
 }
 
-// SAFETY: `user` is only ever handed back to the callback, which swift_library_set_log requires to be callable from every
+// SAFETY: `user` is only ever handed back to the callback, which swiftprox_library_set_log requires to be callable from every
 // thread.
 unsafe impl Send for Log {}
 // SAFETY: as above.
@@ -124,10 +124,10 @@ unsafe impl Sync for Log {}
 static LOG: RwLock<Log> = RwLock::new(Log { callback: None, user: std::ptr::null_mut() });
 
 /// Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
-/// not return SWIFT_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
+/// not return SWIFTPROX_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
 /// from several at once; calls already under way in other threads may still reach the old one for a moment.
 #[unsafe(no_mangle)]
-pub extern "C" fn swift_library_set_log(callback: LogCallback, user: *mut c_void) {
+pub extern "C" fn swiftprox_library_set_log(callback: LogCallback, user: *mut c_void) {
     *LOG.write().unwrap_or_else(PoisonError::into_inner) = Log { callback, user };
 }
 
@@ -136,7 +136,7 @@ pub(super) fn log(status: StatusCode, message: &CStr) {
     // The lock is let go first: a callback may set the log.
     let log = *LOG.read().unwrap_or_else(PoisonError::into_inner);
     if let Some(callback) = log.callback {
-        // SAFETY: the callback takes any status and message and its own user pointer (swift_library_set_log).
+        // SAFETY: the callback takes any status and message and its own user pointer (swiftprox_library_set_log).
         must_return(|| unsafe { callback(status as i32, message.as_ptr(), log.user) });
     }
 }

@@ -10,8 +10,8 @@ use crate::base::memory::{extend, reserve, with_capacity};
 use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};
 use crate::mesh::{PolygonMesh, check_vertex};
 
-/// Receives the mesh that a swift_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call of
-/// the callback, for its thread.
+/// Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call
+/// of the callback, for its thread.
 #[derive(Default)]
 pub struct MeshSink {
     mesh: PolygonMesh,
@@ -23,9 +23,9 @@ pub struct MeshSink {
     refused: Option<(StatusCode, String)>,
 }
 
-/// Reads a mesh file: calls swift_mesh_sink_add_vertices and swift_mesh_sink_add_faces as often as it likes and returns 0; or says
-/// what is wrong with the file by swift_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to the sink
-/// that was refused, whether or not the callback has looked at its status.
+/// Reads a mesh file: calls swiftprox_mesh_sink_add_vertices and swiftprox_mesh_sink_add_faces as often as it likes and returns 0;
+/// or says what is wrong with the file by swiftprox_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to
+/// the sink that was refused, whether or not the callback has looked at its status.
 ///
 /// `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file but for a UTF-8 byte order mark:
 /// it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
@@ -46,8 +46,8 @@ struct Reader {
     user: *mut c_void,
 }
 
-// SAFETY: `user` is only ever handed back to the callback, which swift_library_register_mesh_reader requires to be callable from
-// every thread.
+// SAFETY: `user` is only ever handed back to the callback, which swiftprox_library_register_mesh_reader requires to be callable
+// from every thread.
 unsafe impl Send for Reader {}
 // SAFETY: as above.
 unsafe impl Sync for Reader {}
@@ -60,7 +60,7 @@ impl Reader {
         data.push(0);
         let mut sink = MeshSink::default();
         // SAFETY: the callback takes its own user pointer, the bytes of a file, and a sink, which all outlive the call
-        // (swift_library_register_mesh_reader).
+        // (swiftprox_library_register_mesh_reader).
         let returned = call_out(|| unsafe { (self.callback)(self.user, data.as_ptr().cast(), bytes.len(), &mut sink) });
         sink.finish(returned)
     }
@@ -84,22 +84,22 @@ impl MeshSink {
     }
 }
 
-/// Registers a reader of mesh files, which swift_shape_create_from_file and swift_scene_add_file call for every file that begins
-/// with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the extension of
-/// the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces. The first
-/// bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was skipped and the
-/// magic with the rest of the file, all but the byte order mark.
+/// Registers a reader of mesh files, which swiftprox_shape_create_from_file and swiftprox_scene_add_file call for every file that
+/// begins with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the
+/// extension of the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces.
+/// The first bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was
+/// skipped and the magic with the rest of the file, all but the byte order mark.
 ///
 /// The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
 /// under a magic that has one replaces it, a null callback takes it back (and does nothing if there is none). The callback may be
 /// called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
 /// and no other thread is still reading a file by it.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or it
-/// begins with the magic of another reader, or that one with it: a file could be for both. SWIFT_ERROR_MEMORY.
-/// SWIFT_ERROR_NULL_POINTER: magic is null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
+/// it begins with the magic of another reader, or that one with it: a file could be for both. SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_NULL_POINTER: magic is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_library_register_mesh_reader(
+pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
     magic: *const c_char,
     callback: MeshReaderCallback,
     user: *mut c_void,
@@ -119,11 +119,11 @@ pub unsafe extern "C" fn swift_library_register_mesh_reader(
 /// Adds `vertex_count` vertices, 3 coordinates each, to the mesh that a callback reads. They are numbered from 0 in the order in
 /// which they are added. The array is copied.
 ///
-/// SWIFT_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFT_ERROR_LIMIT: too many vertices.
-/// SWIFT_ERROR_MEMORY, which is then the status of what reads the file, too.
-/// SWIFT_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
+/// SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
+/// SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
+/// SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_mesh_sink_add_vertices(
+pub unsafe extern "C" fn swiftprox_mesh_sink_add_vertices(
     sink: *mut MeshSink,
     vertices: *const f64,
     vertex_count: usize,
@@ -145,10 +145,10 @@ pub unsafe extern "C" fn swift_mesh_sink_add_vertices(
 /// They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
 /// checked when the callback returns. The arrays are copied.
 ///
-/// SWIFT_ERROR_LIMIT: too many faces or indices. SWIFT_ERROR_MEMORY: as of swift_mesh_sink_add_vertices. SWIFT_ERROR_NULL_POINTER:
-/// sink is null, or indices while there are any. Nothing is added, and the file is refused.
+/// SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
+/// SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_mesh_sink_add_faces(
+pub unsafe extern "C" fn swiftprox_mesh_sink_add_faces(
     sink: *mut MeshSink,
     indices: *const u32,
     valences: *const u32,
@@ -171,12 +171,12 @@ pub unsafe extern "C" fn swift_mesh_sink_add_faces(
 }
 
 /// Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
-/// outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swift_shape_options.convexity_tolerance says
+/// outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swiftprox_shape_options.convexity_tolerance says
 /// otherwise.
 ///
-/// SWIFT_ERROR_NULL_POINTER: sink is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: sink is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_mesh_sink_set_single_precision(sink: *mut MeshSink) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_mesh_sink_set_single_precision(sink: *mut MeshSink) -> StatusCode {
     change(sink, |sink| {
         sink.mesh.single_precision = true;
         Ok(())
@@ -187,9 +187,9 @@ pub unsafe extern "C" fn swift_mesh_sink_set_single_precision(sink: *mut MeshSin
 /// copied, says what is wrong, best with the line; the library adds which file and which reader. The first message holds, also
 /// where a call to the sink was refused before, unless that was for memory.
 ///
-/// SWIFT_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
+/// SWIFTPROX_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_mesh_sink_fail(sink: *mut MeshSink, message: *const c_char) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_mesh_sink_fail(sink: *mut MeshSink, message: *const c_char) -> StatusCode {
     change(sink, |sink| {
         // SAFETY: the header's pointer rules.
         let message = unsafe { string(message, "message") }?.to_bytes();

@@ -65,7 +65,7 @@ pub enum StatusCode {
     ErrorPoisoned = 11,
     /// The program was compiled with a header that does not go with this library.
     ErrorVersion = 12,
-    /// The answer given to swift_pair_verify does not hold for these shapes and poses: the message says what does not.
+    /// The answer given to swiftprox_pair_verify does not hold for these shapes and poses: the message says what does not.
     ErrorUnverified = 13,
     /// The library was built without what the call is about.
     ErrorUnsupported = 14,
@@ -164,7 +164,7 @@ fn report(failure: Failure) -> StatusCode {
 }
 
 thread_local! {
-    /// What `swift_library_last_error_message` returns.
+    /// What `swiftprox_library_last_error_message` returns.
     static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
     /// What the panic hook saw, on its way to the guard.
     static LAST_PANIC: Cell<Option<String>> = const { Cell::new(None) };
@@ -410,7 +410,7 @@ mod tests {
 
     // SAFETY: repr(C), struct_size first.
     unsafe impl Versioned for Grown {
-        const NAME: &'static str = "swift_grown";
+        const NAME: &'static str = "swiftprox_grown";
         const FIRST_SIZE: usize = offset_of!(Grown, newer);
     }
 
@@ -432,7 +432,7 @@ mod tests {
         assert_eq!(null.unwrap(), DEFAULTS);
         let refused = small.unwrap_err();
         assert_eq!(refused.status, StatusCode::ErrorStructSize);
-        assert!(refused.message.contains("swift_grown"), "{}", refused.message);
+        assert!(refused.message.contains("swiftprox_grown"), "{}", refused.message);
     }
 
     #[test]

@@ -13,11 +13,11 @@ use crate::scene::Scene;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// How an object begins. Fill it with swift_object_options_init, then change what should differ.
+/// How an object begins. Fill it with swiftprox_object_options_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CObjectOptions {
-    /// Set by swift_object_options_init.
+    /// Set by swiftprox_object_options_init.
     pub struct_size: usize,
     /// The caller's own; it comes back in every result. Default: 0.
     pub user_data: u64,
@@ -29,7 +29,7 @@ pub struct CObjectOptions {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for CObjectOptions {
-    const NAME: &'static str = "swift_object_options";
+    const NAME: &'static str = "swiftprox_object_options";
     const FIRST_SIZE: usize = size_of::<CObjectOptions>();
 }
 
@@ -42,7 +42,7 @@ impl CObjectOptions {
     };
 }
 
-/// What an object is. Set struct_size to sizeof(swift_object_info) before asking for it.
+/// What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct ObjectInfo {
@@ -60,7 +60,7 @@ pub struct ObjectInfo {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for ObjectInfo {
-    const NAME: &'static str = "swift_object_info";
+    const NAME: &'static str = "swiftprox_object_info";
     const FIRST_SIZE: usize = size_of::<ObjectInfo>();
 }
 
@@ -79,9 +79,9 @@ impl ObjectInfo {
 
 /// Fills `options` with the defaults, struct_size included.
 ///
-/// SWIFT_ERROR_NULL_POINTER: options is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: options is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_object_options_init(options: *mut CObjectOptions) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_object_options_init(options: *mut CObjectOptions) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe { output(options, "options", CObjectOptions::DEFAULT) })
 }
@@ -90,11 +90,11 @@ pub unsafe extern "C" fn swift_object_options_init(options: *mut CObjectOptions)
 /// shape: the caller's own may be released at once. On failure nothing is added and `*id` is 0, which names no object.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: no pieces. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_LIMIT: more objects or pieces
-/// than a scene holds. SWIFT_ERROR_MEMORY. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
-/// SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects or
+/// pieces than a scene holds. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names
+/// the argument. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_add_object(
+pub unsafe extern "C" fn swiftprox_scene_add_object(
     scene: *mut SceneHandle,
     pieces: *const *const Shape,
     piece_count: usize,
@@ -122,10 +122,10 @@ pub unsafe extern "C" fn swift_scene_add_object(
     }
 }
 
-/// Makes a shape as swift_shape_create_from_mesh does and adds an object of that one piece as swift_scene_add_object does, with
-/// the arguments and the errors of both. Both options may be null for the defaults.
+/// Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
+/// with the arguments and the errors of both. Both options may be null for the defaults.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_add_mesh(
+pub unsafe extern "C" fn swiftprox_scene_add_mesh(
     scene: *mut SceneHandle,
     vertices: *const f64,
     vertex_count: usize,
@@ -147,10 +147,10 @@ pub unsafe extern "C" fn swift_scene_add_mesh(
     }
 }
 
-/// Makes a shape as swift_shape_create_from_file does and adds an object of that one piece as swift_scene_add_object does, with
-/// the arguments and the errors of both. Both options may be null for the defaults.
+/// Makes a shape as swiftprox_shape_create_from_file does and adds an object of that one piece as swiftprox_scene_add_object does,
+/// with the arguments and the errors of both. Both options may be null for the defaults.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_add_file(
+pub unsafe extern "C" fn swiftprox_scene_add_file(
     scene: *mut SceneHandle,
     path: *const c_char,
     shape_options: *const CShapeOptions,
@@ -171,11 +171,11 @@ pub unsafe extern "C" fn swift_scene_add_file(
 /// Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
 /// whatever those of its original are. On failure nothing is added and `*id` is 0.
 ///
-/// SWIFT_ERROR_HANDLE: original names no object of this scene. SWIFT_ERROR_LIMIT: more objects than a scene holds.
-/// SWIFT_ERROR_MEMORY.
-/// SWIFT_ERROR_NULL_POINTER: the message names the argument. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
+/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_copy_object(
+pub unsafe extern "C" fn swiftprox_scene_copy_object(
     scene: *mut SceneHandle,
     original: ObjectId,
     id: *mut ObjectId,
@@ -192,18 +192,18 @@ pub unsafe extern "C" fn swift_scene_copy_object(
 
 /// Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_remove_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.remove_object(id)?)) }
 }
 
 /// Sets the number that comes back in every result of this object.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_set_user_data(
+pub unsafe extern "C" fn swiftprox_scene_set_user_data(
     scene: *mut SceneHandle,
     id: ObjectId,
     user_data: u64,
@@ -212,12 +212,12 @@ pub unsafe extern "C" fn swift_scene_set_user_data(
     unsafe { change(scene, |scene| Ok(scene.set_user_data(id, user_data)?)) }
 }
 
-/// Says what an object is: set info->struct_size to sizeof(swift_object_info) first. On failure the pose is NaN, all else 0.
+/// Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene or info is null.
-/// SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_get_object_info(
+pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     scene: *const SceneHandle,
     id: ObjectId,
     info: *mut ObjectInfo,
@@ -239,13 +239,13 @@ pub unsafe extern "C" fn swift_scene_get_object_info(
     })
 }
 
-/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swift_shape_retain to keep
+/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
 /// the shape longer than the object. On failure `*shape` is null.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFT_ERROR_NULL_POINTER: scene or shape is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_get_piece(
+pub unsafe extern "C" fn swiftprox_scene_get_piece(
     scene: *const SceneHandle,
     id: ObjectId,
     piece: usize,
@@ -270,17 +270,21 @@ pub unsafe extern "C" fn swift_scene_get_piece(
 
 /// Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_POSE: the pose is refused. SWIFT_ERROR_NULL_POINTER: scene
-/// or pose is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_set_pose(scene: *mut SceneHandle, id: ObjectId, pose: *const f64) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_set_pose(
+    scene: *mut SceneHandle,
+    id: ObjectId,
+    pose: *const f64,
+) -> StatusCode {
     // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
     unsafe { change(scene, |scene| Ok(scene.set_pose(id, input(pose.cast::<Pose>(), "pose")?)?)) }
 }
 
-/// As swift_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
+/// As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_set_transform(
+pub unsafe extern "C" fn swiftprox_scene_set_transform(
     scene: *mut SceneHandle,
     id: ObjectId,
     rotation: *const f64,
@@ -299,15 +303,15 @@ pub unsafe extern "C" fn swift_scene_set_transform(
 /// Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
 /// stay where they are.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFT_ERROR_POSE: a pose is refused;
-/// the message names it. SWIFT_ERROR_NULL_POINTER: scene or poses is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFTPROX_ERROR_POSE: a pose is
+/// refused; the message names it. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_set_all_poses(
+pub unsafe extern "C" fn swiftprox_scene_set_all_poses(
     scene: *mut SceneHandle,
     poses: *const f64,
     count: usize,
 ) -> StatusCode {
-    // SAFETY: the header's pointer rules; see swift_scene_set_pose.
+    // SAFETY: the header's pointer rules; see swiftprox_scene_set_pose.
     unsafe {
         change(scene, |scene| {
             check_pose_count(scene, count)?;
@@ -316,9 +320,10 @@ pub unsafe extern "C" fn swift_scene_set_all_poses(
     }
 }
 
-/// As swift_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFT_ERROR_MEMORY, too.
+/// As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFTPROX_ERROR_MEMORY,
+/// too.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_set_all_transforms(
+pub unsafe extern "C" fn swiftprox_scene_set_all_transforms(
     scene: *mut SceneHandle,
     rotations: *const f64,
     translations: *const f64,
@@ -393,7 +398,7 @@ fn check_pose_count(scene: &Scene, count: usize) -> Checked<()> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene::{swift_scene_activate_all, swift_scene_create, swift_scene_destroy};
+    use super::super::scene::{swiftprox_scene_activate_all, swiftprox_scene_create, swiftprox_scene_destroy};
     use super::*;
     use std::ptr::{null, null_mut};
 
@@ -403,12 +408,12 @@ mod tests {
         let mut id = ObjectId::from_bits(7);
         // SAFETY: a living scene, used by this thread only, and room for every output.
         unsafe {
-            assert_eq!(swift_scene_create(null(), &mut scene), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_create(null(), &mut scene), StatusCode::Ok);
             let status = add(scene, null(), &mut id, || panic!("injected"));
             assert_eq!(status, StatusCode::ErrorBug);
             assert_eq!(id, ObjectId::NULL);
-            assert_eq!(swift_scene_activate_all(scene), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_activate_all(scene), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
         }
     }
 }

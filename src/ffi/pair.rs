@@ -15,7 +15,7 @@ use crate::shape::Shape;
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for PairConfig {
-    const NAME: &'static str = "swift_pair_config";
+    const NAME: &'static str = "swiftprox_pair_config";
     const FIRST_SIZE: usize = size_of::<PairConfig>();
 }
 
@@ -36,26 +36,26 @@ const _: () = {
 
 /// Fills `config` with the defaults, struct_size included.
 ///
-/// SWIFT_ERROR_NULL_POINTER: config is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: config is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_config_init(config: *mut PairConfig) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_pair_config_init(config: *mut PairConfig) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe { output(config, "config", PairConfig::default()) })
 }
 
 /// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
-/// distance is 0 and the proof is given; points, normal and features are not said (see swift_pair_contact). Of a pair beyond
-/// config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFT_FEATURE_KIND_NONE.
+/// distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair beyond
+/// config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFTPROX_FEATURE_KIND_NONE.
 ///
 /// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
 /// the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
-/// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFT_OUTCOME_NONE.
+/// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFTPROX_OUTCOME_NONE.
 ///
-/// SWIFT_ERROR_POSE: a pose is refused; the message says why. SWIFT_ERROR_INVALID_ARGUMENT: a member of config is out of range;
-/// those that are for swift_pair_approximate alone only there. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names
-/// the argument. SWIFT_ERROR_BUG: the cache is reset, too.
+/// SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
+/// range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_NULL_POINTER,
+/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is reset, too.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_distance(
+pub unsafe extern "C" fn swiftprox_pair_distance(
     shape1: *const Shape,
     pose1: *const f64,
     shape2: *const Shape,
@@ -68,11 +68,11 @@ pub unsafe extern "C" fn swift_pair_distance(
     unsafe { query(pair::distance, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// The verdict alone: SWIFT_OUTCOME_INTERSECTING, or SWIFT_OUTCOME_SEPARATED with lower > 0 and an upper that holds but need
-/// not be tight; and SWIFT_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies intersect
-/// or nearly do. Arguments and errors as of swift_pair_distance.
+/// The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
+/// need not be tight; and SWIFTPROX_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies
+/// intersect or nearly do. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_intersection(
+pub unsafe extern "C" fn swiftprox_pair_intersection(
     shape1: *const Shape,
     pose1: *const f64,
     shape2: *const Shape,
@@ -85,13 +85,13 @@ pub unsafe extern "C" fn swift_pair_intersection(
     unsafe { query(pair::intersection, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// As swift_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
+/// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
 /// which the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
 /// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
 /// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
-/// the normal, of object 2 along it. Arguments and errors as of swift_pair_distance.
+/// the normal, of object 2 along it. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_contact(
+pub unsafe extern "C" fn swiftprox_pair_contact(
     shape1: *const Shape,
     pose1: *const f64,
     shape2: *const Shape,
@@ -106,12 +106,12 @@ pub unsafe extern "C" fn swift_pair_contact(
 
 /// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
 /// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
-/// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swift_pair_distance,
-/// unless config->step_budget ran out: then the status is SWIFT_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
+/// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
+/// unless config->step_budget ran out: then the status is SWIFTPROX_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
 /// goes on from there, unless config->start says that it begin anew. Points and features are not said of an answer that comes
-/// from levels of detail. Arguments and errors as of swift_pair_distance.
+/// from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_approximate(
+pub unsafe extern "C" fn swiftprox_pair_approximate(
     shape1: *const Shape,
     pose1: *const f64,
     shape2: *const Shape,
@@ -124,7 +124,7 @@ pub unsafe extern "C" fn swift_pair_approximate(
     unsafe { query(pair::approximate, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// Re-checks an answer, trusting nothing of the search that found it. SWIFT_OK: it holds for these shapes and poses.
+/// Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
 ///
 /// Verdict and interval are proved for the exact objects R*v + T, with no tolerance. Separated and beyond: the distance is not 0,
 /// and it is in [lower, upper]; a lower of 0 is said only of a distance below all doubles, or beyond a tolerance. Intersecting: the
@@ -139,11 +139,11 @@ pub unsafe extern "C" fn swift_pair_approximate(
 ///
 /// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
 ///
-/// SWIFT_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFT_ERROR_INVALID_ARGUMENT: an enumerator in the answer is
-/// unknown, it holds no outcome, a vertex of its proof is none, or a normal or points are said of objects so large or far apart
-/// that doubles cannot tell. SWIFT_ERROR_POSE, SWIFT_ERROR_NULL_POINTER: as of swift_pair_distance.
+/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
+/// answer is unknown, it holds no outcome, a vertex of its proof is none, or a normal or points are said of objects so large or far
+/// apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_pair_verify(
+pub unsafe extern "C" fn swiftprox_pair_verify(
     shape1: *const Shape,
     pose1: *const f64,
     shape2: *const Shape,
@@ -235,16 +235,16 @@ unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checke
     }
     // SAFETY: the enumerators have been members since the first version, so their bytes are there, whatever they hold.
     let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
-    read_enumerator::<Bounds>(bounds, "config->bounds", "swift_bounds")?;
+    read_enumerator::<Bounds>(bounds, "config->bounds", "swiftprox_bounds")?;
     // SAFETY: as above.
     let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
-    read_enumerator::<Start>(start, "config->start", "swift_start")?;
+    read_enumerator::<Start>(start, "config->start", "swiftprox_start")?;
     // SAFETY: as above.
     let levels = unsafe { (&raw const (*config).levels).cast::<i32>().read() };
-    read_enumerator::<Levels>(levels, "config->levels", "swift_levels")?;
+    read_enumerator::<Levels>(levels, "config->levels", "swiftprox_levels")?;
     // SAFETY: as above.
     let refinement = unsafe { (&raw const (*config).refinement).cast::<i32>().read() };
-    read_enumerator::<Refinement>(refinement, "config->refinement", "swift_refinement")?;
+    read_enumerator::<Refinement>(refinement, "config->refinement", "swiftprox_refinement")?;
     if size == size_of::<PairConfig>() {
         // SAFETY: as large as today's struct, and its enumerators are valid.
         return Ok(unsafe { &*config });
@@ -290,17 +290,17 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
-    read_enumerator::<Outcome>(outcome, "answer->outcome", "swift_outcome")?;
-    read_enumerator::<Status>(status, "answer->status", "swift_pair_status")?;
-    read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swift_feature_kind")?;
-    read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swift_feature_kind")?;
+    read_enumerator::<Outcome>(outcome, "answer->outcome", "swiftprox_outcome")?;
+    read_enumerator::<Status>(status, "answer->status", "swiftprox_pair_status")?;
+    read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swiftprox_feature_kind")?;
     // SAFETY: its enumerators are valid, and any other bytes are.
     Ok(unsafe { &*answer })
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::library::swift_library_last_error_message;
+    use super::super::library::swiftprox_library_last_error_message;
     use super::*;
     use crate::base::math::Vector;
     use crate::shape::ShapeOptions;
@@ -319,7 +319,7 @@ mod tests {
                 if inject {
                     query(|_, _, _, _, _, _, _| panic!("injected"), &shape, pose1, &shape, pose2, cache, null(), answer)
                 } else {
-                    swift_pair_distance(&shape, pose1, &shape, pose2, cache, null(), answer)
+                    swiftprox_pair_distance(&shape, pose1, &shape, pose2, cache, null(), answer)
                 }
             }
         };
@@ -338,7 +338,7 @@ mod tests {
                             assert_eq!(format!("{answer:?}"), format!("{:?}", PairAnswer::default()));
                             assert!(answer.distance.is_nan() && answer.lower.is_nan() && answer.upper.is_nan());
                             // SAFETY: never null, terminated, unchanged until this thread's next failure.
-                            let message = unsafe { CStr::from_ptr(swift_library_last_error_message()) };
+                            let message = unsafe { CStr::from_ptr(swiftprox_library_last_error_message()) };
                             assert!(message.to_string_lossy().contains("bug in swiftprox"), "{message:?}");
                         }
                     }

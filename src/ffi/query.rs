@@ -6,42 +6,42 @@ use crate::base::error::Result;
 use crate::pair::{Bounds, Levels, Refinement, Start};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 
-/// What a query over a scene is asked for. Fill it with swift_scene_query_init, then change what should differ.
+/// What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneQuery {
-    /// Set by swift_scene_query_init.
+    /// Set by swiftprox_scene_query_init.
     pub struct_size: usize,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to infinity (the default: all pairs). swift_scene_query_intersection does without it, but refuses one out of range.
+    /// to infinity (the default: all pairs). swiftprox_scene_query_intersection does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then: swift_scene_answer.found
-    /// is it. Default: 0.
+    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
+    /// swiftprox_scene_answer.found is it. Default: 0.
     pub early_exit: i32,
-    /// A swift_bounds: which interval the answers carry. Default: the tight one.
+    /// A swiftprox_bounds: which interval the answers carry. Default: the tight one.
     pub bounds: i32,
-    /// swift_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
+    /// swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swift_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
     /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
     /// Default: infinity.
     pub error_budget: f64,
-    /// swift_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+    /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
     pub step_budget: u32,
-    /// A swift_levels: which levels of detail queries go through. Default: the automatic choice.
+    /// A swiftprox_levels: which levels of detail queries go through. Default: the automatic choice.
     pub levels: i32,
-    /// A swift_refinement: how they go from level to level. Default: the adaptive one.
+    /// A swiftprox_refinement: how they go from level to level. Default: the adaptive one.
     pub refinement: i32,
-    /// A swift_start: where marching starts in each pair. Default: the automatic choice.
+    /// A swiftprox_start: where marching starts in each pair. Default: the automatic choice.
     pub start: i32,
 }
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for CSceneQuery {
-    const NAME: &'static str = "swift_scene_query";
+    const NAME: &'static str = "swiftprox_scene_query";
     const FIRST_SIZE: usize = size_of::<CSceneQuery>();
 }
 
@@ -72,9 +72,9 @@ pub struct CSceneAnswer {
     pub count: usize,
     /// 1 if any tested pair intersects, else 0.
     pub intersecting: i32,
-    /// The intersecting pair at which the query stopped, if it did (swift_scene_query.early_exit), else null: of all that intersect
-    /// the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one undecided.)
-    /// Owned and valid as pairs are.
+    /// The intersecting pair at which the query stopped, if it did (swiftprox_scene_query.early_exit), else null: of all that
+    /// intersect the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one
+    /// undecided.) Owned and valid as pairs are.
     pub found: *const PairResult,
 }
 
@@ -85,9 +85,9 @@ impl CSceneAnswer {
 
 /// Fills `query` with the defaults, struct_size included.
 ///
-/// SWIFT_ERROR_NULL_POINTER: query is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: query is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_query_init(query: *mut CSceneQuery) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe { output(query, "query", CSceneQuery::DEFAULT) })
 }
@@ -95,12 +95,12 @@ pub unsafe extern "C" fn swift_scene_query_init(query: *mut CSceneQuery) -> Stat
 /// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
 /// and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it. SWIFT_ERROR_MEMORY: none
-/// for a changed list of pairs; the next query tries again.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument. SWIFT_ERROR_POISONED. The answer is empty
-/// then. What a scene has accepted it answers: no pair makes a query fail.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
+/// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
+/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED. The answer is empty then. What a scene
+/// has accepted it answers: no pair makes a query fail.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_intersection(
+pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -110,10 +110,10 @@ pub unsafe extern "C" fn swift_scene_query_intersection(
 }
 
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
-/// swift_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features; of
-/// an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swift_scene_query_intersection.
+/// swiftprox_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features;
+/// of an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_tolerance(
+pub unsafe extern "C" fn swiftprox_scene_query_tolerance(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -122,10 +122,10 @@ pub unsafe extern "C" fn swift_scene_query_tolerance(
     unsafe { ask(Scene::query_tolerance, scene, query, answer) }
 }
 
-/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swift_pair_distance
-/// says of each. Errors as of swift_scene_query_intersection.
+/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
+/// says of each. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_exact_distance(
+pub unsafe extern "C" fn swiftprox_scene_query_exact_distance(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -134,11 +134,11 @@ pub unsafe extern "C" fn swift_scene_query_exact_distance(
     unsafe { ask(Scene::query_exact_distance, scene, query, answer) }
 }
 
-/// As swift_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
-/// for and no narrower, with what swift_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
-/// (SWIFT_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swift_scene_query_intersection.
+/// As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+/// for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
+/// (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_approximate_distance(
+pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -147,10 +147,10 @@ pub unsafe extern "C" fn swift_scene_query_approximate_distance(
     unsafe { ask(Scene::query_approximate_distance, scene, query, answer) }
 }
 
-/// As swift_scene_query_exact_distance, with what swift_pair_contact says of each pair. Errors as of
-/// swift_scene_query_intersection.
+/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair. Errors as of
+/// swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_query_contacts(
+pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -159,12 +159,12 @@ pub unsafe extern "C" fn swift_scene_query_contacts(
     unsafe { ask(Scene::query_contacts, scene, query, answer) }
 }
 
-/// What the queries of a scene did since it was made or swift_scene_reset_statistics was called. On failure error_spent is NaN, all
-/// else 0.
+/// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
+/// all else 0.
 ///
-/// SWIFT_ERROR_NULL_POINTER: scene or statistics is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_get_statistics(
+pub unsafe extern "C" fn swiftprox_scene_get_statistics(
     scene: *const SceneHandle,
     statistics: *mut SceneStatistics,
 ) -> StatusCode {
@@ -181,9 +181,9 @@ pub unsafe extern "C" fn swift_scene_get_statistics(
 
 /// Sets the statistics of a scene to zero.
 ///
-/// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_reset_statistics(scene: *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe {
         change(scene, |scene| {
@@ -219,14 +219,14 @@ unsafe fn ask(
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,
                 distance_tolerance: query.distance_tolerance,
-                bounds: read_enumerator(query.bounds, "query->bounds", "swift_bounds")?,
+                bounds: read_enumerator(query.bounds, "query->bounds", "swiftprox_bounds")?,
                 absolute_error: query.absolute_error,
                 relative_error: query.relative_error,
                 error_budget: query.error_budget,
                 step_budget: query.step_budget,
-                levels: read_enumerator(query.levels, "query->levels", "swift_levels")?,
-                refinement: read_enumerator(query.refinement, "query->refinement", "swift_refinement")?,
-                start: read_enumerator(query.start, "query->start", "swift_start")?,
+                levels: read_enumerator(query.levels, "query->levels", "swiftprox_levels")?,
+                refinement: read_enumerator(query.refinement, "query->refinement", "swiftprox_refinement")?,
+                start: read_enumerator(query.start, "query->start", "swiftprox_start")?,
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {
@@ -247,9 +247,9 @@ unsafe fn ask(
 
 #[cfg(test)]
 mod tests {
-    use super::super::library::swift_library_last_error_message;
-    use super::super::object::swift_scene_add_object;
-    use super::super::scene::{swift_scene_activate_all, swift_scene_create, swift_scene_destroy};
+    use super::super::library::swiftprox_library_last_error_message;
+    use super::super::object::swiftprox_scene_add_object;
+    use super::super::scene::{swiftprox_scene_activate_all, swiftprox_scene_create, swiftprox_scene_destroy};
     use super::*;
     use crate::base::math::Vector;
     use crate::scene::object::ObjectId;
@@ -259,7 +259,7 @@ mod tests {
     use std::sync::Arc;
 
     fn last_message() -> String {
-        let message = swift_library_last_error_message();
+        let message = swiftprox_library_last_error_message();
         // SAFETY: never null, terminated, and unchanged until the next failure of this thread.
         unsafe { CStr::from_ptr(message) }.to_string_lossy().into_owned()
     }
@@ -267,7 +267,7 @@ mod tests {
     fn new_scene() -> *mut SceneHandle {
         let mut scene = null_mut();
         // SAFETY: null options, and room for a pointer.
-        assert_eq!(unsafe { swift_scene_create(null(), &mut scene) }, StatusCode::Ok);
+        assert_eq!(unsafe { swiftprox_scene_create(null(), &mut scene) }, StatusCode::Ok);
         scene
     }
 
@@ -283,13 +283,13 @@ mod tests {
 
             let mut answer = CSceneAnswer { count: 7, intersecting: 7, ..CSceneAnswer::EMPTY };
             let mut statistics = SceneStatistics::default();
-            assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
-            assert_eq!(swift_scene_activate_all(broken), StatusCode::ErrorPoisoned);
-            assert_eq!(swift_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
-            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_activate_all(broken), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(sound), StatusCode::Ok);
         }
     }
 
@@ -304,7 +304,7 @@ mod tests {
         // SAFETY: living scenes, used by this thread only, a living shape, and room for every output.
         unsafe {
             for scene in [broken, broken, sound, sound] {
-                assert_eq!(swift_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
+                assert_eq!(swiftprox_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
             }
             let run = |scene: &mut Scene, query: &SceneQuery| -> Result<SceneAnswer<'static>> {
                 // Half of it is done.
@@ -313,12 +313,12 @@ mod tests {
             };
             assert_eq!(ask(run, broken, null(), &mut answer), StatusCode::ErrorBug);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
-            assert_eq!(swift_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
-            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!((answer.count, answer.intersecting), (1, 1));
-            assert_eq!(swift_scene_destroy(broken), StatusCode::Ok);
-            assert_eq!(swift_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(sound), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(sound), StatusCode::Ok);
         }
         assert_eq!(Arc::strong_count(&shape), 1, "a poisoned scene gives its shares back, too");
     }

@@ -9,7 +9,7 @@ use crate::scene::object::ObjectId;
 use crate::scene::{Scene, SceneOptions};
 use crate::shape::Shape;
 
-/// Objects, their poses and the pairs that queries test. Make one with swift_scene_create.
+/// Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create.
 #[derive(Debug)]
 pub struct SceneHandle {
     /// How many calls read the scene, and [`CHANGING`] while one changes it. Every call enters here before it makes a reference to
@@ -87,11 +87,11 @@ const _: () = {
     is_shared_between_threads::<Shape>();
 };
 
-/// How a scene is made. Fill it with swift_scene_options_init, then change what should differ.
+/// How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneOptions {
-    /// Set by swift_scene_options_init.
+    /// Set by swiftprox_scene_options_init.
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -99,7 +99,7 @@ pub struct CSceneOptions {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for CSceneOptions {
-    const NAME: &'static str = "swift_scene_options";
+    const NAME: &'static str = "swiftprox_scene_options";
     const FIRST_SIZE: usize = size_of::<CSceneOptions>();
 }
 
@@ -112,20 +112,23 @@ impl CSceneOptions {
 
 /// Fills `options` with the defaults, struct_size included.
 ///
-/// SWIFT_ERROR_NULL_POINTER: options is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: options is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_options_init(options: *mut CSceneOptions) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_options_init(options: *mut CSceneOptions) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe { output(options, "options", CSceneOptions::DEFAULT) })
 }
 
-/// Makes an empty scene; the caller gives it back with swift_scene_destroy. On failure `*scene` is null. `options` may be null
+/// Makes an empty scene; the caller gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options` may be null
 /// for the defaults.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the
-/// message names the argument.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
+/// the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_create(options: *const CSceneOptions, scene: *mut *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_create(
+    options: *const CSceneOptions,
+    scene: *mut *mut SceneHandle,
+) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(scene, "scene", std::ptr::null_mut())?;
@@ -141,10 +144,10 @@ pub unsafe extern "C" fn swift_scene_create(options: *const CSceneOptions, scene
 
 /// Ends a scene, a poisoned one too; its shares of shapes are given back, its ids and results end with it. Null is ignored.
 ///
-/// SWIFT_ERROR_BUSY: another call uses the scene, which lives on. SWIFT_ERROR_BUG: the scene is gone, but perhaps not all of its
-/// memory.
+/// SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
+/// of its memory.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
     guard(|| {
         // SAFETY: a live scene by the header's pointer rules, or null.
         if let Some(handle) = unsafe { scene.as_ref() } {
@@ -162,10 +165,11 @@ pub unsafe extern "C" fn swift_scene_destroy(scene: *mut SceneHandle) -> StatusC
 /// Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
 /// same.
 ///
-/// SWIFT_ERROR_HANDLE: an id names no object of this scene. SWIFT_ERROR_INVALID_ARGUMENT: one object twice. SWIFT_ERROR_MEMORY.
-/// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
+/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_activate_pair(
+pub unsafe extern "C" fn swiftprox_scene_activate_pair(
     scene: *mut SceneHandle,
     id1: ObjectId,
     id2: ObjectId,
@@ -174,9 +178,9 @@ pub unsafe extern "C" fn swift_scene_activate_pair(
     unsafe { change(scene, |scene| Ok(scene.set_pair_active(id1, id2, true)?)) }
 }
 
-/// Deactivates the pair of two objects: queries leave it out. Errors as of swift_scene_activate_pair.
+/// Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_deactivate_pair(
+pub unsafe extern "C" fn swiftprox_scene_deactivate_pair(
     scene: *mut SceneHandle,
     id1: ObjectId,
     id2: ObjectId,
@@ -187,25 +191,25 @@ pub unsafe extern "C" fn swift_scene_deactivate_pair(
 
 /// Activates all pairs that an object is in now.
 ///
-/// SWIFT_ERROR_HANDLE: id names no object of this scene. SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_activate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_activate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.set_object_active(id, true)?)) }
 }
 
-/// Deactivates all pairs that an object is in now. Errors as of swift_scene_activate_object.
+/// Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_deactivate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_deactivate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.set_object_active(id, false)?)) }
 }
 
 /// Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
 ///
-/// SWIFT_ERROR_NULL_POINTER: scene is null. SWIFT_ERROR_POISONED.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_activate_all(scene: *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_activate_all(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe {
         change(scene, |scene| {
@@ -215,9 +219,9 @@ pub unsafe extern "C" fn swift_scene_activate_all(scene: *mut SceneHandle) -> St
     }
 }
 
-/// Deactivates all pairs that there are now. Errors as of swift_scene_activate_all.
+/// Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_deactivate_all(scene: *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_deactivate_all(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe {
         change(scene, |scene| {
@@ -229,9 +233,9 @@ pub unsafe extern "C" fn swift_scene_deactivate_all(scene: *mut SceneHandle) -> 
 
 /// Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
 ///
-/// Errors as of swift_scene_activate_pair; SWIFT_ERROR_NULL_POINTER also when active is null.
+/// Errors as of swiftprox_scene_activate_pair; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_scene_is_pair_active(
+pub unsafe extern "C" fn swiftprox_scene_is_pair_active(
     scene: *const SceneHandle,
     id1: ObjectId,
     id2: ObjectId,
@@ -298,7 +302,7 @@ pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scen
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::ffi::query::{CSceneAnswer, swift_scene_query_intersection};
+    use crate::ffi::query::{CSceneAnswer, swiftprox_scene_query_intersection};
     use std::ptr::{null, null_mut};
 
     /// What a thread is handed of a scene.
@@ -311,7 +315,7 @@ mod tests {
     fn new_scene() -> *mut SceneHandle {
         let mut scene = null_mut();
         // SAFETY: null options, and room for a pointer.
-        assert_eq!(unsafe { swift_scene_create(null(), &mut scene) }, StatusCode::Ok);
+        assert_eq!(unsafe { swiftprox_scene_create(null(), &mut scene) }, StatusCode::Ok);
         scene
     }
 
@@ -325,8 +329,8 @@ mod tests {
                 // SAFETY: a living scene, and ids that it refuses.
                 let status = unsafe {
                     match (round + number) % 3 {
-                        0 => swift_scene_activate_all(scene),
-                        1 => swift_scene_deactivate_all(scene),
+                        0 => swiftprox_scene_activate_all(scene),
+                        1 => swiftprox_scene_deactivate_all(scene),
                         _ => guard(|| {
                             look(scene, |scene| {
                                 std::hint::black_box(scene.objects().count());
@@ -346,8 +350,8 @@ mod tests {
         assert!(done > 0);
         // SAFETY: a living scene, used by this thread only.
         unsafe {
-            assert_eq!(swift_scene_activate_all(shared.0), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(shared.0), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_activate_all(shared.0), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(shared.0), StatusCode::Ok);
         }
     }
 
@@ -358,24 +362,24 @@ mod tests {
         // SAFETY: a living scene, used by this thread only, and room for every output.
         unsafe {
             let status = change(scene, |_| {
-                assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::ErrorBusy);
+                assert_eq!(swiftprox_scene_query_intersection(scene, null(), &mut answer), StatusCode::ErrorBusy);
                 assert_eq!((answer.count, answer.intersecting), (0, 0));
                 assert_eq!(guard(|| look(scene, |_| Ok(()))), StatusCode::ErrorBusy);
-                assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                assert_eq!(swiftprox_scene_destroy(scene), StatusCode::ErrorBusy);
                 Ok(())
             });
             assert_eq!(status, StatusCode::Ok);
             let status = guard(|| {
                 look(scene, |_| {
-                    assert_eq!(swift_scene_activate_all(scene), StatusCode::ErrorBusy);
-                    assert_eq!(swift_scene_destroy(scene), StatusCode::ErrorBusy);
+                    assert_eq!(swiftprox_scene_activate_all(scene), StatusCode::ErrorBusy);
+                    assert_eq!(swiftprox_scene_destroy(scene), StatusCode::ErrorBusy);
                     // Those that change nothing may be many.
                     look(scene, |_| Ok(()))
                 })
             });
             assert_eq!(status, StatusCode::Ok);
-            assert_eq!(swift_scene_query_intersection(scene, null(), &mut answer), StatusCode::Ok);
-            assert_eq!(swift_scene_destroy(scene), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_intersection(scene, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
         }
     }
 }

@@ -11,7 +11,7 @@ use crate::shape::Shape;
 use crate::shape::file as shape_file;
 use crate::tables::LookupKind;
 
-/// What a shape is. Set struct_size to sizeof(swift_shape_info) before asking for it.
+/// What a shape is. Set struct_size to sizeof(swiftprox_shape_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct ShapeInfo {
@@ -25,7 +25,7 @@ pub struct ShapeInfo {
     pub edge_count: usize,
     /// Faces, coplanar triangles counted as one.
     pub face_count: usize,
-    /// Triangles of the hull, as swift_shape_copy_triangles gives them.
+    /// Triangles of the hull, as swiftprox_shape_copy_triangles gives them.
     pub triangle_count: usize,
     /// Volume; 0 without interior.
     pub volume: f64,
@@ -39,16 +39,16 @@ pub struct ShapeInfo {
     pub upper: [f64; 3],
     /// Memory that the shape holds, in bytes, levels included, however many share it.
     pub bytes: usize,
-    /// A swift_hierarchy: how the levels of detail are made.
+    /// A swiftprox_hierarchy: how the levels of detail are made.
     pub hierarchy: i32,
     /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
     /// level 0. Automatic ones are made by the first query that goes through them: 0 until then.
     pub level_count: usize,
     /// Of bytes, what the levels take, with their look-up tables once queries have made these.
     pub level_bytes: usize,
-    /// A swift_lookup: the look-up table that the shape has, never SWIFT_LOOKUP_AUTOMATIC.
+    /// A swiftprox_lookup: the look-up table that the shape has, never SWIFTPROX_LOOKUP_AUTOMATIC.
     pub lookup: i32,
-    /// Its resolution, as in swift_shape_options; 0 without one.
+    /// Its resolution, as in swiftprox_shape_options; 0 without one.
     pub lookup_resolution: u32,
     /// Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. Those of levels are
     /// the levels'.
@@ -57,7 +57,7 @@ pub struct ShapeInfo {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for ShapeInfo {
-    const NAME: &'static str = "swift_shape_info";
+    const NAME: &'static str = "swiftprox_shape_info";
     const FIRST_SIZE: usize = size_of::<ShapeInfo>();
 }
 
@@ -92,14 +92,14 @@ impl ShapeInfo {
 /// triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
 /// unless the options say otherwise. Answers name features by these numbers.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFT_ERROR_LIMIT: a count does not fit 32
-/// bits. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER,
-/// SWIFT_ERROR_INVALID_ARGUMENT, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFTPROX_ERROR_LIMIT: a count does not fit
+/// 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER,
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_create_from_mesh(
+pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     vertices: *const f64,
     vertex_count: usize,
     indices: *const u32,
@@ -118,16 +118,18 @@ pub unsafe extern "C" fn swift_shape_create_from_mesh(
 
 /// Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
 /// name vertices by their place in `points` (the first of equal ones), faces by numbers of the hull's own, from 0 and below
-/// swift_shape_info.face_count.
+/// swiftprox_shape_info.face_count.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
 /// `options` may be null for the defaults, which refuse a hull without interior.
 ///
-/// SWIFT_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
-/// SWIFT_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFT_ERROR_LIMIT: too many points. SWIFT_ERROR_MEMORY.
-/// SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
+/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message
+/// names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_create_from_points(
+pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     points: *const f64,
     point_count: usize,
     options: *const CShapeOptions,
@@ -141,21 +143,22 @@ pub unsafe extern "C" fn swift_shape_create_from_points(
     })
 }
 
-/// Makes a shape from a mesh file: by the reader that swift_library_register_mesh_reader has registered for its first bytes if
+/// Makes a shape from a mesh file: by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if
 /// there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and
 /// faces from 0 in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
 /// mentioned, and no triangles with two equal corners.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger than
-/// 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
-/// SWIFT_ERROR_MEMORY. SWIFT_ERROR_MESH: its mesh breaks the contract (see swift_shape_create_from_mesh). Both messages name the file.
-/// SWIFT_ERROR_CANCELLED: options->progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT,
-/// SWIFT_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
+/// than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
+/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages
+/// name the file.
+/// SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT,
+/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_create_from_file(
+pub unsafe extern "C" fn swiftprox_shape_create_from_file(
     path: *const c_char,
     options: *const CShapeOptions,
     shape: *mut *mut Shape,
@@ -173,11 +176,11 @@ pub unsafe extern "C" fn swift_shape_create_from_file(
 /// machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
 /// file refuses it.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message names it
-/// and says why. SWIFT_ERROR_MEMORY: the file is as it was.
-/// SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names the argument.
+/// SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
+/// names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was. SWIFTPROX_ERROR_NULL_POINTER,
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
         let (shape, path) = unsafe { (input(shape, "shape")?, read_path(path)?) };
@@ -185,18 +188,18 @@ pub unsafe extern "C" fn swift_shape_save(shape: *const Shape, path: *const c_ch
     })
 }
 
-/// Loads a shape that swift_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
+/// Loads a shape that swiftprox_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
 /// rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
 /// levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
 /// handed to it.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swift_shape_release; on failure it is null.
+/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
 ///
-/// SWIFT_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file, of
-/// another version or damaged; the message names it and says what is wrong. SWIFT_ERROR_MEMORY. SWIFT_ERROR_CANCELLED: progress said so. SWIFT_ERROR_NULL_POINTER, SWIFT_ERROR_INVALID_ARGUMENT: the message names
-/// the argument.
+/// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
+/// of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
+/// progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_load(
+pub unsafe extern "C" fn swiftprox_shape_load(
     path: *const c_char,
     progress: ProgressCallback,
     progress_user: *mut c_void,
@@ -209,11 +212,11 @@ pub unsafe extern "C" fn swift_shape_load(
     })
 }
 
-/// Takes one more share of a shape; each needs its own swift_shape_release. Safe from any thread. Null is ignored.
+/// Takes one more share of a shape; each needs its own swiftprox_shape_release. Safe from any thread. Null is ignored.
 ///
-/// Always SWIFT_OK.
+/// Always SWIFTPROX_OK.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_retain(shape: *const Shape) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> StatusCode {
     guard(|| {
         if !shape.is_null() {
             // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
@@ -226,12 +229,12 @@ pub unsafe extern "C" fn swift_shape_retain(shape: *const Shape) -> StatusCode {
 /// Gives back one share of a shape; the last one frees it (scenes hold shares of their own). Safe from any thread. Null is
 /// ignored.
 ///
-/// Always SWIFT_OK.
+/// Always SWIFTPROX_OK.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) -> StatusCode {
     guard(|| {
         if !shape.is_null() {
-            // SAFETY: a live shape by the header's pointer rules, and this share is given up; see swift_shape_retain.
+            // SAFETY: a live shape by the header's pointer rules, and this share is given up; see swiftprox_shape_retain.
             unsafe { Arc::decrement_strong_count(shape) };
         }
         Ok(())
@@ -243,12 +246,12 @@ pub unsafe extern "C" fn swift_shape_release(shape: *const Shape) -> StatusCode 
 ///
 /// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
 /// the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
-/// meanwhile, or another swift_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+/// meanwhile, or another swiftprox_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
 ///
-/// SWIFT_ERROR_CANCELLED: progress said so; SWIFT_ERROR_MEMORY: in both cases no levels are made, a table that was made stays, and
-/// the shape can be used as before. SWIFT_ERROR_NULL_POINTER: shape is null.
+/// SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
+/// stays, and the shape can be used as before. SWIFTPROX_ERROR_NULL_POINTER: shape is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_prepare(
+pub unsafe extern "C" fn swiftprox_shape_prepare(
     shape: *const Shape,
     progress: ProgressCallback,
     progress_user: *mut c_void,
@@ -260,11 +263,11 @@ pub unsafe extern "C" fn swift_shape_prepare(
     })
 }
 
-/// Says what a shape is: set info->struct_size to sizeof(swift_shape_info) first. On failure real numbers are NaN, all else 0.
+/// Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
 ///
-/// SWIFT_ERROR_NULL_POINTER: shape or info is null. SWIFT_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+/// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
@@ -302,12 +305,12 @@ pub unsafe extern "C" fn swift_shape_get_info(shape: *const Shape, info: *mut Sh
 }
 
 /// Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
-/// at least swift_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
+/// at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or vertices is
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is
 /// null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_vertices(
+pub unsafe extern "C" fn swiftprox_shape_copy_vertices(
     shape: *const Shape,
     vertices: *mut f64,
     labels: *mut u32,
@@ -328,13 +331,14 @@ pub unsafe extern "C" fn swift_shape_copy_vertices(
 }
 
 /// Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
-/// swift_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
-/// swift_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
+/// swiftprox_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
+/// swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
 /// none.
 ///
-/// SWIFT_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFT_ERROR_NULL_POINTER: shape or corners is null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or corners is
+/// null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_copy_triangles(
+pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
     shape: *const Shape,
     corners: *mut u32,
     capacity: usize,

@@ -11,17 +11,17 @@ use crate::shape::{InputPolicy, Shape, ShapeOptions};
 use crate::tables::{LookupKind, LookupOptions};
 
 /// Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
-/// with the callback. Returns 0 to go on; anything else ends the call with SWIFT_ERROR_CANCELLED. It runs in the thread that
+/// with the callback. Returns 0 to go on; anything else ends the call with SWIFTPROX_ERROR_CANCELLED. It runs in the thread that
 /// builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
 pub type ProgressCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, fraction: f64) -> i32>;
 
-/// How a shape is made. Fill it with swift_shape_options_init, then change what should differ.
+/// How a shape is made. Fill it with swiftprox_shape_options_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CShapeOptions {
-    /// Set by swift_shape_options_init.
+    /// Set by swiftprox_shape_options_init.
     pub struct_size: usize,
-    /// A swift_input: what to do with input that is not a closed convex mesh with interior. Default: refuse it.
+    /// A swiftprox_input: what to do with input that is not a closed convex mesh with interior. Default: refuse it.
     pub input: i32,
     /// Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
     /// scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
@@ -33,7 +33,7 @@ pub struct CShapeOptions {
     /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
     /// which means 1e-9, and 1e-6 for meshes that went through single precision (STL).
     pub convexity_tolerance: f64,
-    /// A swift_hierarchy: how levels of detail are made. Default: automatic.
+    /// A swiftprox_hierarchy: how levels of detail are made. Default: automatic.
     pub hierarchy: i32,
     /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
     /// where that many would have more features than faces of many corners have. Default: 0.25. This and the two that follow
@@ -47,9 +47,9 @@ pub struct CShapeOptions {
     pub progress: ProgressCallback,
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
-    /// A swift_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the first
-    /// query that looks into it: less than a quarter of the time that making the shape took. A body
-    /// smaller than 2^-200 or larger than 2^200 has none. Default: automatic.
+    /// A swiftprox_lookup: which table says where a query starts when the last one of the pair tells nothing. It is made by the
+    /// first query that looks into it: less than a quarter of the time that making the shape took. A body smaller than 2^-200 or
+    /// larger than 2^200 has none. Default: automatic.
     pub lookup: i32,
     /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
     /// from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
@@ -61,7 +61,7 @@ pub struct CShapeOptions {
 
 // SAFETY: repr(C), struct_size first.
 unsafe impl Versioned for CShapeOptions {
-    const NAME: &'static str = "swift_shape_options";
+    const NAME: &'static str = "swiftprox_shape_options";
     const FIRST_SIZE: usize = size_of::<CShapeOptions>();
 }
 
@@ -86,7 +86,7 @@ pub(super) fn in_steps<T>(
     run: impl FnOnce(&mut Progress) -> Result<T>,
 ) -> Result<T> {
     run(&mut Progress::new(&mut |fraction| {
-        // SAFETY: the callback takes any fraction and its own user pointer (swift_progress_callback).
+        // SAFETY: the callback takes any fraction and its own user pointer (swiftprox_progress_callback).
         callback.is_none_or(|callback| call_out(|| unsafe { callback(user, fraction) }) == 0)
     }))
 }
@@ -112,9 +112,9 @@ impl CShapeOptions {
 
     /// The options in Rust's terms. What is left to check, the makers of shapes check.
     fn checked(&self) -> Checked<Making> {
-        let input = read_enumerator(self.input, "options->input", "swift_input")?;
-        let lookup = read_enumerator(self.lookup, "options->lookup", "swift_lookup")?;
-        let kind = read_enumerator(self.hierarchy, "options->hierarchy", "swift_hierarchy")?;
+        let input = read_enumerator(self.input, "options->input", "swiftprox_input")?;
+        let lookup = read_enumerator(self.lookup, "options->lookup", "swiftprox_lookup")?;
+        let kind = read_enumerator(self.hierarchy, "options->hierarchy", "swiftprox_hierarchy")?;
         if self.convexity_tolerance.is_nan() {
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, "options->convexity_tolerance is not a number"));
         }
@@ -138,9 +138,9 @@ impl CShapeOptions {
 
 /// Fills `options` with the defaults, struct_size included.
 ///
-/// SWIFT_ERROR_NULL_POINTER: options is null.
+/// SWIFTPROX_ERROR_NULL_POINTER: options is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swift_shape_options_init(options: *mut CShapeOptions) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_shape_options_init(options: *mut CShapeOptions) -> StatusCode {
     // SAFETY: the header's pointer rules.
     guard(|| unsafe { output(options, "options", CShapeOptions::DEFAULT) })
 }

@@ -58,7 +58,7 @@ pub enum Levels {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PairConfig {
-    /// The size of this struct, so that it can grow; set by swift_pair_config_init.
+    /// The size of this struct, so that it can grow; set by swiftprox_pair_config_init.
     pub struct_size: usize,
     /// Of pairs farther apart than this only that is said, with a lower bound; +∞ (the default): of none.
     pub distance_tolerance: f64,

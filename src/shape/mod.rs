@@ -247,7 +247,7 @@ impl Shape {
         if !matches!(options.hierarchy.kind, HierarchyKind::None | HierarchyKind::Automatic) {
             return Err(Error::Argument(
                 "levels are given, and the options ask for others to be built: their hierarchy must be None or Automatic \
-                 (SWIFT_HIERARCHY_NONE, SWIFT_HIERARCHY_AUTOMATIC)"
+                 (SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_AUTOMATIC)"
                     .into(),
             ));
         }
@@ -333,8 +333,8 @@ impl Shape {
     /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
     ///
     /// # Errors
-    /// [`Error::Cancelled`] when the caller does not want to go on, [`Error::Memory`]: no levels are made then, and the shape can be
-    /// used as before.
+    /// [`Error::Cancelled`] when the caller does not want to go on, [`Error::Memory`]: no levels are made then, and the shape can
+    /// be used as before.
     pub fn prepare(&self, progress: &mut Progress) -> Result<()> {
         with_default(|| self.make_ready(progress))
     }

@@ -71,7 +71,7 @@ impl Program {
         let (shape1, shape2) = (self.shape(u)?, self.shape(u)?);
         let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
         let config = any_config(u)?;
-        let queries = [swift_pair_approximate, swift_pair_distance, swift_pair_contact, swift_pair_intersection];
+        let queries = [swiftprox_pair_approximate, swiftprox_pair_distance, swiftprox_pair_contact, swiftprox_pair_intersection];
         let query = *u.choose(&queries)?;
         let slot = u.choose_index(self.caches.len())?;
         let answer = Block::new(size_of::<PairAnswer>());
@@ -98,7 +98,7 @@ impl Program {
         // SAFETY: zero is a value of every member; then written by the library.
         let mut query = unsafe { std::mem::zeroed::<CSceneQuery>() };
         // SAFETY: room for the query.
-        assert_eq!(unsafe { swift_scene_query_init(&mut query) }, StatusCode::Ok);
+        assert_eq!(unsafe { swiftprox_scene_query_init(&mut query) }, StatusCode::Ok);
         query.early_exit = i32::from(u.ratio(1, 8)?);
         query.absolute_error = *u.choose(&ERRORS)?;
         query.relative_error = *u.choose(&ERRORS)?;
@@ -109,7 +109,7 @@ impl Program {
         let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
         // SAFETY: a living scene, query and answer; the results are the scene's until its next change.
         unsafe {
-            let run = || swift_scene_query_approximate_distance(scene.handle, &query, &mut answer);
+            let run = || swiftprox_scene_query_approximate_distance(scene.handle, &query, &mut answer);
             let status = inside(self.environment, run);
             assert_eq!(status == StatusCode::Ok, query.error_budget >= 0.0, "{}", last_message());
             let listed: &[PairResult] =
@@ -149,13 +149,13 @@ impl Program {
         let (first, count) = array(u, block.at(), levels.len())?;
         let mut shape = null_mut();
         // SAFETY: what is not null has the room that it claims.
-        let status = unsafe { swift_shape_create_from_levels(first, count, start(&options), &mut shape) };
+        let status = unsafe { swiftprox_shape_create_from_levels(first, count, start(&options), &mut shape) };
         Ok(self.keep(status, shape))
     }
 
     pub fn set_log(&self, u: &mut Unstructured) -> Result<StatusCode> {
         let callback: LogCallback = if u.arbitrary()? { Some(log) } else { None };
-        swift_library_set_log(callback, null_mut());
+        swiftprox_library_set_log(callback, null_mut());
         Ok(StatusCode::Ok)
     }
 }

@@ -139,7 +139,7 @@ pub fn shape_options(u: &mut Unstructured) -> Result<Option<Block>> {
     // SAFETY: zero is a value of every member; then written by the library.
     let mut value = unsafe { std::mem::zeroed::<CShapeOptions>() };
     // SAFETY: room for the options.
-    assert_eq!(unsafe { swift_shape_options_init(&mut value) }, StatusCode::Ok);
+    assert_eq!(unsafe { swiftprox_shape_options_init(&mut value) }, StatusCode::Ok);
     value.hierarchy = u.int_in_range(0..=3)?;
     value.minimum_triangles = u.int_in_range(0..=20)?;
     value.lookup = u.int_in_range(0..=3)?;

@@ -28,7 +28,7 @@ use model::Scene;
 /// The message of the last failure.
 pub fn last_message() -> String {
     // SAFETY: never null, terminated, unchanged until the next failure of this thread.
-    unsafe { CStr::from_ptr(swift_library_last_error_message()) }.to_string_lossy().into_owned()
+    unsafe { CStr::from_ptr(swiftprox_library_last_error_message()) }.to_string_lossy().into_owned()
 }
 
 /// All that the program holds.
@@ -95,15 +95,15 @@ impl Program {
 
     /// Gives everything back.
     pub fn end(self) {
-        swift_library_set_log(None, null_mut());
+        swiftprox_library_set_log(None, null_mut());
         readers::take_back();
         // SAFETY: all are alive, and none is used again.
         unsafe {
             for scene in &self.scenes {
-                assert_eq!(swift_scene_destroy(scene.handle), StatusCode::Ok);
+                assert_eq!(swiftprox_scene_destroy(scene.handle), StatusCode::Ok);
             }
             for &shape in &self.shapes {
-                assert_eq!(swift_shape_release(shape), StatusCode::Ok);
+                assert_eq!(swiftprox_shape_release(shape), StatusCode::Ok);
             }
         }
     }
@@ -116,7 +116,7 @@ impl Program {
 unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answer: &PairAnswer) {
     // SAFETY: as above.
     let (status, shapes, poses) = unsafe {
-        let status = swift_pair_verify(shapes[0], poses[0], shapes[1], poses[1], answer);
+        let status = swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], answer);
         (status, shapes.map(|shape| &*shape), poses.map(|pose| &*pose.cast::<[f64; 12]>()))
     };
     let beyond = status == StatusCode::ErrorInvalidArgument && last_message().contains("too large or too far apart");
@@ -130,18 +130,18 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
     // SAFETY: what is null may be, by the header.
     Ok(unsafe {
         match call {
-            0 => swift_shape_options_init(null_mut()),
-            1 => swift_scene_options_init(null_mut()),
-            2 => swift_pair_config_init(null_mut()),
-            3 => swift_scene_destroy(null_mut()),
-            4 => swift_shape_release(null()),
+            0 => swiftprox_shape_options_init(null_mut()),
+            1 => swiftprox_scene_options_init(null_mut()),
+            2 => swiftprox_pair_config_init(null_mut()),
+            3 => swiftprox_scene_destroy(null_mut()),
+            4 => swiftprox_shape_release(null()),
             _ => {
-                let _ = swift_library_version();
+                let _ = swiftprox_library_version();
                 let number = u.arbitrary()?;
-                let _ = swift_library_status_string(number);
-                let _ = swift_library_outcome_string(number);
-                let _ = swift_library_feature_kind_string(number);
-                swift_object_options_init(null_mut())
+                let _ = swiftprox_library_status_string(number);
+                let _ = swiftprox_library_outcome_string(number);
+                let _ = swiftprox_library_feature_kind_string(number);
+                swiftprox_object_options_init(null_mut())
             }
         }
     })

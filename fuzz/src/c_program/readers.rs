@@ -19,13 +19,13 @@ thread_local! {
 
 pub fn register() {
     // SAFETY: a string, and a callback that takes any file.
-    let status = unsafe { swift_library_register_mesh_reader(MAGIC.as_ptr(), Some(read), null_mut()) };
+    let status = unsafe { swiftprox_library_register_mesh_reader(MAGIC.as_ptr(), Some(read), null_mut()) };
     assert_eq!(status, StatusCode::Ok);
 }
 
 pub fn take_back() {
     // SAFETY: as above.
-    let status = unsafe { swift_library_register_mesh_reader(MAGIC.as_ptr(), None, null_mut()) };
+    let status = unsafe { swiftprox_library_register_mesh_reader(MAGIC.as_ptr(), None, null_mut()) };
     assert_eq!(status, StatusCode::Ok);
 }
 
@@ -60,17 +60,17 @@ fn follow(u: &mut Unstructured, sink: *mut MeshSink, refused: &mut bool) -> Resu
                 match call {
                     0..=2 => {
                         let (vertices, count) = array(u, arrays.vertices.at(), arrays.vertex_count)?;
-                        swift_mesh_sink_add_vertices(sink, vertices, count)
+                        swiftprox_mesh_sink_add_vertices(sink, vertices, count)
                     }
                     3..=5 => {
                         let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
                         let indices = or_null(u, arrays.indices.at())?;
-                        swift_mesh_sink_add_faces(sink, indices, valences, arrays.face_count)
+                        swiftprox_mesh_sink_add_faces(sink, indices, valences, arrays.face_count)
                     }
-                    6 => swift_mesh_sink_set_single_precision(sink),
+                    6 => swiftprox_mesh_sink_set_single_precision(sink),
                     _ => {
                         *refused |= !sink.is_null();
-                        swift_mesh_sink_fail(sink, if u.arbitrary()? { c"rubbish".as_ptr() } else { null() })
+                        swiftprox_mesh_sink_fail(sink, if u.arbitrary()? { c"rubbish".as_ptr() } else { null() })
                     }
                 }
             };
@@ -83,8 +83,8 @@ fn follow(u: &mut Unstructured, sink: *mut MeshSink, refused: &mut bool) -> Resu
         const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
         // SAFETY: the sink of this callback, and arrays of these sizes.
         let status = unsafe {
-            assert_eq!(swift_mesh_sink_add_vertices(sink, CORNERS.as_ptr(), 4), StatusCode::Ok);
-            swift_mesh_sink_add_faces(sink, FACES.as_ptr(), null(), 4)
+            assert_eq!(swiftprox_mesh_sink_add_vertices(sink, CORNERS.as_ptr(), 4), StatusCode::Ok);
+            swiftprox_mesh_sink_add_faces(sink, FACES.as_ptr(), null(), 4)
         };
         assert_eq!(status, StatusCode::Ok);
     }

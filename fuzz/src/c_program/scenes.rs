@@ -7,7 +7,7 @@ use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::object::*;
 use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
-use swiftprox::ffi::shape::swift_shape_retain;
+use swiftprox::ffi::shape::swiftprox_shape_retain;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::Outcome;
 use swiftprox::scene::{PairResult, SceneStatistics};
@@ -24,20 +24,20 @@ impl Program {
             let scene = self.scenes.remove(u.choose_index(self.scenes.len())?);
             self.old_ids.extend(scene.objects.iter().map(|object| object.id));
             // SAFETY: a living scene that is not used again.
-            return Ok(unsafe { swift_scene_destroy(scene.handle) });
+            return Ok(unsafe { swiftprox_scene_destroy(scene.handle) });
         }
         let mut last = 1e-2;
         let limit = any_number(u, &mut last)?.to_ne_bytes();
         // SAFETY: zero is a value of every member; then written by the library.
         let mut value = unsafe { std::mem::zeroed::<CSceneOptions>() };
         let options = unsafe {
-            assert_eq!(swift_scene_options_init(&mut value), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_options_init(&mut value), StatusCode::Ok);
             let offset = std::mem::offset_of!(CSceneOptions, rotation_limit);
             options(u, &value, &[(offset, &limit)])?
         };
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
-        let status = unsafe { swift_scene_create(start(&options), &mut handle) };
+        let status = unsafe { swiftprox_scene_create(start(&options), &mut handle) };
         assert_eq!(status == StatusCode::Ok, !handle.is_null());
         if !handle.is_null() {
             if self.scenes.len() < MOST_SCENES {
@@ -45,7 +45,7 @@ impl Program {
             } else {
                 // Made and never used.
                 // SAFETY: a living scene that is not used again.
-                assert_eq!(unsafe { swift_scene_destroy(handle) }, StatusCode::Ok);
+                assert_eq!(unsafe { swiftprox_scene_destroy(handle) }, StatusCode::Ok);
             }
         }
         Ok(status)
@@ -56,7 +56,7 @@ impl Program {
         if self.scenes.is_empty() {
             let mut handle = null_mut();
             // SAFETY: room for the scene.
-            assert_eq!(unsafe { swift_scene_create(null(), &mut handle) }, StatusCode::Ok);
+            assert_eq!(unsafe { swiftprox_scene_create(null(), &mut handle) }, StatusCode::Ok);
             self.scenes.push(Scene::new(handle));
         }
         u.choose_index(self.scenes.len())
@@ -85,7 +85,7 @@ impl Program {
         // SAFETY: zero is a value of every member; then written by the library.
         let mut value = unsafe { std::mem::zeroed::<CObjectOptions>() };
         // SAFETY: room for the options.
-        assert_eq!(unsafe { swift_object_options_init(&mut value) }, StatusCode::Ok);
+        assert_eq!(unsafe { swiftprox_object_options_init(&mut value) }, StatusCode::Ok);
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
         // SAFETY: twelve doubles.
         value.pose = unsafe { any_pose(u)?.at::<[f64; 12]>().read() };
@@ -99,7 +99,7 @@ impl Program {
                     let (shape_options, arrays) = (shape_options(u)?, mesh_arrays(u)?);
                     pieces.push(null_mut());
                     let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
-                    swift_scene_add_mesh(
+                    swiftprox_scene_add_mesh(
                         handle,
                         arrays.vertices.at(),
                         arrays.vertex_count,
@@ -115,7 +115,7 @@ impl Program {
                     let (shape_options, path) = (shape_options(u)?, mesh_file(u)?);
                     pieces.push(null_mut());
                     let path = path.as_ref().map_or(null(), |path| path.as_ptr());
-                    swift_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
+                    swiftprox_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
                 }
                 _ => {
                     for _ in 0..u.int_in_range(0..=3)? {
@@ -124,7 +124,7 @@ impl Program {
                     let block = Block::of(&pieces);
                     let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
                     pieces.truncate(count);
-                    swift_scene_add_object(handle, array, count, start(&given), &mut id)
+                    swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
                 }
             }
         };
@@ -147,7 +147,7 @@ impl Program {
         let info = unsafe {
             let mut info = std::mem::zeroed::<ObjectInfo>();
             info.struct_size = size_of::<ObjectInfo>();
-            assert_eq!(swift_scene_get_object_info(scene.handle, id, &mut info), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_get_object_info(scene.handle, id, &mut info), StatusCode::Ok);
             info
         };
         assert_eq!(info.piece_count, pieces);
@@ -158,7 +158,7 @@ impl Program {
     fn remove(&mut self, place: usize, id: ObjectId) -> StatusCode {
         let scene = &mut self.scenes[place];
         // SAFETY: a living scene.
-        let status = unsafe { swift_scene_remove_object(scene.handle, id) };
+        let status = unsafe { swiftprox_scene_remove_object(scene.handle, id) };
         match scene.find(id) {
             Some(found) => {
                 assert_eq!(status, StatusCode::Ok);
@@ -180,7 +180,7 @@ impl Program {
             1 => {
                 let mut copy = id;
                 // SAFETY: a living scene and room for the id.
-                let status = unsafe { swift_scene_copy_object(handle, id, &mut copy) };
+                let status = unsafe { swiftprox_scene_copy_object(handle, id, &mut copy) };
                 if let Some(found) = found {
                     assert_eq!(status, StatusCode::Ok);
                     let original = self.scenes[place].objects[found].clone();
@@ -197,7 +197,7 @@ impl Program {
                     self.scenes[place].objects[found].user_data = user_data;
                 }
                 // SAFETY: a living scene.
-                unsafe { swift_scene_set_user_data(handle, id, user_data) }
+                unsafe { swiftprox_scene_set_user_data(handle, id, user_data) }
             }
         };
         assert_eq!(status, if found.is_some() { StatusCode::Ok } else { StatusCode::ErrorHandle });
@@ -215,15 +215,15 @@ impl Program {
                 let mut value = std::mem::zeroed::<ObjectInfo>();
                 value.struct_size = size_of::<ObjectInfo>();
                 let info = options(u, &value, &[])?;
-                return Ok(swift_scene_get_object_info(scene.handle, id, start(&info)));
+                return Ok(swiftprox_scene_get_object_info(scene.handle, id, start(&info)));
             }
             let piece = u.int_in_range(0..=3)?;
             let mut shape = null();
-            let status = swift_scene_get_piece(scene.handle, id, piece, &mut shape);
+            let status = swiftprox_scene_get_piece(scene.handle, id, piece, &mut shape);
             let expected = found.is_some_and(|object| piece < object.pieces);
             assert_eq!((status == StatusCode::Ok, !shape.is_null()), (expected, expected), "{}", last_message());
             if !shape.is_null() && self.shapes.len() < MOST_SHAPES {
-                assert_eq!(swift_shape_retain(shape), StatusCode::Ok);
+                assert_eq!(swiftprox_shape_retain(shape), StatusCode::Ok);
                 self.shapes.push(shape.cast_mut());
             }
             Ok(status)
@@ -251,19 +251,19 @@ impl Program {
             Ok(match u.int_in_range(0..=3)? {
                 0 => {
                     let pose = Block::of(&all[..1]);
-                    swift_scene_set_pose(scene.handle, id, or_null(u, pose.at())?)
+                    swiftprox_scene_set_pose(scene.handle, id, or_null(u, pose.at())?)
                 }
                 1 => {
                     let (rotation, translation) = (Block::of(&rotations[..1]), Block::of(&translations[..1]));
-                    swift_scene_set_transform(scene.handle, id, or_null(u, rotation.at())?, translation.at())
+                    swiftprox_scene_set_transform(scene.handle, id, or_null(u, rotation.at())?, translation.at())
                 }
                 2 => {
                     let poses = Block::of(&all[..count]);
-                    swift_scene_set_all_poses(scene.handle, poses.at(), count)
+                    swiftprox_scene_set_all_poses(scene.handle, poses.at(), count)
                 }
                 _ => {
                     let (rotations, translations) = (Block::of(&rotations[..count]), Block::of(&translations[..count]));
-                    swift_scene_set_all_transforms(scene.handle, rotations.at(), or_null(u, translations.at())?, count)
+                    swiftprox_scene_set_all_transforms(scene.handle, rotations.at(), or_null(u, translations.at())?, count)
                 }
             })
         }
@@ -279,7 +279,7 @@ impl Program {
         unsafe {
             Ok(match u.int_in_range(0..=3)? {
                 0 => {
-                    let call = if active { swift_scene_activate_pair } else { swift_scene_deactivate_pair };
+                    let call = if active { swiftprox_scene_activate_pair } else { swiftprox_scene_deactivate_pair };
                     let status = call(scene.handle, id1, id2);
                     assert_eq!(status == StatusCode::Ok, first.is_some() && second.is_some() && id1 != id2);
                     if status == StatusCode::Ok {
@@ -288,7 +288,7 @@ impl Program {
                     status
                 }
                 1 => {
-                    let call = if active { swift_scene_activate_object } else { swift_scene_deactivate_object };
+                    let call = if active { swiftprox_scene_activate_object } else { swiftprox_scene_deactivate_object };
                     let status = call(scene.handle, id1);
                     assert_eq!(status == StatusCode::Ok, first.is_some());
                     scene.activate(active, |a, b| a.id == id1 || b.id == id1);
@@ -297,14 +297,14 @@ impl Program {
                 2 => {
                     scene.activate(active, |_, _| true);
                     if active {
-                        swift_scene_activate_all(scene.handle)
+                        swiftprox_scene_activate_all(scene.handle)
                     } else {
-                        swift_scene_deactivate_all(scene.handle)
+                        swiftprox_scene_deactivate_all(scene.handle)
                     }
                 }
                 _ => {
                     let mut answer = 7;
-                    let status = swift_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
+                    let status = swiftprox_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
                     let expected = match (first, second) {
                         (Some(i), Some(j)) if i != j => {
                             scene.is_tested(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
@@ -324,7 +324,7 @@ impl Program {
         // SAFETY: zero is a value of every member; then written by the library.
         let mut value = unsafe { std::mem::zeroed::<CSceneQuery>() };
         // SAFETY: room for the query.
-        assert_eq!(unsafe { swift_scene_query_init(&mut value) }, StatusCode::Ok);
+        assert_eq!(unsafe { swiftprox_scene_query_init(&mut value) }, StatusCode::Ok);
         let mut last = 1.0;
         let tolerance = any_number(u, &mut last)?.to_ne_bytes();
         let bounds = u.int_in_range(-1..=2_i32)?.to_ne_bytes();
@@ -336,10 +336,10 @@ impl Program {
         let given = if is_plain { None } else { options(u, &value, &changes)? };
         let query = u.int_in_range(0..=3)?;
         let run = [
-            swift_scene_query_intersection,
-            swift_scene_query_tolerance,
-            swift_scene_query_exact_distance,
-            swift_scene_query_contacts,
+            swiftprox_scene_query_intersection,
+            swiftprox_scene_query_tolerance,
+            swiftprox_scene_query_exact_distance,
+            swiftprox_scene_query_contacts,
         ][query];
         let block = Block::new(size_of::<CSceneAnswer>());
         let target = or_null(u, block.at::<CSceneAnswer>())?;
@@ -386,9 +386,9 @@ impl Program {
         // SAFETY: a living scene or null, a block of the size of the statistics or null.
         Ok(unsafe {
             if u.arbitrary()? {
-                swift_scene_get_statistics(handle, target)
+                swiftprox_scene_get_statistics(handle, target)
             } else {
-                swift_scene_reset_statistics(handle)
+                swiftprox_scene_reset_statistics(handle)
             }
         })
     }
@@ -404,9 +404,9 @@ pub unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
         unsafe {
             let mut info = std::mem::zeroed::<ObjectInfo>();
             info.struct_size = size_of::<ObjectInfo>();
-            assert_eq!(swift_scene_get_object_info(scene, id, &mut info), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_get_object_info(scene, id, &mut info), StatusCode::Ok);
             let mut shape = null();
-            assert_eq!(swift_scene_get_piece(scene, id, piece as usize, &mut shape), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_get_piece(scene, id, piece as usize, &mut shape), StatusCode::Ok);
             (shape, info.pose)
         }
     };

@@ -35,7 +35,7 @@ impl Program {
             if self.shapes.len() > MOST_SHAPES {
                 let oldest = self.shapes.remove(0);
                 // SAFETY: a living shape whose share is given up.
-                assert_eq!(unsafe { swift_shape_release(oldest) }, StatusCode::Ok);
+                assert_eq!(unsafe { swiftprox_shape_release(oldest) }, StatusCode::Ok);
             }
         }
         status
@@ -49,7 +49,7 @@ impl Program {
         let (array, count) = array(u, block.at(), coordinates.len())?;
         let make = |shape: &mut *mut Shape| {
             // SAFETY: what is not null has the room that it claims.
-            unsafe { swift_shape_create_from_points(array, count, start(&options), shape) }
+            unsafe { swiftprox_shape_create_from_points(array, count, start(&options), shape) }
         };
         let status = make(&mut shape);
         let mut again = null_mut();
@@ -58,7 +58,7 @@ impl Program {
             // SAFETY: both live while they are compared; the second is released once.
             unsafe {
                 assert!(*shape == *again, "{:?}: another shape", self.environment);
-                assert_eq!(swift_shape_release(again), StatusCode::Ok);
+                assert_eq!(swiftprox_shape_release(again), StatusCode::Ok);
             }
         }
         Ok(self.keep(status, shape))
@@ -76,7 +76,7 @@ impl Program {
             let valences = if arrays.triangles { null_mut() } else { valences.at() };
             let face_count = arrays.face_count;
             let out = if u.ratio(1, 32)? { null_mut() } else { &raw mut shape };
-            swift_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, start(&options), out)
+            swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, start(&options), out)
         };
         Ok(self.keep(status, shape))
     }
@@ -87,7 +87,7 @@ impl Program {
         let mut shape = null_mut();
         let path = path.as_ref().map_or(null(), |path| path.as_ptr());
         // SAFETY: a string or null, and room for the shape.
-        let status = reading(|| unsafe { swift_shape_create_from_file(path, start(&options), &mut shape) });
+        let status = reading(|| unsafe { swiftprox_shape_create_from_file(path, start(&options), &mut shape) });
         Ok(self.keep(status, shape))
     }
 
@@ -99,12 +99,12 @@ impl Program {
                 if !shape.is_null() {
                     self.shapes.push(shape);
                 }
-                swift_shape_retain(shape)
+                swiftprox_shape_retain(shape)
             } else {
                 if let Some(place) = self.shapes.iter().position(|&s| s == shape) {
                     self.shapes.remove(place);
                 }
-                swift_shape_release(shape)
+                swiftprox_shape_release(shape)
             }
         })
     }
@@ -115,17 +115,17 @@ impl Program {
         let mut info = unsafe { std::mem::zeroed::<ShapeInfo>() };
         info.struct_size = size_of::<ShapeInfo>();
         // SAFETY: a living shape or null, room for the info.
-        let status = unsafe { swift_shape_get_info(shape, &mut info) };
+        let status = unsafe { swiftprox_shape_get_info(shape, &mut info) };
         if status != StatusCode::Ok {
             return Ok(status);
         }
         if info.vertex_count.is_multiple_of(3) {
             // SAFETY: a living shape.
-            assert_eq!(unsafe { swift_shape_prepare(shape, None, null_mut()) }, StatusCode::Ok);
+            assert_eq!(unsafe { swiftprox_shape_prepare(shape, None, null_mut()) }, StatusCode::Ok);
         }
         let given = options(u, &info, &[])?;
         // SAFETY: as large as it says, or null.
-        let _ = unsafe { swift_shape_get_info(shape, start(&given)) };
+        let _ = unsafe { swiftprox_shape_get_info(shape, start(&given)) };
         if u.ratio(1, 4)? {
             return self.look_at_level(u, shape, info.level_count);
         }
@@ -139,13 +139,13 @@ impl Program {
                 let capacity = (info.vertex_count + spare).saturating_sub(1);
                 let (vertices, labels) = (Block::new(24 * capacity), Block::new(4 * capacity));
                 let labels = or_null(u, labels.at())?;
-                let status = swift_shape_copy_vertices(shape, vertices.at(), labels, capacity);
+                let status = swiftprox_shape_copy_vertices(shape, vertices.at(), labels, capacity);
                 assert_eq!(status == StatusCode::Ok, capacity >= info.vertex_count);
                 status
             } else {
                 let capacity = (info.triangle_count + spare).saturating_sub(1);
                 let corners = Block::new(12 * capacity);
-                let status = swift_shape_copy_triangles(shape, corners.at(), capacity);
+                let status = swiftprox_shape_copy_triangles(shape, corners.at(), capacity);
                 assert_eq!(status == StatusCode::Ok, capacity >= info.triangle_count);
                 status
             }
@@ -159,15 +159,15 @@ impl Program {
         info.struct_size = size_of::<LevelInfo>();
         // SAFETY: a living shape, and the room that is claimed.
         Ok(unsafe {
-            let status = swift_shape_get_level_info(shape, level, &mut info);
+            let status = swiftprox_shape_get_level_info(shape, level, &mut info);
             assert_eq!(status == StatusCode::Ok, level <= levels, "{}", last_message());
             if status != StatusCode::Ok {
                 return Ok(status);
             }
             let (vertices, corners) = (Block::new(24 * info.vertex_count), Block::new(12 * info.triangle_count));
-            let status = swift_shape_copy_level_vertices(shape, level, vertices.at(), info.vertex_count);
+            let status = swiftprox_shape_copy_level_vertices(shape, level, vertices.at(), info.vertex_count);
             assert_eq!(status, StatusCode::Ok, "{}", last_message());
-            swift_shape_copy_level_triangles(shape, level, corners.at(), info.triangle_count)
+            swiftprox_shape_copy_level_triangles(shape, level, corners.at(), info.triangle_count)
         })
     }
 
@@ -177,8 +177,8 @@ impl Program {
         let mut loaded = null_mut();
         // SAFETY: a living shape, a path, and room for the shape; both shapes live while they are compared.
         let status = unsafe {
-            assert_eq!(swift_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
-            let status = swift_shape_load(path.as_ptr(), None, null_mut(), &mut loaded);
+            assert_eq!(swiftprox_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
+            let status = swiftprox_shape_load(path.as_ptr(), None, null_mut(), &mut loaded);
             assert_eq!(status, StatusCode::Ok, "{}", last_message());
             assert!(*shape == *loaded, "loaded is not what was saved");
             status
@@ -191,7 +191,7 @@ impl Program {
         let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
         let (pointer1, pointer2) = (or_null(u, pose1.at::<f64>())?, or_null(u, pose2.at::<f64>())?);
         let config = pair_config(u)?;
-        let query = *u.choose(&[swift_pair_distance, swift_pair_intersection, swift_pair_contact])?;
+        let query = *u.choose(&[swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact])?;
         let slot = u.choose_index(self.caches.len())?;
         if u.ratio(1, 8)? {
             self.caches[slot].words = u.arbitrary()?;
@@ -232,7 +232,7 @@ impl Program {
         }
         let answer = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
-        Ok(unsafe { inside(self.environment, || swift_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer)) })
+        Ok(unsafe { inside(self.environment, || swiftprox_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer)) })
     }
 }
 

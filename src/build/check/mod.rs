@@ -63,10 +63,10 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
 }
 
 /// Which option admits a body that lies in a plane.
-pub const FLAT_HINT: &str = "the input policy Flat (SWIFT_INPUT_FLAT) admits bodies without interior";
+pub const FLAT_HINT: &str = "the input policy Flat (SWIFTPROX_INPUT_FLAT) admits bodies without interior";
 
 /// Which option admits a body that is a segment or a point.
-pub const HULL_HINT: &str = "the input policy Hull (SWIFT_INPUT_HULL) admits segments and points";
+pub const HULL_HINT: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) admits segments and points";
 
 fn violation<T>(message: String) -> Result<T> {
     Err(Error::Mesh(message))

@@ -41,7 +41,7 @@ pub enum HierarchyKind {
     /// Cut out of a box by planes that touch the body: tight on thin bodies, too.
     OuterCuts = 3,
     /// The caller's, translated and scaled until they contain the body: those of a shape made from levels
-    /// (swift_shape_create_from_levels). No shape can be asked to build them.
+    /// (swiftprox_shape_create_from_levels). No shape can be asked to build them.
     Given = 4,
     /// Quadric ones by the default options for bodies of 30,000 vertices and more, made by the first query that goes through them;
     /// none for smaller bodies.
@@ -87,8 +87,8 @@ impl HierarchyOptions {
         }
         if self.kind == HierarchyKind::Given {
             return Err(Error::Argument(
-                "levels of kind Given (SWIFT_HIERARCHY_GIVEN) are not built: hand yours to Shape::from_levels \
-                 (swift_shape_create_from_levels)"
+                "levels of kind Given (SWIFTPROX_HIERARCHY_GIVEN) are not built: hand yours to Shape::from_levels \
+                 (swiftprox_shape_create_from_levels)"
                     .into(),
             ));
         }
