@@ -6,7 +6,6 @@ use super::contact_direction::contact_direction;
 use super::query::{Attempt, PairQuery, Query, Rungs, set_interval};
 use super::start::policy;
 use super::{Outcome, Start, Statistics, Status};
-use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::{self, Portable};
 use crate::solve::decide::{self, Decision, Pairs, Wanted};
@@ -23,20 +22,7 @@ pub(super) struct Hint {
     pub steps: u32,
 }
 
-impl<'a> PairQuery<'a> {
-    /// The pair in portable lanes; `None` if its magnitudes are not ordinary.
-    ///
-    /// # Errors
-    /// A pose that is refused.
-    pub(super) fn frame(&self) -> Result<Option<Frame<'a, Portable>>> {
-        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
-        if !frame.usual {
-            self.check_poses()?;
-            return Ok(None);
-        }
-        Ok(Some(frame))
-    }
-
+impl PairQuery<'_> {
     /// Whether a closer look at what marching came to answers; else where to go on.
     pub(super) fn look_closer(&mut self, attempt: Attempt, rungs: Rungs) -> Option<Hint> {
         let (at, steps) = match attempt {

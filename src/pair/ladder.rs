@@ -7,7 +7,9 @@ use super::query::{Attempt, PairQuery, Rungs};
 use super::start::policy::StartFrom;
 use super::start::{Guess, start_pair};
 use crate::base::error::Result;
+use crate::base::simd::Portable;
 use crate::solve::decide::Pairs;
+use crate::solve::frame::Frame;
 
 /// From the first rung.
 #[inline(always)]
@@ -72,23 +74,27 @@ pub(super) fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs)
             Some(hint) => hint,
         },
     };
-    let frame = pair.frame()?;
-    if let Some(frame) = &frame {
-        if rungs.last_enclosure && pair.is_enclosed(frame, &hint) {
-            return Ok(());
-        }
-        if rungs.marching && pair.may_have_come_apart(frame) {
-            let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
-            hint.pairs = Pairs::new(&[start.vertices()]);
-            if start.guess == Guess::Apart {
-                let attempt = pair.march(Some(start));
-                match pair.look_closer(attempt, rungs) {
-                    None => return Ok(()),
-                    Some(nearer) => hint = nearer,
-                }
+    // Made in place: it is large.
+    let frame = Frame::<Portable>::new(pair.polyhedra(), pair.poses(), pair.config.rotation_limit);
+    if !frame.usual {
+        pair.check_poses()?;
+        pair.decide(None, &hint, rungs.fallback);
+        return Ok(());
+    }
+    if rungs.last_enclosure && pair.is_enclosed(&frame, &hint) {
+        return Ok(());
+    }
+    if rungs.marching && pair.may_have_come_apart(&frame) {
+        let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
+        hint.pairs = Pairs::new(&[start.vertices()]);
+        if start.guess == Guess::Apart {
+            let attempt = pair.march(Some(start));
+            match pair.look_closer(attempt, rungs) {
+                None => return Ok(()),
+                Some(nearer) => hint = nearer,
             }
         }
     }
-    pair.decide(frame.as_ref(), &hint, rungs.fallback);
+    pair.decide(Some(&frame), &hint, rungs.fallback);
     Ok(())
 }

@@ -15,8 +15,9 @@ pub(super) struct Alternate<'a, F, S> {
     // Lent, not copied: pairs of pointers just written one by one would be read as one, which stalls.
     pub(super) polyhedra: &'a [&'a Polyhedron; 2],
     pub(super) poses: &'a [&'a Pose; 2],
-    /// Vertices to begin from and how many rounds lead on from them, if they are nearer than the centres of mass.
-    pub(super) last: Option<([u32; 2], u32)>,
+    /// Vertices to begin from, if rounds from there are fewer than from the centres of mass.
+    pub(super) last: [u32; 2],
+    pub(super) most_rounds: u32,
 }
 
 impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
@@ -28,12 +29,10 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
         let [there, back] = self.maps::<L>();
         let mut rounds = first.rounds().max(second.rounds());
         let (mut seen1, mut seen2) = (back.offset, there.offset);
-        if let Some((last, rounds_from_last)) = self.last
-            && rounds_from_last < rounds
-        {
-            rounds = rounds_from_last;
-            seen1 = back.apply(second.position(last[1]));
-            seen2 = there.apply(first.position(last[0]));
+        if self.most_rounds < rounds {
+            rounds = self.most_rounds;
+            seen1 = back.apply(second.position(self.last[1]));
+            seen2 = there.apply(first.position(self.last[0]));
         }
         let mut vertices = [first.nearest(seen1), second.nearest(seen2)];
         self.prefetch::<L>(vertices);

@@ -55,31 +55,57 @@ pub enum Guess {
 
 /// Where to start: as `from` says, as far as both bodies have tables for it, or one of them has and the other needs none; or else at
 /// the vertices farthest along the line of the bodies' origins.
-#[inline(never)]
+#[inline(always)]
 pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFrom) -> StartPair {
-    let last = match from {
-        StartFrom::Farthest => return farthest(polyhedra, poses),
-        StartFrom::Centres => None,
-        StartFrom::LastVertices { vertices, rounds } => Some((vertices, rounds)),
-    };
+    match from {
+        StartFrom::Farthest => farthest(polyhedra, poses),
+        StartFrom::Centres => look_up(polyhedra, poses, [0; 2], u32::MAX),
+        StartFrom::LastVertices { vertices, rounds } => look_up(polyhedra, poses, vertices, rounds),
+    }
+}
+
+/// At most `rounds` rounds of look-ups from the vertices `last`; where the centres of mass take no more, from these.
+#[inline(never)]
+fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], rounds: u32) -> StartPair {
     let [body1, body2] = polyhedra;
     // Returned from where it is found: put together elsewhere it would be copied, which stalls.
     match [body1.lookup.plan, body2.lookup.plan] {
         [Plan::Shells { .. }, Plan::Shells { .. }] => {
             if let (Table::Shells(first), Table::Shells(second)) = (table(body1), table(body2)) {
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+                return simd::dispatch(&mut Alternate {
+                    first,
+                    second,
+                    polyhedra: &polyhedra,
+                    poses: &poses,
+                    last,
+                    most_rounds: rounds,
+                });
             }
         }
-        [Plan::AllVertices { rounds }, Plan::Shells { .. }] => {
+        [Plan::AllVertices { rounds: wanted }, Plan::Shells { .. }] => {
             if let Table::Shells(second) = table(body2) {
-                let first = &AllVertices { polyhedron: body1, rounds };
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+                let first = &AllVertices { polyhedron: body1, rounds: wanted };
+                return simd::dispatch(&mut Alternate {
+                    first,
+                    second,
+                    polyhedra: &polyhedra,
+                    poses: &poses,
+                    last,
+                    most_rounds: rounds,
+                });
             }
         }
-        [Plan::Shells { .. }, Plan::AllVertices { rounds }] => {
+        [Plan::Shells { .. }, Plan::AllVertices { rounds: wanted }] => {
             if let Table::Shells(first) = table(body1) {
-                let second = &AllVertices { polyhedron: body2, rounds };
-                return simd::dispatch(&mut Alternate { first, second, polyhedra: &polyhedra, poses: &poses, last });
+                let second = &AllVertices { polyhedron: body2, rounds: wanted };
+                return simd::dispatch(&mut Alternate {
+                    first,
+                    second,
+                    polyhedra: &polyhedra,
+                    poses: &poses,
+                    last,
+                    most_rounds: rounds,
+                });
             }
         }
         [Plan::Spherical { .. }, Plan::Spherical { .. }] => {
