@@ -12,6 +12,7 @@ use crate::solve::decide::{self, Decision, Pairs, Wanted};
 use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
 use crate::solve::state::State;
+use crate::tables::tuning::TURNED_AWAY;
 
 /// Where to go on.
 #[derive(Clone, Copy)]
@@ -74,6 +75,11 @@ impl PairQuery<'_> {
         self.config.start != Start::Cache
             && self.cache.enclosure(self.polyhedra()).is_some()
             && policy::may_have_come_apart(frame, &self.cache.marker, self.poses())
+    }
+
+    /// Whether the pair has moved so far that a pair from the tables is a better hint than the last enclosure.
+    pub(super) fn has_turned_away(&self, frame: &Frame<Portable>) -> bool {
+        frame.has_moved(&self.cache.marker, TURNED_AWAY)
     }
 
     /// The last rungs: the fallback, if it is to be asked, and integers.

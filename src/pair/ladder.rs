@@ -86,7 +86,9 @@ pub(super) fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs)
     }
     if rungs.marching && pair.may_have_come_apart(&frame) {
         let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
-        hint.pairs = Pairs::new(&[start.vertices()]);
+        if pair.has_turned_away(&frame) {
+            hint.pairs = Pairs::new(&[start.vertices()]);
+        }
         if start.guess == Guess::Apart {
             let attempt = pair.march(Some(start));
             match pair.look_closer(attempt, rungs) {

@@ -70,7 +70,8 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     }
     let reach = match plan {
         Plan::Spherical { .. } => tuning::REACH_OF_SPHERICAL,
-        _ => tuning::REACH_OF_SHELLS,
+        _ if rounds(&Thickness::of(polyhedron), vertex_count) == tuning::ROUNDS_OF_ROUND => tuning::REACH_OF_ROUND,
+        _ => tuning::REACH_OF_THIN,
     };
     Ok(Lookup { plan, reach: reach * spacing, made: OnNeed::new() })
 }

@@ -6,7 +6,7 @@ use crate::base::math::Pose;
 use crate::base::simd::Lanes;
 use crate::solve::frame::{Frame, Marker};
 use crate::solve::state::State;
-use crate::tables::tuning::{FAR, ONE_ROUND, TWO_ROUNDS};
+use crate::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
 
 /// From what a search starts, if not from the features of the last query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -52,7 +52,8 @@ pub fn has_jumped<L: Lanes>(frame: &Frame<L>, marker: &Marker) -> bool {
 /// Whether a pair that intersected when it had this marker has jumped, and may be apart: it is for marching, from the tables. Where
 /// spheres inside the bodies may overlap, and the jump is not far, the last enclosure is the better hint.
 pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [&Pose; 2]) -> bool {
-    frame.has_moved(marker, FAR) || (has_jumped(frame, marker) && !may_cores_overlap(frame.polyhedra(), poses))
+    frame.has_moved(marker, FAR)
+        || (frame.has_moved(marker, COME_APART * square_reach(frame)) && !may_cores_overlap(frame.polyhedra(), poses))
 }
 
 #[inline(always)]
