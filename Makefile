@@ -29,7 +29,8 @@ TARGET =
 # gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
 CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
-# What draws charts: Debian's own Python has Debian's matplotlib, even where another one comes first in PATH. DRAW=python3 takes that.
+# What draws charts: Debian's own Python has Debian's matplotlib, even where another one comes first in PATH.
+# DRAW=python3 takes that.
 DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
 MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
 COAL = $(BUILD)/coal/bin/python

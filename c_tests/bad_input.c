@@ -1,6 +1,7 @@
 /*
  * What a program may do wrong at the C interface: every call must answer with its status and a message that names the argument,
- * lose nothing and leave everything usable. Run under valgrind it shows that nothing is read, written or leaked that should not be.
+ * lose nothing and leave everything usable. Run under valgrind it shows that nothing is read, written or leaked that should not
+ * be.
  *
  *     bad_input [folder for the files that it writes]
  */
@@ -18,7 +19,7 @@ static const double HERE[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static const double THERE[12] = {1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0};
 
 static swiftprox_status mesh(const double *vertices, size_t vertex_count, const uint32_t *indices, const uint32_t *valences,
-                         size_t face_count, const swiftprox_shape_options *options)
+                             size_t face_count, const swiftprox_shape_options *options)
 {
     /* Not null before: a failure must make it so. */
     swiftprox_shape *shape = (swiftprox_shape *)(void *)vertices;
@@ -41,9 +42,12 @@ static void meshes(void)
     size_t i;
 
     CHECK_OK(mesh(CORNERS, 4, FACES, NULL, 4, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_shape_create_from_mesh(NULL, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "indices", swiftprox_shape_create_from_mesh(CORNERS, 4, NULL, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
+                swiftprox_shape_create_from_mesh(NULL, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "indices",
+                swiftprox_shape_create_from_mesh(CORNERS, 4, NULL, NULL, 4, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape",
+                swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "vertex_count", mesh(CORNERS, SIZE_MAX, FACES, NULL, 4, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "face_count", mesh(CORNERS, 4, FACES, NULL, (size_t)-4, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, NULL, UINT32_MAX, NULL));
@@ -61,12 +65,14 @@ static void meshes(void)
         memcpy(corners, CORNERS, sizeof corners);
         corners[7] = bad[i];
         CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2", mesh(corners, 4, FACES, NULL, 4, NULL));
-        CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2: y is not finite", swiftprox_shape_create_from_points(corners, 4, NULL, &shape));
+        CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2: y is not finite",
+                    swiftprox_shape_create_from_points(corners, 4, NULL, &shape));
         CHECK(shape == NULL);
     }
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points", swiftprox_shape_create_from_points(NULL, 4, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", swiftprox_shape_create_from_points(CORNERS, SIZE_MAX / 8, NULL, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "at least one point", swiftprox_shape_create_from_points(CORNERS, 0, NULL, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "at least one point",
+                swiftprox_shape_create_from_points(CORNERS, 0, NULL, &shape));
     CHECK(shape == NULL);
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "interior", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "SWIFTPROX_INPUT_FLAT", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
@@ -177,11 +183,14 @@ static void pairs(void)
     int entry;
 
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1", swiftprox_pair_distance(NULL, HERE, shape, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose1", swiftprox_pair_contact(shape, NULL, shape, THERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1",
+                swiftprox_pair_distance(NULL, HERE, shape, THERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose1",
+                swiftprox_pair_contact(shape, NULL, shape, THERE, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape2",
                 swiftprox_pair_intersection(shape, HERE, NULL, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2", swiftprox_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2",
+                swiftprox_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_distance(shape, HERE, shape, THERE, NULL, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "config", swiftprox_pair_config_init(NULL));
@@ -199,9 +208,12 @@ static void pairs(void)
             }
         }
     }
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection", swiftprox_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
+                swiftprox_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
+                swiftprox_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
+                swiftprox_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 0", swiftprox_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
     CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
@@ -241,7 +253,8 @@ static void pairs(void)
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
     answer.outcome = SWIFTPROX_OUTCOME_INTERSECTING;
     answer.proof_count = UINT32_MAX;
-    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "4294967295 vertex pairs", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "4294967295 vertex pairs",
+                swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
     answer.proof_count = 4;
     answer.proof[3][1] = UINT32_MAX;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "vertex", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
@@ -327,8 +340,10 @@ static void scenes(void)
     still_usable(scene, __LINE__);
 
     /* Adding. */
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id",
+                swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
+                swiftprox_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 3, NULL, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file", swiftprox_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));

@@ -1,6 +1,6 @@
 /*
- * The floating-point environment of the program: whatever it is, every call answers bit for bit as in the default one, calls the
- * program's functions in the program's environment, and leaves that as it was.
+ * The floating-point environment of the program: whatever it is, every call answers bit for bit as in the default one, calls
+ * the program's functions in the program's environment, and leaves that as it was.
  *
  *     environment [folder for the files that it writes]
  */
@@ -244,10 +244,11 @@ static void prepare(const char *folder)
 
 /* ---- what is asked ---- */
 
-typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *, swiftprox_pair_cache *,
-                                const swiftprox_pair_config *, swiftprox_pair_answer *);
+typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
+                                    swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
 
-static pair_query *const QUERIES[] = {swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate};
+static pair_query *const QUERIES[] = {swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact,
+                                      swiftprox_pair_approximate};
 enum { QUERY_COUNT = sizeof QUERIES / sizeof QUERIES[0] };
 
 /* All queries of a pair, and their verification. */
@@ -306,8 +307,8 @@ static swiftprox_shape *shape_of(const double *points, size_t count, const swift
 
 static void build_and_ask(void)
 {
-    static const int32_t hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
-                                          SWIFTPROX_HIERARCHY_OUTER_CUTS};
+    static const int32_t hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC,
+                                          SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFTPROX_HIERARCHY_OUTER_CUTS};
     swiftprox_shape_options options;
     swiftprox_pair_config config;
     CALL_OK(swiftprox_shape_options_init(&options));

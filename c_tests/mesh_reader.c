@@ -1,6 +1,6 @@
 /*
- * Readers of mesh files that a program registers: which files they get, what they hand over, and everything that may be wrong with
- * it. Run under valgrind it shows that nothing is read or kept beyond a call.
+ * Readers of mesh files that a program registers: which files they get, what they hand over, and everything that may be wrong
+ * with it. Run under valgrind it shows that nothing is read or kept beyond a call.
  *
  *     mesh_reader [folder for the files that it writes]
  */
@@ -123,12 +123,14 @@ static void a_format(void)
     CHECK_OK(swiftprox_scene_destroy(scene));
 
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "line 3: neither v nor f", read_file(write_file("a", "LINES\nv 0 0 0\ng\n"), &info));
-    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "vertex 1: y is not finite", read_file(write_file("a", "LINES\nv 0 0 0\nv 0 inf 0\n"), &info));
+    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "vertex 1: y is not finite",
+                read_file(write_file("a", "LINES\nv 0 0 0\nv 0 inf 0\n"), &info));
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "face 0, corner 2: vertex index 2 is out of range",
                 read_file(write_file("a", "LINES\nf 0 1 2\nv 0 0 0\nv 1 0 0\n"), &info));
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "a: there are no vertices in it", read_file(write_file("a", "LINES\n"), &info));
     /* Read without fault, but no closed mesh. */
-    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "a: ", read_file(write_file("a", "LINES\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 0 1 2\n"), &info));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH,
+                "a: ", read_file(write_file("a", "LINES\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 0 1 2\n"), &info));
 
     /* Others are read as ever, and these no more once the reader is taken back. */
     CHECK_OK(read_file(write_file("box.tri", "TRI 4 4 0 0 0 1 0 0 0 1 0 0 0 1 0 2 1 0 1 3 1 2 3 0 3 2"), &info));
@@ -298,14 +300,19 @@ static void registry(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "magic", swiftprox_library_register_mesh_reader(NULL, read_tetrahedron, &one));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "magic", swiftprox_library_register_mesh_reader(NULL, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "empty", swiftprox_library_register_mesh_reader("", read_tetrahedron, &one));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "white space", swiftprox_library_register_mesh_reader(" A", read_tetrahedron, &one));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "white space",
+                swiftprox_library_register_mesh_reader(" A", read_tetrahedron, &one));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "byte order mark",
-                swiftprox_library_register_mesh_reader("\xef\xbb\xbf" "A", read_tetrahedron, &one));
+                swiftprox_library_register_mesh_reader("\xef\xbb\xbf"
+                                                       "A",
+                                                       read_tetrahedron, &one));
     CHECK(size_in("MESH 2") == 0);
     CHECK_OK(swiftprox_library_register_mesh_reader("MESH", read_tetrahedron, &one));
     CHECK(size_in("MESH 2") == 1 && size_in("MESHES") == 1 && size_in("MES") == 0);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "\"MESH\"", swiftprox_library_register_mesh_reader("MESH 2", read_tetrahedron, &two));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "\"MESH\"", swiftprox_library_register_mesh_reader("M", read_tetrahedron, &two));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "\"MESH\"",
+                swiftprox_library_register_mesh_reader("MESH 2", read_tetrahedron, &two));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "\"MESH\"",
+                swiftprox_library_register_mesh_reader("M", read_tetrahedron, &two));
     CHECK(size_in("MESH 2") == 1 && size_in("MAX") == 0);
     CHECK_OK(swiftprox_library_register_mesh_reader("MESH", read_tetrahedron, &two));
     CHECK(size_in("MESH 2") == 2);
@@ -346,7 +353,8 @@ static int32_t read_crooked(void *user, const char *data, size_t size, swiftprox
 {
     static const uint32_t sides[24] = {0, 3, 2, 1, 4, 5, 6, 7, 0, 1, 5, 4, 1, 2, 6, 5, 2, 3, 7, 6, 3, 0, 4, 7};
     static const uint32_t valences[6] = {4, 4, 4, 4, 4, 4};
-    static const double corners[24] = {0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 0, 0, 1, 1, 0, 1, 1 + 1e-8, 1 + 1e-8, 1 + 1e-8, 0, 1, 1};
+    static const double corners[24] = {0, 0, 0, 1, 0, 0, 1,        1,        0,        0, 1, 0,
+                                       0, 0, 1, 1, 0, 1, 1 + 1e-8, 1 + 1e-8, 1 + 1e-8, 0, 1, 1};
     (void)data;
     (void)size;
     if (user != NULL) {

@@ -1,7 +1,7 @@
 /*
- * What several threads may do at once by the header's rules: pair queries on shapes that all share, each with a cache of its own;
- * shares taken and given back; const calls on one scene; scenes of their own over the same shapes; failures, whose messages are
- * each thread's own. Run under helgrind it shows that nothing is shared behind the caller's back.
+ * What several threads may do at once by the header's rules: pair queries on shapes that all share, each with a cache of its
+ * own; shares taken and given back; const calls on one scene; scenes of their own over the same shapes; failures, whose
+ * messages are each thread's own. Run under helgrind it shows that nothing is shared behind the caller's back.
  *
  *     threads [rounds]
  */
@@ -29,10 +29,10 @@ typedef struct worker {
     double distances[STEPS];
 } worker;
 
-#define REQUIRE(condition)                                \
-    do {                                                  \
-        if (!(condition) && worker->failed_line == 0)     \
-            worker->failed_line = __LINE__;               \
+#define REQUIRE(condition)                                                                                                     \
+    do {                                                                                                                       \
+        if (!(condition) && worker->failed_line == 0)                                                                          \
+            worker->failed_line = __LINE__;                                                                                    \
     } while (0)
 
 static void set_pose_at(double pose[12], double x, double y)
@@ -99,7 +99,8 @@ static void use_own_scene(worker *worker)
     REQUIRE(swiftprox_scene_remove_object(own, id) == SWIFTPROX_ERROR_HANDLE);
     REQUIRE(strstr(swiftprox_library_last_error_message(), "stale") != NULL);
     REQUIRE(swiftprox_library_check_version(100 + worker->number, 0, 0) == SWIFTPROX_ERROR_VERSION);
-    REQUIRE(strstr(swiftprox_library_last_error_message(), (const char *[]){"100.", "101.", "102.", "103."}[worker->number]) != NULL);
+    REQUIRE(strstr(swiftprox_library_last_error_message(), (const char *[]){"100.", "101.", "102.", "103."}[worker->number]) !=
+            NULL);
     REQUIRE(swiftprox_scene_destroy(own) == SWIFTPROX_OK);
 }
 

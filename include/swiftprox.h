@@ -527,7 +527,7 @@ typedef struct swiftprox_statistics {
   uint32_t marching_steps;
   /** Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries. */
   uint32_t fallback_iterations;
-  /** Exact tier: iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels. */
+  /** Iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels. */
   uint32_t exact_iterations;
   /** The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself. */
   uint16_t levels[2];
@@ -540,7 +540,7 @@ typedef struct swiftprox_statistics {
 typedef struct swiftprox_pair_answer {
   /** Disjoint, beyond the tolerance, or intersecting. */
   swiftprox_outcome outcome;
-  /** Which tier decided. */
+  /** Which rung of the search decided. */
   swiftprox_pair_status status;
   /** The best estimate, `lower <= distance <= upper`; 0 when intersecting. */
   double distance;

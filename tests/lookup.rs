@@ -545,8 +545,8 @@ fn how_far_a_pair_has_moved_is_told() {
     }
 }
 
-/// The farther a pair has moved the less its last features say: first they are where the search starts, then their vertices with ever
-/// more rounds of look-ups, in the end the centres of mass.
+/// The farther a pair has moved the less its last features say: first they are where the search starts, then their vertices with
+/// ever more rounds of look-ups, in the end the centres of mass.
 #[test]
 fn the_farther_a_pair_has_moved_the_less_its_last_features_say() {
     let body = shape(&ellipsoid([1.0, 0.1, 0.1], 1_002).unwrap(), LookupKind::Automatic, 0);

@@ -1,5 +1,5 @@
-//! Where memory is lacking a call says so and has changed nothing. An allocator refuses one block after the other: every block of at
-//! least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused.
+//! Where memory is lacking a call says so and has changed nothing. An allocator refuses one block after the other: every block of
+//! at least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused.
 
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
@@ -93,8 +93,8 @@ fn without<T>(number: usize, for_good: bool, work: impl FnOnce() -> T) -> (T, bo
     (done, ASKED.get() >= number)
 }
 
-/// The numbers of the blocks that are refused: the first ones all, then a few of a hundred, so that building a body a thousand times
-/// is not what takes the time.
+/// The numbers of the blocks that are refused: the first ones all, then a few of a hundred, so that building a body a thousand
+/// times is not what takes the time.
 fn numbers() -> impl Iterator<Item = usize> {
     std::iter::successors(Some(1), |number| Some(number + 1 + number / 16))
 }

@@ -19,7 +19,7 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::solve::exact::{ExactAnswer, solve};
 use swiftprox::verify::verify;
 
-/// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/polyhedron_build/layout.rs).
+/// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/build/assembly/layout.rs).
 const COUNT: u64 = 16_000;
 
 /// Pairs of features forced on each pair of bodies.
@@ -128,7 +128,7 @@ fn body(random: &mut Random) -> Vec<Vector> {
         points[far][axis] *= random.power(0, 50);
     }
     let radius = points.iter().map(|p| p.norm()).fold(0.0, f64::max);
-    // From an eighth of a rounding to 64: more than what still merges (`face_merge::merge_bound`).
+    // From an eighth of a rounding to 64: more than what still merges (`build::merge::merge_bound`).
     let depth = radius * random.power(-56, -46);
     match random.below(4) {
         0 => points.iter_mut().for_each(|p| *p += depth * random.vector()),

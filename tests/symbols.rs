@@ -1,5 +1,5 @@
-//! What the shared library exports: functions of our nouns under our own prefix (`swift_` is that of the Swift language's runtime, which
-//! may live in the same process), and nothing else. Needs `nm`, which `make test` installs.
+//! What the shared library exports: functions of our nouns under our own prefix (`swift_` is that of the Swift language's runtime,
+//! which may live in the same process), and nothing else. Needs `nm`, which `make test` installs.
 
 use std::path::PathBuf;
 use std::process::Command;

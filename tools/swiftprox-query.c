@@ -16,11 +16,10 @@
 
 enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
-static const char USAGE[] =
-    "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
-    "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
-    "                       [--input strict|flat|hull] [--bounds tight|verdict] [--count N]\n"
-    "                       [--bench PASSES]\n";
+static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
+                            "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
+                            "                       [--input strict|flat|hull] [--bounds tight|verdict] [--count N]\n"
+                            "                       [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
@@ -81,7 +80,7 @@ static const char HELP[] =
 /* ---- the command line ---- */
 
 typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
-                                swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
+                                    swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
@@ -149,11 +148,11 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     static const swiftprox_bounds BOUNDS_VALUES[] = {SWIFTPROX_BOUNDS_TIGHT, SWIFTPROX_BOUNDS_VERDICT};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
     static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
-                                               SWIFTPROX_START_COLD};
+                                                   SWIFTPROX_START_COLD};
     static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer"};
     static const swiftprox_hierarchy HIERARCHIES[] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_NONE,
-                                                  SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
-                                                  SWIFTPROX_HIERARCHY_OUTER_CUTS};
+                                                      SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
+                                                      SWIFTPROX_HIERARCHY_OUTER_CUTS};
 
     int choice;
     if (strcmp(name, "--query") == 0) {
@@ -194,7 +193,7 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
-    static const char *const WITH_VALUE[] = {"--query", "--input",  "--bounds", "--count",
+    static const char *const WITH_VALUE[] = {"--query", "--input", "--bounds", "--count",
                                              "--bench", "--error", "--start",  "--levels"};
     *arguments = (struct arguments){.query = swiftprox_pair_contact,
                                     .input = SWIFTPROX_INPUT_STRICT,
@@ -243,9 +242,7 @@ static double seconds(void)
 
 static struct progress progress_start(void)
 {
-    return (struct progress){.shown = isatty(STDERR_FILENO),
-                             .shares_terminal = isatty(STDOUT_FILENO),
-                             .next = seconds() + 0.5};
+    return (struct progress){.shown = isatty(STDERR_FILENO), .shares_terminal = isatty(STDOUT_FILENO), .next = seconds() + 0.5};
 }
 
 static void progress_erase(const struct progress *progress)
@@ -294,7 +291,8 @@ struct job {
     swiftprox_pair_config config;
 };
 
-static swiftprox_status answer_query(const struct job *job, size_t index, swiftprox_pair_cache *cache, swiftprox_pair_answer *answer)
+static swiftprox_status answer_query(const struct job *job, size_t index, swiftprox_pair_cache *cache,
+                                     swiftprox_pair_answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
     return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, cache, &job->config, answer);

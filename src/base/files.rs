@@ -1,4 +1,5 @@
-//! Files read and written whole: regular ones, no larger than the limit. Whatever else bears a file's name is refused, not waited for.
+//! Files read and written whole: regular ones, no larger than the limit. Whatever else bears a file's name is refused, not waited
+//! for.
 
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Read, Write};

@@ -1,5 +1,5 @@
-//! Levels of detail: simpler polyhedra around a body, each with a bound of how far it stands off. A level kind proposes points; what
-//! bounds, measures and links them is in [`hierarchy`].
+//! Levels of detail: simpler polyhedra around a body, each with a bound of how far it stands off. A level kind proposes points;
+//! what bounds, measures and links them is in [`hierarchy`].
 
 #[doc(hidden)]
 pub mod quadric;

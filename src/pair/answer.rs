@@ -76,7 +76,7 @@ pub struct Statistics {
     pub marching_steps: u32,
     /// Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries.
     pub fallback_iterations: u32,
-    /// Exact tier: iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels.
+    /// Iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels.
     pub exact_iterations: u32,
     /// The levels of detail of object 1 and object 2 that the answer comes from; 0 is the object itself.
     pub levels: [u16; 2],
@@ -89,7 +89,7 @@ pub struct Statistics {
 pub struct PairAnswer {
     /// Disjoint, beyond the tolerance, or intersecting.
     pub outcome: Outcome,
-    /// Which tier decided.
+    /// Which rung of the search decided.
     pub status: Status,
     /// The best estimate, `lower ≤ distance ≤ upper`; 0 when intersecting.
     pub distance: f64,

@@ -61,8 +61,8 @@ impl Leg {
     }
 }
 
-/// The common case: the cached features still are the nearest. One state, straight through to the answer, without the loop that would
-/// keep so much in registers.
+/// The common case: the cached features still are the nearest. One state, straight through to the answer, without the loop that
+/// would keep so much in registers.
 struct Coherent<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }

@@ -1,5 +1,5 @@
-//! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand. Here alone it is packed and
-//! unpacked.
+//! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand. Here alone it is packed
+//! and unpacked.
 //!
 //! | it holds | first word | indices | vertex pairs |
 //! |---|---|---|---|
@@ -59,7 +59,7 @@ impl PairCache {
         }
     }
 
-    // --- Features, and the axis beside them -----------------------------------------------------------------------------------------
+    // --- Features, and the axis beside them --------------------------------------------------------------------------------------
 
     /// The last features, be they any that the bodies have or not.
     #[inline(always)]
@@ -103,7 +103,7 @@ impl PairCache {
         self.pairs[0] = vertices;
     }
 
-    // --- An enclosure ---------------------------------------------------------------------------------------------------------------
+    // --- An enclosure ------------------------------------------------------------------------------------------------------------
 
     /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
@@ -126,7 +126,7 @@ impl PairCache {
         self.pairs[..pairs.len()].copy_from_slice(pairs);
     }
 
-    // --- A place in levels ----------------------------------------------------------------------------------------------------------
+    // --- A place in levels -------------------------------------------------------------------------------------------------------
 
     /// Whether the last answer came from levels of detail.
     #[inline(always)]

@@ -1,4 +1,4 @@
-//! What marching leaves open: a closer look, the last enclosure re-tested, the fallback, the exact tier.
+//! What marching leaves open: a closer look, the last enclosure re-tested, the fallback, integers.
 
 use super::acceptance::{Acceptance, Closely};
 use super::contact;

@@ -228,7 +228,7 @@ pub struct Descent<'a> {
     pub place: Place,
     /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
     pub is_trial: bool,
-    /// Where a trial is given up at once if the pair has [jumped](has_jumped) since it had this marker.
+    /// Where a trial is given up at once if the pair has [jumped](levels_have_jumped) since it had this marker.
     pub marker: Option<Marker>,
     /// Steps of marching that it may make, at least 1.
     pub step_limit: u32,
@@ -252,7 +252,7 @@ impl Kernel for Descent<'_> {
             let polyhedra = self.bodies.polyhedra(levels);
             let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
             if frame.usual {
-                if self.is_trial && has_jumped(&frame, &self.bodies, self.marker.as_ref()) {
+                if self.is_trial && levels_have_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
                 }
                 let limit =
@@ -289,8 +289,8 @@ impl Kernel for Descent<'_> {
 }
 
 /// The beginning of a search alone, the trial at its first levels, for [ordinary](Polyhedron::ordinary) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the pair's
-/// frame. It is what the search would find.
+/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the
+/// pair's frame. It is what the search would find.
 #[inline(always)]
 pub fn try_first<'a, L: Lanes>(
     bodies: &Leveled<'a>,
@@ -298,7 +298,7 @@ pub fn try_first<'a, L: Lanes>(
     marker: Option<&Marker>,
 ) -> Option<(Found, u32, Frame<'a, L>)> {
     let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
-    if !frame.usual || has_jumped(&frame, bodies, marker) {
+    if !frame.usual || levels_have_jumped(&frame, bodies, marker) {
         return None;
     }
     let mut keep = Keep::nothing();
@@ -318,7 +318,7 @@ pub fn try_first<'a, L: Lanes>(
 
 /// Whether the pair has jumped since it had a marker.
 #[inline(always)]
-fn has_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
+fn levels_have_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
     // The levels' lever is that of the bodies. (A closure would be compiled without the lanes' instructions if it is not inlined.)
     let frame = Frame { size: bodies.size(), ..*frame };
     match marker {

@@ -1,5 +1,5 @@
-//! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on what it learnt; the last
-//! one, integers, always answers.
+//! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on what it learnt; the
+//! last one, integers, always answers.
 
 use super::decision::Hint;
 use super::levels::Searched;
@@ -61,7 +61,7 @@ fn climb_bodies(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
 
 /// The rest, for what is not the common case.
 #[inline(never)]
-pub(super) fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<()> {
+fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<()> {
     pair.forget()?;
     let enclosure = pair.cache.enclosure(pair.polyhedra());
     if rungs.marching && matches!(attempt, Attempt::Untried) && enclosure.is_none() {

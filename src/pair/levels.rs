@@ -1,4 +1,5 @@
-//! Queries through levels of detail, and those with a step budget: the search among the levels, and where the next query is to start.
+//! Queries through levels of detail, and those with a step budget: the search among the levels, and where the next query is to
+//! start.
 
 use super::attempt::Leg;
 use super::config::PairConfig;
@@ -112,8 +113,8 @@ impl<'a> PairQuery<'a> {
     }
 
     /// Whether the bodies are so large that levels may save time. Those that intersected the last time mostly still do, which
-    /// their cached enclosure proves, and levels cannot. (Of round bodies of 100,002 vertices that saves from four fifths at 0.1° to
-    /// nineteen twentieths of the time at 1° and 10°.)
+    /// their cached enclosure proves, and levels cannot. (Of round bodies of 100,002 vertices that saves from four fifths at 0.1°
+    /// to nineteen twentieths of the time at 1° and 10°.)
     #[inline(always)]
     fn is_large(&self) -> bool {
         let Some(least) = least_vertices(self.query) else { return false };

@@ -1,5 +1,5 @@
-//! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns. [`ladder`] shows every way
-//! in which an answer comes about.
+//! Pair queries: pure functions of two immutable shapes, two poses and a small cache that the caller owns. [`ladder`] shows every
+//! way in which an answer comes about.
 
 mod answer;
 mod normal_cone;
@@ -45,9 +45,9 @@ pub use query::{Query, Rungs};
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
-/// above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a tolerance that is NaN or negative and
-/// for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer` and `cache` are as
-/// they were. What of `config` is for [`approximate`] alone is not looked at.
+/// above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a tolerance that is NaN or negative
+/// and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer` and `cache`
+/// are as they were. What of `config` is for [`approximate`] alone is not looked at.
 pub fn distance(
     shape1: &Shape,
     pose1: &Pose,

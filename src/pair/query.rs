@@ -71,8 +71,8 @@ impl<'a> PairQuery<'a> {
         [self.bodies[0].pose, self.bodies[1].pose]
     }
 
-    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are ordinary, and a rotation limit
-    /// that refuses no pose which is right up to rounding.
+    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are ordinary, and a rotation
+    /// limit that refuses no pose which is right up to rounding.
     #[inline(always)]
     pub fn is_simple(&self) -> bool {
         let [body1, body2] = self.polyhedra();

@@ -34,7 +34,8 @@ const VERSION: u32 = 1;
 /// Saves a shape in a file, replacing what was there.
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be written or is no regular one; the message names it and says why. [`Error::Memory`]: the file is as it was.
+/// [`Error::File`] if the file cannot be written or is no regular one; the message names it and says why. [`Error::Memory`]: the
+/// file is as it was.
 pub fn save(shape: &Shape, path: &Path) -> Result<()> {
     write_whole(path, &to_bytes(shape)?)
 }
@@ -42,8 +43,9 @@ pub fn save(shape: &Shape, path: &Path) -> Result<()> {
 /// Loads a shape that was [saved](save).
 ///
 /// # Errors
-/// [`Error::File`] if the file cannot be read, is no regular file, is larger than [`MOST_FILE_BYTES`](crate::base::files::MOST_FILE_BYTES),
-/// is no shape file, is of another version or damaged; the message names it and says what is wrong. [`Error::Memory`].
+/// [`Error::File`] if the file cannot be read, is no regular file, is larger than
+/// [`MOST_FILE_BYTES`](crate::base::files::MOST_FILE_BYTES), is no shape file, is of another version or damaged; the message names
+/// it and says what is wrong. [`Error::Memory`].
 pub fn load(path: &Path) -> Result<Shape> {
     load_in_steps(path, &mut Progress::new(&mut |_| true))
 }

@@ -1,4 +1,4 @@
-//! Deciding a pair for sure when marching alone cannot: the last proof re-tested, the fallback, the exact tier.
+//! Deciding a pair for sure when marching alone cannot: the fallback, then integers.
 
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes};

@@ -205,8 +205,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         moved.dot(moved) > lever * lever * (square - turned.dot(turned))
     }
 
-    /// Whether the square of the angle by which body 2 has turned, seen from body 1, is more than so much by its second axis: a turn
-    /// about its own first axis, which [`Frame::has_moved`] does not see.
+    /// Whether the square of the angle by which body 2 has turned, seen from body 1, is more than so much by its second axis: a
+    /// turn about its own first axis, which [`Frame::has_moved`] does not see.
     #[inline(always)]
     pub fn has_rolled(&self, last: &Marker, square: f64) -> bool {
         let [_, axis] = self.axes();

@@ -1,8 +1,8 @@
 //! The numbers that say where a search starts. They change how fast an answer comes, never the answer. Each is chosen by time, on
 //! pairs of like bodies of 1,002 and 10,002 vertices on three orbits.
 //!
-//! A *reach* is an angle times √n: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. A pair that has moved
-//! and turned by more than that (taken together, as body 1 sees body 2) starts from the tables; else at its last features.
+//! A *reach* is an angle times √n: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. A pair that has
+//! moved and turned by more than that (taken together, as body 1 sees body 2) starts from the tables; else at its last features.
 //!
 //! | rule | what it buys |
 //! |---|---|
@@ -36,8 +36,8 @@ pub const TWO_ROUNDS: f64 = 16.0;
 /// From the root of this times the reach on, bodies that intersected may have come apart, and are for marching.
 pub const COME_APART: f64 = 3.0;
 
-/// The square of half a radian: bodies that have moved by more and may have come apart begin at the pair from the tables, also where
-/// that is for the fallback.
+/// The square of half a radian: bodies that have moved by more and may have come apart begin at the pair from the tables, also
+/// where that is for the fallback.
 pub const TURNED_AWAY: f64 = 0.25;
 
 /// The square of an angle of about 72°: after a longer jump bodies that intersected are for marching in any case.

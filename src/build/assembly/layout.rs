@@ -84,8 +84,8 @@ fn edge_between(
 }
 
 /// What a short edge of merged faces adds to the slack of a quick look. Its vertices are in the faces' planes within
-/// [`crate::build::merge::merge_bound`], so it leans out of them by s = |n·ê| of up to 16uρ over its length. What a quick look takes
-/// for the cone of the normals are the directions across the edge between the normals' parts across it, n − (n·ê)ê; as
+/// [`crate::build::merge::merge_bound`], so it leans out of them by s = |n·ê| of up to 16uρ over its length. What a quick look
+/// takes for the cone of the normals are the directions across the edge between the normals' parts across it, n − (n·ê)ê; as
 /// combinations of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. What an edge
 /// of a triangle leans by rounding, the looks allow for: the product is right to 3u, and s up to 5u is within the 12u that they
 /// have for this.

@@ -36,8 +36,8 @@ pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhe
 /// they are not their indices.
 ///
 /// # Errors
-/// [`crate::base::error::Error::Bug`] if `hull` is not the hull of the points; [`crate::base::error::Error::Cancelled`] when the caller does
-/// not want to go on.
+/// [`crate::base::error::Error::Bug`] if `hull` is not the hull of the points; [`crate::base::error::Error::Cancelled`] when the
+/// caller does not want to go on.
 pub fn build_in_steps(
     points: &[Vector],
     mut hull: Hull,

@@ -86,7 +86,8 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// Begins with a body of dimension 3.
     ///
     /// # Errors
-    /// [`Error::Bug`](crate::base::error::Error::Bug) if its triangles are no closed surface, [`crate::base::error::Error::Memory`].
+    /// [`Error::Bug`](crate::base::error::Error::Bug) if its triangles are no closed surface,
+    /// [`crate::base::error::Error::Memory`].
     pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
         let positions: Vec<Vector> = collected(base.vertices.iter().map(|v| v.position))?;
         let centre = base.mass.centre_of_mass - base.centre;

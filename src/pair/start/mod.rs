@@ -41,7 +41,7 @@ impl StartPair {
 }
 
 /// What a look into the tables makes one expect.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Guess {
     /// Each of the two vertices is on the side of its body that faces the other vertex, or they are farthest along a line along
@@ -53,8 +53,8 @@ pub enum Guess {
     Overlapping,
 }
 
-/// Where to start: as `from` says, as far as both bodies have tables for it, or one of them has and the other needs none; or else at
-/// the vertices farthest along the line of the bodies' origins.
+/// Where to start: as `from` says, as far as both bodies have tables for it, or one of them has and the other needs none; or else
+/// at the vertices farthest along the line of the bodies' origins.
 #[inline(always)]
 pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFrom) -> StartPair {
     match from {

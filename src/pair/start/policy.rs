@@ -1,5 +1,5 @@
-//! The policy of starts: what has moved since the last query, by how much, and which tables there are say where a search starts. The
-//! numbers are in [`tuning`](crate::tables::tuning).
+//! The policy of starts: what has moved since the last query, by how much, and which tables there are say where a search starts.
+//! The numbers are in [`tuning`](crate::tables::tuning).
 
 use super::may_cores_overlap;
 use crate::base::math::Pose;
