@@ -67,14 +67,27 @@ pub fn fill_placed(
     direction: &Vector,
     features: [FeatureId; 2],
 ) {
-    let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
-    answer.local1 = local[0].into();
-    answer.local2 = local[1].into();
-    answer.world1 = placed(poses[0], &local[0]).into();
-    answer.world2 = placed(poses[1], &local[1]).into();
+    let PlacedPoints { local, world } = placed_points(polyhedra, poses, points);
+    [answer.local1, answer.local2] = local;
+    [answer.world1, answer.world2] = world;
     answer.normal = normalised(direction);
     answer.feature1 = label(polyhedra[0], features[0], &points[0]);
     answer.feature2 = label(polyhedra[1], features[1], &points[1]);
+}
+
+/// Points of two bodies, in both frames.
+pub struct PlacedPoints {
+    /// In the bodies' own frames.
+    pub local: [[f64; 3]; 2],
+    /// In the world.
+    pub world: [[f64; 3]; 2],
+}
+
+/// Points given in centred coordinates.
+pub fn placed_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], points: &[Vector; 2]) -> PlacedPoints {
+    let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
+    let world = [placed(poses[0], &local[0]), placed(poses[1], &local[1])];
+    PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
 }
 
 /// A local point in the world, infinite only where the world is larger than the doubles: not where terms that cancel are.
@@ -102,7 +115,7 @@ pub fn normalised(direction: &Vector) -> [f64; 3] {
 
 /// A feature in the caller's numbering; `point` is the witness point in centred coordinates.
 #[inline(always)]
-fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
+pub fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
     match feature {
         FeatureId::Vertex(v) => Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[v as usize], 0] },
         FeatureId::Edge(e) => {

@@ -11,6 +11,7 @@ pub mod start;
 mod descent;
 mod config;
 mod cache;
+mod depth;
 mod query;
 mod acceptance;
 mod glance;
@@ -30,6 +31,7 @@ pub use answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Bounds, Levels, PairConfig, Start};
+pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthStatistics, DepthStatus, depth};
 pub use descent::Refinement;
 use ladder::climb;
 #[doc(hidden)]

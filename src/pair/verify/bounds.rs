@@ -63,6 +63,18 @@ impl<'a> Bounds<'a> {
         (gap.value - needed).hi > self.error
     }
 
+    /// The difference of two vertices, right to the error of a length in each coordinate.
+    pub fn difference(&self, pair: VertexPair) -> WideVector {
+        let [point1, point2] =
+            [0, 1].map(|i| rotate(self.poses[i], &widen(&self.polyhedra[i].vertices[pair[i] as usize].position)));
+        [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]))
+    }
+
+    /// Whether the product of a difference with a vector of at most length 2 is more than a double for sure.
+    pub fn is_more(&self, product: DoubleDouble, than: f64) -> bool {
+        (product - than.into()).hi > 4.0 * self.error
+    }
+
     /// Whether a point of each body proves the distance to be at most `upper`.
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
         let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i])));
