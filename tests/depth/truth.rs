@@ -180,6 +180,6 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
         assert!(off <= 1e-13 * (size + apart), "{off:e} {}", told());
     }
     println!("{overlapping} overlapping, {touching} touching, {separated} separated, widest {widest:e}");
-    assert!(overlapping > 5000 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
+    assert!(overlapping > 4500 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
 }
 

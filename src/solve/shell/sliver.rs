@@ -4,6 +4,7 @@
 
 use super::Rounding;
 use super::storage::{NO_PLANE, Shell};
+use crate::base::double_double::{WideVector, narrow, wide_cross, wide_difference};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
@@ -11,29 +12,27 @@ use crate::solve::frame::Frame;
 /// Steps of Gilbert's iteration towards the nearest point of a triangle; what they leave open the three sides settle.
 const GILBERT_STEPS: u32 = 12;
 
-/// Gives a triangle the plane whose normal is the cross product of its two shorter edges, these from the bodies' own edges: their
-/// differences do not cancel. Whether the plane is another one.
+/// Gives a triangle the plane whose normal is the cross product of its edges in double-double arithmetic, these from the bodies' own
+/// edges: of nearly parallel ones a rounded product is noise, and differences of vertices cancel. Whether the plane is another one.
 pub fn straighten<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, rounding: &Rounding, triangle: usize) -> bool {
     let pairs = shell.pairs_of(triangle);
+    let columns = [0, 1].map(|i| [Vector::x(), Vector::y(), Vector::z()].map(|axis| frame.bodies[i].rotate(&axis).to_vector()));
     let edge = |k: usize| {
-        let along = |i: usize| {
+        let [along1, along2] = [0, 1].map(|i| {
             let vertices = &frame.bodies[i].polyhedron.vertices;
-            vertices[pairs[k][i] as usize].position - vertices[pairs[0][i] as usize].position
-        };
-        frame.bodies[0].rotate(&along(0)).sub(frame.bodies[1].rotate(&along(1))).to_vector()
+            let [from, to] = [pairs[0][i], pairs[k][i]].map(|v| vertices[v as usize].position);
+            rotate(&columns[i], &wide_difference(&to, &from))
+        });
+        [0, 1, 2].map(|axis| along1[axis] - along2[axis])
     };
-    let (e, g) = (edge(1), edge(2));
-    let h = g - e;
-    let [ee, gg, hh] = [e, g, h].map(|edge| edge.norm_squared());
-    let normal = if hh >= ee && hh >= gg {
-        e.cross(&g)
-    } else if ee >= gg {
-        g.cross(&h)
-    } else {
-        e.cross(&h)
-    };
+    let normal = narrow(&wide_cross(&edge(1), &edge(2)));
     let before = shell.normal(triangle);
     give_plane(shell, rounding, triangle, &normal) && shell.normal(triangle) != before
+}
+
+/// R·p from the columns of R.
+fn rotate([x, y, z]: &[Vector; 3], p: &WideVector) -> WideVector {
+    [0, 1, 2].map(|k| p[0] * x[k].into() + p[1] * y[k].into() + p[2] * z[k].into())
 }
 
 /// Gives a triangle the plane that proves most of its distance from the origin, of a few: along the direction of the best upper
