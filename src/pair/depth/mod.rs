@@ -92,7 +92,7 @@ impl Kernel for Search<'_> {
         let start = self.cache.unpack(&frame, &mut shell);
         let found = self.search(&frame, &mut shell, &start);
         if found.expansion.ending == Ending::Stuck {
-            let start = Start { triangle: None, ..start };
+            let start = Start { triangle: None, direction: None, ..start };
             return Some(L::out_of_line(&mut InLarge { search: self, frame: &frame, start }));
         }
         Some(found)

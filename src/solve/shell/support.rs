@@ -3,12 +3,12 @@
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{Polyhedron, clear_slope};
 use crate::polyhedron::lookup::Table;
 use crate::solve::certificate;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
-use crate::solve::voronoi::{Corner, Rule, VertexTest, test_vertex};
+use crate::solve::voronoi::{Corner, Rule, STRICT, VertexTest, test_vertex};
 use crate::tables;
 
 /// A support vertex of the difference body.
@@ -59,37 +59,78 @@ fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -
     if polyhedron.vertices.len() <= FEW {
         return farthest_of_few(polyhedron, towards);
     }
-    let start = start.unwrap_or_else(|| look_up(polyhedron, &towards.to_vector()));
-    // |RᵀU| ≤ 1.02|U|.
-    let length = 1.02;
-    let mut vertex = start;
+    let mut vertex = start.unwrap_or_else(|| look_up(polyhedron, &towards.to_vector()));
     // Each step leads up for sure, so that no vertex comes twice.
     for _ in 0..=polyhedron.vertices.len() {
         let Some(corner) = Corner::of(polyhedron, vertex) else { break };
-        match test_vertex(Rule::Most, corner, towards, length, CLEARLY_UP) {
+        vertex = match test_vertex(Rule::Most, corner, towards, LENGTH, CLEARLY) {
             VertexTest::Strict => return (vertex, 0.0),
-            VertexTest::Leaves { head, .. } => vertex = head,
-            VertexTest::Tied if vertex == start && polyhedron.face_around(vertex).is_some() => {
-                // Inside a face, all neighbours tie along its normal either way: it may be the lowest of all.
-                let &[lowest_or_highest, _] = &polyhedron.edges[0].across[..2] else { break };
-                return climb_closely(polyhedron, &towards.to_vector(), lowest_or_highest);
-            }
-            VertexTest::Tied => break,
+            VertexTest::Leaves { head, .. } => head,
+            VertexTest::Tied => match plateau(polyhedron, &towards.to_vector(), vertex) {
+                Plateau::Highest(vertex, beyond) => return (vertex, beyond),
+                Plateau::Up(head) => head,
+                Plateau::Large => break,
+            },
         }
     }
     (vertex, certificate::of_vertex(polyhedron, vertex, &towards.to_vector()))
 }
 
-/// A computed slope, of a unit vector right to 4u a component, along a direction of length 1.02, is off by less: 4u and 3u of the
-/// product, each times |g|₁ < 1.8.
-const CLEARLY_UP: f64 = 16.0 * U;
+/// An upper bound of |RᵀU|.
+const LENGTH: f64 = 1.02;
 
-/// The same in double precision alone.
-#[cold]
-fn climb_closely(polyhedron: &Polyhedron, towards: &Vector, start: u32) -> (u32, f64) {
-    let (vertex, _) = polyhedron.support(towards, start);
-    (vertex, certificate::of_vertex(polyhedron, vertex, towards))
+/// A computed slope beyond this has the right sign, see [`STRICT`].
+const CLEARLY: f64 = STRICT * LENGTH;
+
+/// Vertices of a plateau that are looked at.
+const LARGEST_PLATEAU: usize = 32;
+
+/// What is around a vertex that ties with neighbours of it.
+enum Plateau {
+    /// The highest of those that it ties with, and how much higher the body may be.
+    Highest(u32, f64),
+    /// From one of them this one is clearly up.
+    Up(u32),
+    /// Too many.
+    Large,
 }
+
+/// All vertices that one ties with, and that these tie with, and so on. From a vertex that is not farthest an edge leads up, be it by
+/// less than rounding shows: so if no edge leads clearly up, a farthest vertex is among them.
+#[cold]
+#[inline(never)]
+fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
+    let (mut tied, mut count, mut done) = ([vertex; LARGEST_PLATEAU], 1, 0);
+    let (rough, clear) = (towards.map(|d| d as f32).into(), clear_slope(LENGTH));
+    while done < count {
+        let from = tied[done];
+        done += 1;
+        for block in polyhedron.neighbour_blocks(from) {
+            for (slope, &head) in block.slopes(rough).into_iter().zip(&block.head) {
+                if slope < -clear || tied[..count].contains(&head) {
+                    continue;
+                }
+                let slope = polyhedron.direction_to(from, head).dot(towards);
+                if slope > CLEARLY {
+                    return Plateau::Up(head);
+                }
+                if slope >= -CLEARLY {
+                    if count == LARGEST_PLATEAU {
+                        return Plateau::Large;
+                    }
+                    tied[count] = head;
+                    count += 1;
+                }
+            }
+        }
+    }
+    let height = |v: u32| towards.dot(&polyhedron.vertices[v as usize].position);
+    let highest = tied[..count].iter().fold(vertex, |a, b| if height(*b) > height(a) { *b } else { a });
+    Plateau::Highest(highest, HEIGHTS * polyhedron.radius)
+}
+
+/// By how much the order of two heights, over the radius, may be wrong: each errs by 3u·|g|, and g by 6.2u.
+const HEIGHTS: f64 = 20.0 * U;
 
 /// Of few vertices, all are looked at.
 #[inline(always)]
@@ -104,8 +145,7 @@ fn farthest_of_few<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) 
             second = height;
         }
     }
-    // A height errs by 3u·|g|·ρ, and g by 6.2u: 10u·ρ for |g| ≤ 1.02, and another for the other vertex.
-    let rounding = 20.0 * U * polyhedron.radius;
+    let rounding = HEIGHTS * polyhedron.radius;
     (best, if highest - second > rounding { 0.0 } else { rounding })
 }
 
