@@ -115,12 +115,12 @@ fn supports(bodies: [&[Integers]; 2]) -> Vec<Support> {
 fn points(random: &mut Random, kind: usize) -> Vec<Vector> {
     let count = 1 + random.below(6);
     let scale = Vector::from([[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 1.0, 0.01], [1.0, 0.02, 0.02]][kind % 4]);
-    let coarse = kind % 3 == 0;
+    let coarse = kind.is_multiple_of(3);
     let point = |random: &mut Random| match coarse {
         true => random.lattice(2).component_mul(&scale.map(f64::ceil)) * 0.25,
         false => random.vector().component_mul(&scale).map(|x| (x / VERTEX_UNIT).round() * VERTEX_UNIT),
     };
-    (0..count.max(if kind % 5 == 0 { 1 } else { 4 })).map(|_| point(random)).collect()
+    (0..count.max(if kind.is_multiple_of(5) { 1 } else { 4 })).map(|_| point(random)).collect()
 }
 
 fn pose(random: &mut Random, kind: usize, reach: f64) -> Pose {
@@ -128,7 +128,7 @@ fn pose(random: &mut Random, kind: usize, reach: f64) -> Pose {
         0 => random.quarter_turns(),
         _ => random.rotation().map(|x| (x / ROTATION_UNIT).round() * ROTATION_UNIT),
     };
-    let unit = if kind % 3 == 0 { 0.125 } else { UNIT };
+    let unit = if kind.is_multiple_of(3) { 0.125 } else { UNIT };
     Pose::new(&rotation, &(random.vector() * reach).map(|x| (x / unit).round() * unit))
 }
 
@@ -137,7 +137,10 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
     let mut random = Random::new(31);
     let (mut overlapping, mut touching, mut separated, mut widest) = (0, 0, 0, 0.0_f64);
     for round in 0..12_000 {
-        let bodies = [0, 1].map(|_| { let kind = random.below(60); points(&mut random, kind) });
+        let bodies = [0, 1].map(|_| {
+            let kind = random.below(60);
+            points(&mut random, kind)
+        });
         let kind = random.below(60);
         let poses = [pose(&mut random, kind, 0.0), pose(&mut random, kind, 0.35)];
         let shapes = [hull(&bodies[0]), hull(&bodies[1])];
@@ -182,4 +185,3 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
     println!("{overlapping} overlapping, {touching} touching, {separated} separated, widest {widest:e}");
     assert!(overlapping > 4500 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
 }
-

@@ -62,11 +62,12 @@ impl DepthCache {
             return start;
         }
         shell.count_uses();
-        for (index, pair) in self.pairs[..vertices].iter().enumerate() {
-            let [v, w] = [0, 1].map(|i| &frame.bodies[i].polyhedron.vertices[pair[i] as usize].position);
-            shell.pairs[index] = *pair;
-            shell.positions[index] = frame.difference(v, w).to_array();
+        let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
+        for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
+            let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
+            shell.positions[index] = difference.to_array();
         }
+        shell.pairs[..vertices].copy_from_slice(&self.pairs[..vertices]);
         start.triangle = Some(if best < triangles { best } else { 0 });
         start
     }
@@ -92,7 +93,9 @@ impl DepthCache {
     fn unpack_triangles(&self, shell: &mut Shell, vertices: usize, triangles: usize) -> bool {
         let mut largest = 0;
         let packed = self.triangles[..triangles].iter();
-        for ((corners, twins), &[a, b, c, x, y, z, sides]) in shell.corners.iter_mut().zip(&mut *shell.twins).zip(packed) {
+        for ((corners, twins), &[a, b, c, x, y, z, sides]) in
+            shell.corners.iter_mut().zip(&mut *shell.twins).zip(packed)
+        {
             *corners = [a, b, c, 0];
             largest = largest.max(a).max(b).max(c);
             let side = |place: u32| usize::from(sides >> (2 * place) & 3);

@@ -87,7 +87,7 @@ impl Kernel for Search<'_> {
         if !frame.usual {
             return None;
         }
-        let mut storage = Storage::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::new();
+        let mut storage = Storage::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
         let mut shell = storage.shell();
         let start = self.cache.unpack(&frame, &mut shell);
         let found = self.search(&frame, &mut shell, &start);
@@ -128,7 +128,7 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Found {
-        let mut storage = Storage::<255, 508>::new();
+        let mut storage = Storage::<255, 508>::empty();
         self.search.search(self.frame, &mut storage.shell(), &self.start)
     }
 }
@@ -250,7 +250,7 @@ pub(super) fn proof(
     if !frame.usual {
         return Vec::new();
     }
-    let mut storage = Storage::<255, 508>::new();
+    let mut storage = Storage::<255, 508>::empty();
     let mut shell = storage.shell();
     match cache {
         Some(cache) => {

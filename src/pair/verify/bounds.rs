@@ -75,6 +75,15 @@ impl<'a> Bounds<'a> {
         (product - than.into()).hi > 4.0 * self.error
     }
 
+    /// Whether a gap along a normal, which is then an overlap, proves the depth to be at most `upper`: it is at most −gap/|normal|.
+    pub fn prove_overlap(&self, gap: &Gap, normal: &Vector, upper: f64) -> bool {
+        let wide = widen(normal);
+        // √(1 + x) ≥ 1 + x/2 − x² for every x from −1/2 on.
+        let excess = wide_dot(&wide, &wide) - 1.0.into();
+        let least = excess * 0.5.into() + 1.0.into() - excess * excess;
+        (gap.value + least * upper.into()).hi > self.error
+    }
+
     /// Whether a point of each body proves the distance to be at most `upper`.
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
         let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i])));

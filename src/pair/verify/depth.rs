@@ -28,13 +28,13 @@ use std::cmp::Ordering;
 /// | [`Outcome::Intersecting`] | the objects have a common point; `lower` ≤ d ≤ `upper`; `upper` is 0 just if d is |
 /// | [`Outcome::Separated`] | they have none; all of the interval is 0 |
 ///
-/// `lower` ≤ `depth` ≤ `upper` holds. What else is said is rounded, so it holds up to the allowance of [`crate::verify::verify`]: points
+/// `lower` ≤ `depth` ≤ `upper` holds. What else is said is rounded, so it holds up to the allowance of [`super::verify`]: points
 /// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
 ///
 /// # Errors
-/// As of [`crate::verify::verify`].
+/// As of [`super::verify`].
 pub fn verify_depth(
     shape1: &Shape,
     pose1: &Pose,
@@ -123,6 +123,9 @@ fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) ->
 /// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded.
 fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Result<()> {
     let most = if upper > 0.0 { upper } else { allowed };
+    if facts.bounds.as_ref().is_some_and(|bounds| bounds.prove_overlap(&bounds.gap(normal), normal, most)) {
+        return Ok(());
+    }
     match facts.exact.overlap_along(normal) {
         Some(overlap) if overlap.compare(most).is_gt() => {
             let (least, _) = overlap.bounds();
@@ -245,15 +248,10 @@ impl<'a> Facts<'a> {
     /// the plane of it passes through the origin.
     fn crossing(&self, triangle: &Triangle, ray: &Vector) -> Option<i32> {
         let corners = triangle.map(|pair| self.position(pair));
-        let sides = [0, 1, 2].map(|k| {
-            let (p, q) = (&corners[k], &corners[(k + 1) % 3]);
-            let value = ray.dot(&p.cross(q));
-            // Each corner is right to u, products and sums of the determinant to 6u of what their magnitudes make.
-            if value.abs() > 16.0 * U * length(ray) * length(p) * length(q) + f64::MIN_POSITIVE {
-                value.total_cmp(&0.0)
-            } else {
-                self.exact.side_of_ray(ray, [triangle[k], triangle[(k + 1) % 3]])
-            }
+        let [a, b, c] = &corners;
+        let side = |p: &Vector, q: &Vector| clear_sign(ray, p, q);
+        let sides = [(0, side(a, b)), (1, side(b, c)), (2, side(c, a))].map(|(k, clear)| {
+            clear.unwrap_or_else(|| self.exact.side_of_ray(ray, [triangle[k], triangle[(k + 1) % 3]]))
         });
         if sides.contains(&Ordering::Less) && sides.contains(&Ordering::Greater) {
             return Some(0);
@@ -262,12 +260,19 @@ impl<'a> Facts<'a> {
             return None;
         }
         // All on one side: the line of the ray crosses the triangle, the ray itself where its orientation is the same.
-        let orientation = self.exact.orientation(*triangle);
+        let orientation = clear_sign(a, b, c).unwrap_or_else(|| self.exact.orientation(*triangle));
         if orientation == Ordering::Equal {
             return None;
         }
         Some(if orientation == sides[0] { orientation as i32 } else { 0 })
     }
+}
+
+/// The sign of a determinant of columns right to u each, where it is clear: products and sums err by 6u of what their magnitudes make.
+fn clear_sign(a: &Vector, b: &Vector, c: &Vector) -> Option<Ordering> {
+    let value = a.dot(&b.cross(c));
+    let is_clear = value.abs() > 16.0 * U * length(a) * length(b) * length(c) + f64::MIN_POSITIVE;
+    is_clear.then(|| value.total_cmp(&0.0))
 }
 
 /// Whether the triangle's plane, or another through its nearest point, proves it to be so far from the origin: for any m that is

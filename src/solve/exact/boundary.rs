@@ -40,12 +40,7 @@ pub enum Supports {
 }
 
 /// Where two bodies are relative to each other, exactly, for any finite poses. `start` as of [`super::solve`].
-pub fn locate(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    start: &[VertexPair],
-    supports: Supports,
-) -> Position {
+pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPair], supports: Supports) -> Position {
     let difference = DifferenceBody { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) };
     let (mut simplex, mut iterations) = difference.descend(start);
     if supports == Supports::OfAll {

@@ -232,7 +232,7 @@ impl<L: Lanes> Search<'_, L> {
         let mut straightened = None;
         loop {
             let (triangle, distance) = nearest::<L>(shell);
-            if distance >= self.target() {
+            if distance >= self.target() && self.best.upper < f64::INFINITY {
                 return Ending::Narrow;
             }
             if self.steps >= most_steps {
@@ -337,7 +337,8 @@ struct Ring {
 impl Ring {
     fn around(shell: &Shell, vertex: u8) -> Option<Ring> {
         let triangles = 0..shell.triangle_count;
-        let corner = |t: usize| shell.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
+        let corner =
+            |t: usize| shell.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
         let first = triangles.into_iter().find_map(corner)?;
         let mut ring = Ring { triangles: [0; MOST_AROUND], neighbours: [0; MOST_AROUND], count: 0 };
         let mut at = first;

@@ -145,7 +145,9 @@ fn tetrahedron<L: Lanes>(
     for (own, [a, b, c]) in shell.corners.iter_mut().zip(corners) {
         *own = [a, b, c, 0];
     }
-    for [triangle, k, other, side] in [[0, 0, 1, 0], [0, 1, 2, 0], [0, 2, 3, 0], [1, 1, 3, 2], [1, 2, 2, 1], [2, 2, 3, 1]] {
+    for [triangle, k, other, side] in
+        [[0, 0, 1, 0], [0, 1, 2, 0], [0, 2, 3, 0], [1, 1, 3, 2], [1, 2, 2, 1], [2, 2, 3, 1]]
+    {
         shell.join(half_edge(triangle, k), half_edge(other, side));
     }
     shell.triangle_count = 4;

@@ -24,13 +24,15 @@ pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vecto
     let last = to - 1;
     let mut first = from;
     while first < to {
-        let four = [first, (first + 1).min(last), (first + 2).min(last), (first + 3).min(last)];
-        let corners = four.map(|triangle| shell.corners[triangle]);
-        let components = |k: usize| {
-            let [a, b, c, d] = [0, 1, 2, 3].map(|lane: usize| L::load(&shell.positions[usize::from(corners[lane][k])]));
-            L::components(&[a, b, c, d])
-        };
-        let [p, q, r] = [components(0), components(1), components(2)];
+        let four = [
+            &shell.corners[first],
+            &shell.corners[(first + 1).min(last)],
+            &shell.corners[(first + 2).min(last)],
+            &shell.corners[(first + 3).min(last)],
+        ];
+        let p: [L; 3] = components(shell.positions, &four, 0);
+        let q: [L; 3] = components(shell.positions, &four, 1);
+        let r: [L; 3] = components(shell.positions, &four, 2);
         let [ex, ey, ez] = [q[0].sub(p[0]), q[1].sub(p[1]), q[2].sub(p[2])];
         let [gx, gy, gz] = [r[0].sub(p[0]), r[1].sub(p[1]), r[2].sub(p[2])];
         let nx = ez.negated_mul_add(gy, ey.mul(gz));
@@ -56,11 +58,23 @@ pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vecto
         shell.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
         shell.distances[first..first + 4].copy_from_slice(&distance.to_array());
         shell.heights[first..first + 4].copy_from_slice(&height.to_array());
-        let bits = [certain & 1, certain >> 1 & 1, certain >> 2 & 1, certain >> 3 & 1];
-        shell.certain[first..first + 4].copy_from_slice(&bits.map(|bit| bit as u8));
+        let bit = |lane: u32| (certain >> lane & 1) as u8;
+        shell.certain[first..first + 4].copy_from_slice(&[bit(0), bit(1), bit(2), bit(3)]);
         first += 4;
     }
     Least { distance: least_distance.least().0, height: least_height.least().0 }
+}
+
+/// The coordinates of a corner of four triangles. (Mapping an array would call a closure that is compiled without the lanes'
+/// instructions.)
+#[inline(always)]
+fn components<L: Lanes>(positions: &[[f64; 4]], [a, b, c, d]: &[&[u8; 4]; 4], corner: usize) -> [L; 3] {
+    L::components(&[
+        L::load(&positions[usize::from(a[corner])]),
+        L::load(&positions[usize::from(b[corner])]),
+        L::load(&positions[usize::from(c[corner])]),
+        L::load(&positions[usize::from(d[corner])]),
+    ])
 }
 
 /// The triangle of the least distance, and that; of several the first.

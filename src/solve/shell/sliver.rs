@@ -16,7 +16,8 @@ const GILBERT_STEPS: u32 = 12;
 /// edges: of nearly parallel ones a rounded product is noise, and differences of vertices cancel. Whether the plane is another one.
 pub fn straighten<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, rounding: &Rounding, triangle: usize) -> bool {
     let pairs = shell.pairs_of(triangle);
-    let columns = [0, 1].map(|i| [Vector::x(), Vector::y(), Vector::z()].map(|axis| frame.bodies[i].rotate(&axis).to_vector()));
+    let columns =
+        [0, 1].map(|i| [Vector::x(), Vector::y(), Vector::z()].map(|axis| frame.bodies[i].rotate(&axis).to_vector()));
     let edge = |k: usize| {
         let [along1, along2] = [0, 1].map(|i| {
             let vertices = &frame.bodies[i].polyhedron.vertices;
@@ -94,7 +95,7 @@ fn set_normal(shell: &mut Shell, triangle: usize, normal: &Vector) {
 fn plane(rounding: &Rounding, corners: &[Vector; 3], normal: &Vector) -> Option<(Vector, f64)> {
     let largest = normal.amax();
     // False for a NaN; so scaled no square underflows that counts.
-    if !(largest >= f64::MIN_POSITIVE && largest < f64::INFINITY) {
+    if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&largest) {
         return None;
     }
     let scaled = normal / largest;

@@ -26,9 +26,9 @@ pub struct Storage<const V: usize, const T: usize> {
 }
 
 impl<const V: usize, const T: usize> Storage<V, T> {
-    /// Empty.
+    /// For no shell yet.
     #[inline(always)]
-    pub fn new() -> Storage<V, T> {
+    pub fn empty() -> Storage<V, T> {
         const { assert!(V <= 255 && T <= 4096 && T > 8, "corners are bytes, half-edges two bytes") };
         Storage {
             pairs: [[0; 2]; V],
@@ -238,24 +238,26 @@ impl Shell<'_> {
         }
     }
 
-    /// Whether it is a closed oriented cycle: half-edges are in pairs, and the ends of each are those of its twin. Of corners and
-    /// twins nothing is known but that the corners are vertices.
+    /// Whether a shell of less than 128 triangles is a closed oriented cycle: half-edges are in pairs, and the ends of each are those of
+    /// its twin. Of corners and twins nothing is known.
     #[inline(always)]
     pub fn is_closed(&self) -> bool {
-        let count = self.triangle_count;
-        let (corners, twins) = (&self.corners[..count], &self.twins[..count]);
-        let mut is_closed = true;
-        for (triangle, (own, opposite)) in corners.iter().zip(twins).enumerate() {
-            for k in 0..3 {
-                let twin = opposite[k];
+        const MOST: usize = 128;
+        let arrays = (self.corners.first_chunk::<MOST>(), self.twins.first_chunk::<MOST>());
+        let (Some(corners), Some(twins)) = arrays else { return false };
+        let count = self.triangle_count.min(MOST);
+        let mut is_open = self.triangle_count > count;
+        // Without a branch: indices are masked, and what is out of range is noted.
+        for triangle in 0..count {
+            let [a, b, c, _] = corners[triangle];
+            let [x, y, z, _] = twins[triangle];
+            for (k, twin, head) in [(0, x, b), (1, y, c), (2, z, a)] {
                 let (other, side) = (triangle_of(twin), usize::from(twin & 3));
-                if other >= count || side == 3 {
-                    return false;
-                }
-                is_closed &= twins[other][side] == half_edge(triangle, k);
-                is_closed &= corners[other][side] == own[if k == 2 { 0 } else { k + 1 }];
+                is_open |= (other >= count) | (side == 3);
+                is_open |= twins[other % MOST][side] != half_edge(triangle, k);
+                is_open |= corners[other % MOST][side] != head;
             }
         }
-        is_closed
+        !is_open
     }
 }

@@ -3,8 +3,8 @@
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
-use crate::polyhedron::{Polyhedron, clear_slope};
 use crate::polyhedron::lookup::Table;
+use crate::polyhedron::{Polyhedron, clear_slope};
 use crate::solve::certificate;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
