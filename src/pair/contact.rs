@@ -277,7 +277,7 @@ fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
 }
 
 /// The faces at a vertex, each twice.
-fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
+pub fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
     edges_at(polyhedron, vertex).flat_map(|edge| {
         let edge = &polyhedron.edges[edge as usize];
         [edge.left(), edge.right()]

@@ -20,6 +20,7 @@ mod decision;
 mod levels;
 mod level_glance;
 mod ladder;
+mod manifold;
 pub mod verify;
 
 use crate::base::error::Result;
@@ -34,6 +35,7 @@ pub use config::{Bounds, Levels, PairConfig, Start};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthStatistics, DepthStatus, depth};
 pub use descent::Refinement;
 use ladder::climb;
+pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 #[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
