@@ -23,8 +23,7 @@ fn query(
     config: &ManifoldConfig,
 ) -> (Manifold, Vec<ManifoldPoint>) {
     let mut points = vec![ManifoldPoint::default(); 20_000];
-    let mut answer = Manifold::default();
-    manifold(shapes[0], poses[0], shapes[1], poses[1], cache, config, &mut points, &mut answer).unwrap();
+    let answer = manifold(shapes[0], poses[0], shapes[1], poses[1], cache, config, &mut points).unwrap();
     points.truncate(answer.point_count as usize);
     (answer, points)
 }

@@ -41,14 +41,12 @@ pub fn manifold(
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
-    answer: &mut Manifold,
-) -> Result<()> {
+) -> Result<Manifold> {
     let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     with_default(|| {
         config.check()?;
         let contact = find_contact(bodies, cache, config)?;
-        *answer = make(bodies, cache, config, &contact, points);
-        Ok(())
+        Ok(make(bodies, cache, config, &contact, points))
     })
 }
 
