@@ -14,7 +14,7 @@ use common::random::Random;
 use swiftprox::error::{Error, Result};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig, Status};
+use swiftprox::pair::{self, DecidedBy, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 const USAGE: &str =
@@ -219,8 +219,8 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
 impl Row {
     fn add(&mut self, answer: &PairAnswer, nanoseconds: f64) {
         let statistics = answer.statistics;
-        self.fallback += u32::from(answer.status == Status::Fallback);
-        self.exact += u32::from(answer.status == Status::Exact);
+        self.fallback += u32::from(answer.decided_by == DecidedBy::Fallback);
+        self.exact += u32::from(answer.decided_by == DecidedBy::Integers);
         self.steps += u64::from(statistics.marching_steps);
         self.worst_steps = self.worst_steps.max(statistics.marching_steps);
         self.worst_fallback_iterations = self.worst_fallback_iterations.max(statistics.fallback_iterations);

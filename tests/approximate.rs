@@ -14,7 +14,7 @@ use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
+use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
@@ -119,7 +119,6 @@ impl Session<'_> {
             levels: random.pick(&[Levels::Automatic, Levels::None, Levels::All, Levels::All]),
             refinement: random.pick(&REFINEMENTS),
             start: random.pick(&[Start::Automatic, Start::Automatic, Start::Cache, Start::Table, Start::Cold]),
-            bounds: random.pick(&[Bounds::Tight, Bounds::Tight, Bounds::Verdict]),
             ..PairConfig::default()
         }
     }
@@ -141,7 +140,7 @@ impl Session<'_> {
             self.warm = cache;
             self.tally.queries += 1;
             self.tally.by_levels += usize::from(answer.statistics.levels != [0, 0]);
-            self.tally.spent += usize::from(answer.status == Status::BudgetSpent);
+            self.tally.spent += usize::from(answer.decided_by == DecidedBy::Budget);
             if let Err(what) = self.judge(which, &exact, &answer, &config) {
                 self.tally
                     .violations
@@ -159,7 +158,7 @@ impl Session<'_> {
     ) -> Result<(), String> {
         let is_intersecting = exact.outcome == Outcome::Intersecting;
         match answer.outcome {
-            Outcome::Undecided if answer.status == Status::BudgetSpent && answer.lower == 0.0 => {}
+            Outcome::Undecided if answer.decided_by == DecidedBy::Budget && answer.lower == 0.0 => {}
             Outcome::Intersecting if is_intersecting => return self.verify_some(answer),
             Outcome::Separated if !is_intersecting && answer.lower <= config.distance_tolerance => {}
             Outcome::Beyond if !is_intersecting && answer.lower >= config.distance_tolerance => {}
@@ -172,10 +171,9 @@ impl Session<'_> {
         let reach = self.poses.iter().map(|pose| pose.translation().amax()).fold(0.0, f64::max);
         let widest = 1e-13 * (self.radius().max(answer.upper) + 2e-3 * reach);
         let asked = config.absolute_error.max(config.relative_error * answer.lower);
-        // An intersection query promises no width, nor do the cheapest bounds.
-        let exactly = if config.bounds == Bounds::Verdict { f64::INFINITY } else { 0.0 };
-        let tolerance = [asked, exactly, f64::INFINITY, exactly][which].max(widest);
-        let is_answered = answer.outcome == Outcome::Separated && answer.status != Status::BudgetSpent;
+        // An intersection query promises no width.
+        let tolerance = [asked, 0.0, f64::INFINITY, 0.0][which].max(widest);
+        let is_answered = answer.outcome == Outcome::Separated && answer.decided_by != DecidedBy::Budget;
         if is_answered && !(answer.upper - answer.lower <= tolerance) {
             return Err("the interval is too wide".into());
         }
@@ -312,7 +310,7 @@ fn a_query_goes_on_where_its_budget_ran_out() {
                 for round in 0.. {
                     let answer = session.ask(pair::approximate, &mut cache, &config);
                     assert!(answer.lower <= exact.upper && answer.upper >= exact.lower, "{answer:?} {exact:?}");
-                    if answer.status != Status::BudgetSpent {
+                    if answer.decided_by != DecidedBy::Budget {
                         assert_eq!(answer.outcome, exact.outcome);
                         assert!(answer.upper - answer.lower <= 1e-13 * (2.0 + 2e-3 * poses[0].translation().amax()));
                         intersecting += usize::from(answer.outcome == Outcome::Intersecting);
@@ -344,10 +342,10 @@ fn a_fresh_start_spends_what_the_last_one_spent() {
             let config = PairConfig { step_budget: 1, levels, start, ..PairConfig::default() };
             let mut cache = PairCache::default();
             let first = session.ask(pair::approximate, &mut cache, &config);
-            assert_eq!(first.status, Status::BudgetSpent, "{first:?}");
+            assert_eq!(first.decided_by, DecidedBy::Budget, "{first:?}");
             for _ in 0..1200 {
                 let again = session.ask(pair::approximate, &mut cache, &config);
-                assert_eq!((again.status, again.lower, again.upper), (first.status, first.lower, first.upper));
+                assert_eq!((again.decided_by, again.lower, again.upper), (first.decided_by, first.lower, first.upper));
             }
         }
     }
@@ -377,7 +375,7 @@ fn coarse_questions_are_answered_by_coarse_levels() {
         }
         assert_eq!(finer, 0);
         let exact = ask(pair::distance, all);
-        assert_eq!((exact.statistics.levels, exact.status), ([0, 0], Status::Marched));
+        assert_eq!((exact.statistics.levels, exact.decided_by), ([0, 0], DecidedBy::Marching));
         // Beyond the tolerance the coarsest levels may tell.
         let beyond = ask(pair::approximate, PairConfig { distance_tolerance: 0.5, ..all });
         assert_eq!(beyond.outcome, Outcome::Beyond);
@@ -672,13 +670,13 @@ fn no_levels_are_made_where_nothing_asks_for_them() {
     skewed.rows[0][0] = f64::NAN;
     let ask = |query: Query, pose: &Pose, config: PairConfig| {
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-        query(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, &config, &mut answer).map(|()| answer.status)
+        query(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, &config, &mut answer).map(|()| answer.decided_by)
     };
     let plain = PairConfig::default();
     let nan = PairConfig { distance_tolerance: f64::NAN, ..plain };
-    assert_eq!(ask(pair::intersection, &at(1000.0), plain), Ok(Status::BoundingSpheres));
+    assert_eq!(ask(pair::intersection, &at(1000.0), plain), Ok(DecidedBy::BoundingSpheres));
     let within = PairConfig { distance_tolerance: 10.0, absolute_error: 0.1, ..plain };
-    assert_eq!(ask(pair::approximate, &at(1000.0), within), Ok(Status::BoundingSpheres));
+    assert_eq!(ask(pair::approximate, &at(1000.0), within), Ok(DecidedBy::BoundingSpheres));
     assert!(matches!(ask(pair::intersection, &skewed, plain), Err(Error::Pose(_))));
     for x in [0.7, 1000.0] {
         assert!(matches!(ask(pair::intersection, &at(x), nan), Err(Error::Argument(_))));

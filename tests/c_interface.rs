@@ -130,9 +130,9 @@ fn unknown_enumerators_are_refused() {
     unsafe {
         let mut config = MaybeUninit::<PairConfig>::uninit();
         assert_eq!(swiftprox_pair_config_init(config.as_mut_ptr()), StatusCode::Ok);
-        (&raw mut (*config.as_mut_ptr()).bounds).cast::<i32>().write(2);
+        (&raw mut (*config.as_mut_ptr()).levels).cast::<i32>().write(3);
         assert_eq!(distance(shape, &mut CPairCache::default(), config.as_ptr()).0, StatusCode::ErrorInvalidArgument);
-        assert!(last_message().contains("bounds is 2"), "{}", last_message());
+        assert!(last_message().contains("levels is 3"), "{}", last_message());
 
         let (_, answer) = distance(shape, &mut CPairCache::default(), null());
         let poses = [moved(0.0), moved(3.0)];

@@ -15,7 +15,7 @@ use swiftprox::base::simd::{self, Features};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
+use swiftprox::pair::{self, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use swiftprox::scene::{Scene, SceneAnswer, SceneOptions, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
 
@@ -54,7 +54,7 @@ impl Hash {
         answer.proof.iter().flatten().for_each(|vertex| self.add((*vertex).into()));
         let steps = [statistics.marching_steps, statistics.fallback_iterations, statistics.exact_iterations];
         let levels = statistics.levels.map(u32::from);
-        let others = [answer.outcome as u32, answer.status as u32, answer.proof_count];
+        let others = [answer.outcome as u32, answer.decided_by as u32, answer.proof_count];
         steps.iter().chain(&levels).chain(&others).for_each(|number| self.add((*number).into()));
     }
 }
@@ -210,7 +210,7 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
         flight.add_list(scene.query_intersection(&SceneQuery { early_exit: true, ..all }).unwrap(), true);
         flight.add_list(scene.query_tolerance(&near).unwrap(), true);
         flight.add_list(scene.query_exact_distance(&all).unwrap(), true);
-        flight.add_list(scene.query_exact_distance(&SceneQuery { bounds: Bounds::Verdict, ..near }).unwrap(), true);
+        flight.add_list(scene.query_exact_distance(&near).unwrap(), true);
         flight.add_list(scene.query_contacts(&near).unwrap(), true);
         let coarse = SceneQuery { absolute_error: 0.05, levels: Levels::All, ..all };
         flight.add_list(scene.query_approximate_distance(&coarse).unwrap(), true);

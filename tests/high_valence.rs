@@ -7,7 +7,7 @@ use common::models;
 use common::random::Random;
 use swiftprox::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Status};
+use swiftprox::pair::{self, DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
@@ -108,7 +108,7 @@ fn rotated_prisms_of_many_sides_are_marched() {
             let pose2 = Pose::new(&random.rotation(), &(random.direction() * random.uniform(3.0, 4.0)));
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
             pair::distance(&prism, &pose1, &prism, &pose2, &mut cache, &PairConfig::default(), &mut answer).unwrap();
-            assert_eq!(answer.status, Status::Marched);
+            assert_eq!(answer.decided_by, DecidedBy::Marching);
             verify(&prism, &pose1, &prism, &pose2, &answer).unwrap();
         }
     }

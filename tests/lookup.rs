@@ -17,7 +17,7 @@ use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::start::policy::{self, StartFrom};
 use swiftprox::pair::start::{Guess, start_pair};
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start, Status};
+use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::polyhedron::lookup::{Cells, Plan, Shells, Spherical, Table};
 use swiftprox::progress::Progress;
@@ -273,7 +273,7 @@ fn steps_of_disjoint_pairs(half_axes: [f64; 3]) -> ([f64; 2], [f64; 2]) {
             is_disjoint = answer.outcome == Outcome::Separated;
             if is_disjoint {
                 steps[i] += answer.statistics.marching_steps;
-                undecided[i] += usize::from(answer.status != Status::Marched);
+                undecided[i] += usize::from(answer.decided_by != DecidedBy::Marching);
             }
         }
         disjoint += usize::from(is_disjoint);
@@ -667,7 +667,7 @@ fn undecided_at_random(shape: &Shape, start: Start, goes_on: bool) -> [usize; 3]
         verify(shape, &pose1, shape, &pose2, &answer).unwrap();
         if answer.outcome == Outcome::Separated {
             counts[0] += 1;
-            let is_undecided = answer.status != Status::Marched;
+            let is_undecided = answer.decided_by != DecidedBy::Marching;
             counts[1] += usize::from(is_undecided);
             counts[2] += usize::from(is_undecided && answer.statistics.marching_steps > 0);
         }

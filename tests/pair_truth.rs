@@ -10,7 +10,7 @@ mod oracle;
 use cases::{Case, FAMILIES, Random};
 use oracle::Truth;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
@@ -25,7 +25,7 @@ fn pair_queries_equal_the_oracle() {
         for number in 0..CASES_PER_FAMILY {
             let case = generate(&mut random);
             match check(&case, &case.truth(), &mut dirty) {
-                Ok(status) => in_integers += usize::from(status == Status::Exact),
+                Ok(decided_by) => in_integers += usize::from(decided_by == DecidedBy::Integers),
                 Err(what) => {
                     violations += 1;
                     println!("{family}, case {number}: {what}\n{}", case.describe());
@@ -64,10 +64,10 @@ fn shape(points: &[Vector]) -> Result<Shape, String> {
 }
 
 /// Which tier decided from a cold cache, or what is wrong.
-fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<Status, String> {
+fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<DecidedBy, String> {
     let (a, b) = (shape(&case.points_a)?, shape(&case.points_b)?);
     let config = PairConfig::default();
-    let mut status = Status::None;
+    let mut decided_by = DecidedBy::None;
     for (name, query) in [("distance", distance as Query), ("contact", contact), ("intersection", intersection)] {
         let mut cold = PairCache::default();
         for cache in [&mut cold, &mut *dirty] {
@@ -98,12 +98,12 @@ fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<Status, St
             if let Err(e) = verify(&a, &case.pose_a, &b, &case.pose_b, &answer) {
                 return wrong(&format!("it does not verify, {e}"));
             }
-            if status == Status::None {
-                status = answer.status;
+            if decided_by == DecidedBy::None {
+                decided_by = answer.decided_by;
             }
         }
     }
-    Ok(status)
+    Ok(decided_by)
 }
 
 type Query =

@@ -10,7 +10,7 @@ use shapes::at;
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
-use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig, Start, Status};
+use swiftprox::pair::{self, DecidedBy, Levels, PairAnswer, PairCache, PairConfig, Start};
 use swiftprox::scene::{Scene, SceneOptions};
 use swiftprox::shape::{Shape, ShapeOptions};
 
@@ -73,7 +73,7 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
             for _ in 0..2 {
                 query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
             }
-            coherent += usize::from(answer.status == Status::Coherent);
+            coherent += usize::from(answer.decided_by == DecidedBy::Coherence);
             let (cache_before, answer_before) = (cache, answer);
             let mirrored = Pose::new(&Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)), &Vector::zeros());
             for pose in [at(f64::NAN, 0.0, 0.0), at(f64::INFINITY, 0.0, 0.0), mirrored] {

@@ -13,7 +13,7 @@ use swiftprox::error::Error;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
+use swiftprox::pair::{self, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
@@ -84,9 +84,6 @@ fn each_query_lists_what_it_promises() {
     assert_eq!(listed(scene.query_tolerance(&up_to(1.5)).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
     assert_eq!(listed(scene.query_tolerance(&up_to(1.5_f64.next_down())).unwrap().pairs), [pair(0, 1)]);
     assert_eq!(distances(&mut scene, &up_to(1.5)), [pair(0, 1), pair(1, 2)]);
-    // The cheapest bounds list the same pairs.
-    let cheap = SceneQuery { bounds: Bounds::Verdict, ..up_to(1.75) };
-    assert_eq!(listed(scene.query_tolerance(&cheap).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
 
     // Verification says of a separated pair all that the distance does, of an intersecting one the verdict.
     let [overlapping, apart] = scene.query_tolerance(&up_to(1.5)).unwrap().pairs else { panic!() };
@@ -386,7 +383,7 @@ fn error_spent_is_what_distances_leave_open() {
         scene.add_object(vec![shape.clone()], &options).unwrap();
     }
     scene.query_intersection(&SceneQuery::default()).unwrap();
-    scene.query_intersection(&SceneQuery { bounds: Bounds::Verdict, ..Default::default() }).unwrap();
+    scene.query_intersection(&SceneQuery::default()).unwrap();
     assert!(scene.statistics().pairs == 132 && scene.statistics().error_spent == 0.0, "{:?}", scene.statistics());
 
     let near = SceneQuery { distance_tolerance: 0.5, absolute_error: 0.1, ..Default::default() };

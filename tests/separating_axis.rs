@@ -11,7 +11,7 @@ use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{
-    Outcome, PairAnswer, PairCache, PairConfig, Status, approximate, contact, distance, intersection,
+    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, approximate, contact, distance, intersection,
 };
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
@@ -43,9 +43,9 @@ fn fly(shape: &Shape, orbit: Orbit, step: &str) -> [usize; 3] {
         verify(shape, &pose1, shape, &pose2, &answer).unwrap();
         assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
         if answer.outcome == Outcome::Separated && number % 8 != 7 {
-            counts[match answer.status {
-                Status::BoundingSpheres => 0,
-                Status::Coherent => 1,
+            counts[match answer.decided_by {
+                DecidedBy::BoundingSpheres => 0,
+                DecidedBy::Coherence => 1,
                 _ => 2,
             }] += 1;
         }
@@ -113,7 +113,7 @@ fn spheres_decide_where_they_may() {
             assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
             let is_beyond = answer.outcome == Outcome::Beyond;
             assert!(if is_beyond { answer.lower >= distance_tolerance } else { answer.upper <= distance_tolerance });
-            counts[i] += usize::from(answer.status == Status::BoundingSpheres);
+            counts[i] += usize::from(answer.decided_by == DecidedBy::BoundingSpheres);
         }
     }
     // Without a tolerance only the verdict is for the spheres.
@@ -134,7 +134,7 @@ fn verdicts_and_distances_take_turns() {
         query(&shape, &pose1, &shape, &pose2, &mut cache, &PairConfig::default(), &mut answer).unwrap();
         verify(&shape, &pose1, &shape, &pose2, &answer).unwrap();
         if number > 1 {
-            assert_eq!(answer.status == Status::Coherent, number % 2 == 0, "{number}");
+            assert_eq!(answer.decided_by == DecidedBy::Coherence, number % 2 == 0, "{number}");
             steps += answer.statistics.marching_steps;
         }
     }

@@ -13,7 +13,7 @@ use std::sync::atomic::{AtomicU64, Ordering};
 use common::caches::cache_of_features;
 use common::random::Random;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::solve::exact::{ExactAnswer, solve};
@@ -86,14 +86,13 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     for start in 0..3 + STARTS {
         let forced = if start < 3 { Some(PairCache::default()) } else { any_features(random, polyhedra) };
         let Some(mut cache) = forced else { continue };
-        config.bounds = if start >= 3 && random.below(3) == 0 { Bounds::Verdict } else { Bounds::Tight };
         let query = [distance, intersection, contact][if start < 3 { start } else { random.below(3) }];
         let mut answer = PairAnswer::default();
         query(&shapes[0], &poses[0], &shapes[1], &poses[1], &mut cache, &config, &mut answer).expect("accepted poses");
         let is_separated = answer.outcome != Outcome::Intersecting;
         tally.queries += 1;
         tally.separated += u64::from(is_separated);
-        tally.marched += u64::from(is_separated && answer.status == Status::Marched);
+        tally.marched += u64::from(is_separated && answer.decided_by == DecidedBy::Marching);
         if let Err(what) = check_answer(&answer, &truth, config.distance_tolerance) {
             tally.violations.push(format!("{name}: {what}: {answer:?}, the truth is {truth:?}"));
         }

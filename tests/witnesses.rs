@@ -4,7 +4,7 @@
 use shapes::at;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance};
+use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, contact, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
@@ -179,7 +179,7 @@ fn apart_by_less_than_any_double_is_not_intersecting() {
     let mut skewed = Pose::IDENTITY;
     skewed.rows[0][1] = 2f64.powi(-1000);
     let answer = ask(&tiny, &skewed, &tiny, &Pose::IDENTITY);
-    assert_eq!((answer.outcome, answer.status), (Outcome::Separated, Status::Exact), "{answer:?}");
+    assert_eq!((answer.outcome, answer.decided_by), (Outcome::Separated, DecidedBy::Integers), "{answer:?}");
 }
 
 /// The caller's limit counts even below the few roundings that a rotation in doubles is always off by.
@@ -243,7 +243,7 @@ fn matrices_off_orthonormal_are_marched() {
             let answer = ask(shape1, pose1, shape2, pose2);
             verify(shape1, pose1, shape2, pose2, &answer).unwrap();
             assert!(answer.upper - answer.lower <= 2e-14 * answer.upper.max(2.0));
-            marched += usize::from(answer.status == Status::Marched);
+            marched += usize::from(answer.decided_by == DecidedBy::Marching);
         }
         println!("1e{exponent}: {marched} of 200");
         assert!(marched >= if exponent == -3 { 150 } else { 195 }, "1e{exponent}: {marched} of 200");

@@ -11,7 +11,7 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
 use swiftprox::pair::{
-    Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
     intersection,
 };
 use swiftprox::shape::Shape;
@@ -150,8 +150,7 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
     let mut last = cold.distance;
     let distance_tolerance = any_number(u, &mut last)?;
-    let bounds = if u.arbitrary()? { Bounds::Tight } else { Bounds::Verdict };
-    let config = PairConfig { distance_tolerance, bounds, ..PairConfig::default() };
+    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
     let asked = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
     if !(distance_tolerance >= 0.0) {

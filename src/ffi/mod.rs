@@ -31,7 +31,7 @@ use std::sync::Once;
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
-use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
+use crate::pair::{DecidedBy, FeatureKind, Levels, Outcome, Refinement, Start};
 use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
@@ -291,12 +291,11 @@ fn unknown(number: i32, member: &str, kind: &str) -> Failure {
 }
 
 enumerator!(InputPolicy { Strict, Flat, Hull });
-enumerator!(Bounds { Tight, Verdict });
 enumerator!(Start { Automatic, Cache, Table, Cold });
 enumerator!(Levels { Automatic, None, All });
 enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });
 enumerator!(Outcome { None, Separated, Beyond, Intersecting, Undecided });
-enumerator!(Status { None, Marched, Coherent, Fallback, Exact, WithinTolerance, BudgetSpent, BoundingSpheres });
+enumerator!(DecidedBy { None, Marching, Coherence, Fallback, Integers, Tolerance, Budget, BoundingSpheres });
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 
 /// A string that must not be null.

@@ -9,7 +9,7 @@ use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::pair::verify::verify;
 use crate::pair::{
-    self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status,
+    self, DecidedBy, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start,
 };
 use crate::shape::Shape;
 
@@ -234,9 +234,6 @@ unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checke
         unsafe { struct_size(config) }?;
     }
     // SAFETY: the enumerators have been members since the first version, so their bytes are there, whatever they hold.
-    let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
-    read_enumerator::<Bounds>(bounds, "config->bounds", "swiftprox_bounds")?;
-    // SAFETY: as above.
     let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
     read_enumerator::<Start>(start, "config->start", "swiftprox_start")?;
     // SAFETY: as above.
@@ -266,7 +263,7 @@ unsafe fn write_answer<'a>(answer: *mut PairAnswer) -> Checked<&'a mut PairAnswe
     // SAFETY: not null, writable by the caller; with valid enumerators any other bytes make a valid answer.
     unsafe {
         (&raw mut (*answer).outcome).write(Outcome::None);
-        (&raw mut (*answer).status).write(Status::None);
+        (&raw mut (*answer).decided_by).write(DecidedBy::None);
         (&raw mut (*answer).feature1.kind).write(FeatureKind::None);
         (&raw mut (*answer).feature2.kind).write(FeatureKind::None);
         Ok(&mut *answer)
@@ -282,16 +279,16 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
         return Err(Failure::null("answer"));
     }
     // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
-    let [outcome, status, kind1, kind2] = unsafe {
+    let [outcome, decided_by, kind1, kind2] = unsafe {
         [
             (&raw const (*answer).outcome).cast::<i32>().read(),
-            (&raw const (*answer).status).cast::<i32>().read(),
+            (&raw const (*answer).decided_by).cast::<i32>().read(),
             (&raw const (*answer).feature1.kind).cast::<i32>().read(),
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
     read_enumerator::<Outcome>(outcome, "answer->outcome", "swiftprox_outcome")?;
-    read_enumerator::<Status>(status, "answer->status", "swiftprox_pair_status")?;
+    read_enumerator::<DecidedBy>(decided_by, "answer->decided_by", "swiftprox_decided_by")?;
     read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swiftprox_feature_kind")?;
     read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swiftprox_feature_kind")?;
     // SAFETY: its enumerators are valid, and any other bytes are.

@@ -3,7 +3,7 @@
 use super::scene::{SceneHandle, change, look};
 use super::{StatusCode, Versioned, guard, output, read_enumerator, read_struct};
 use crate::base::error::Result;
-use crate::pair::{Bounds, Levels, Refinement, Start};
+use crate::pair::{Levels, Refinement, Start};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 
 /// What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ.
@@ -18,8 +18,6 @@ pub struct CSceneQuery {
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
     /// swiftprox_scene_answer.found is it. Default: 0.
     pub early_exit: i32,
-    /// A swiftprox_bounds: which interval the answers carry. Default: the tight one.
-    pub bounds: i32,
     /// swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
@@ -50,7 +48,6 @@ impl CSceneQuery {
         struct_size: size_of::<CSceneQuery>(),
         distance_tolerance: f64::INFINITY,
         early_exit: 0,
-        bounds: Bounds::Tight as i32,
         absolute_error: 0.0,
         relative_error: 0.0,
         error_budget: f64::INFINITY,
@@ -219,7 +216,6 @@ unsafe fn ask(
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,
                 distance_tolerance: query.distance_tolerance,
-                bounds: read_enumerator(query.bounds, "query->bounds", "swiftprox_bounds")?,
                 absolute_error: query.absolute_error,
                 relative_error: query.relative_error,
                 error_budget: query.error_budget,

@@ -5,17 +5,6 @@ use crate::base::error::{Error, Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
 use crate::solve::frame::RIGID_TOGETHER;
 
-/// Which interval a query computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Bounds {
-    /// As tight as double precision allows.
-    #[default]
-    Tight = 0,
-    /// The cheapest that still prove the verdict.
-    Verdict = 1,
-}
-
 /// Where marching starts. It changes how fast an answer comes, never the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
@@ -64,8 +53,6 @@ pub struct PairConfig {
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Which interval.
-    pub bounds: Bounds,
     /// Where marching starts.
     pub start: Start,
     /// Of an approximate query: `upper − lower` may be as large as this … Other queries do not look at this and the two that
@@ -90,7 +77,6 @@ impl Default for PairConfig {
             struct_size: size_of::<PairConfig>(),
             distance_tolerance: f64::INFINITY,
             rotation_limit: ROTATION_LIMIT,
-            bounds: Bounds::Tight,
             start: Start::Automatic,
             absolute_error: 0.0,
             relative_error: 0.0,

@@ -15,7 +15,7 @@ use crate::base::error::{Error, Result, check_range};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::memory::{copied, reserve, with_capacity};
 use crate::base::simd::environment::with_default;
-use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
+use crate::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use crate::scene::activation::Activation;
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::shape::Shape;
@@ -41,8 +41,6 @@ pub struct SceneQuery {
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// Which interval the answers carry.
-    pub bounds: Bounds,
     /// [`Scene::query_approximate_distance`]: `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
@@ -66,7 +64,6 @@ impl Default for SceneQuery {
         SceneQuery {
             early_exit: false,
             distance_tolerance: f64::INFINITY,
-            bounds: Bounds::Tight,
             absolute_error: 0.0,
             relative_error: 0.0,
             error_budget: f64::INFINITY,
@@ -150,15 +147,15 @@ pub struct SceneStatistics {
 impl SceneStatistics {
     fn count(&mut self, answer: &PairAnswer) {
         self.pairs += 1;
-        *match answer.status {
-            Status::None => return,
-            Status::Marched => &mut self.marched,
-            Status::Coherent => &mut self.coherent,
-            Status::Fallback => &mut self.fallback,
-            Status::Exact => &mut self.exact,
-            Status::WithinTolerance => &mut self.within_tolerance,
-            Status::BudgetSpent => &mut self.budget_spent,
-            Status::BoundingSpheres => &mut self.bounding_spheres,
+        *match answer.decided_by {
+            DecidedBy::None => return,
+            DecidedBy::Marching => &mut self.marched,
+            DecidedBy::Coherence => &mut self.coherent,
+            DecidedBy::Fallback => &mut self.fallback,
+            DecidedBy::Integers => &mut self.exact,
+            DecidedBy::Tolerance => &mut self.within_tolerance,
+            DecidedBy::Budget => &mut self.budget_spent,
+            DecidedBy::BoundingSpheres => &mut self.bounding_spheres,
         } += 1;
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);
@@ -514,7 +511,6 @@ impl Scene {
             levels: query.levels,
             refinement: query.refinement,
             start: query.start,
-            bounds: query.bounds,
             ..PairConfig::default()
         };
         let mut intersecting = false;

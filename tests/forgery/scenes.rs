@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use crate::cases::{Case, FAMILIES, Random, coordinates};
@@ -117,7 +117,6 @@ pub fn answers(scene: &Scene) -> Vec<(&'static str, PairAnswer)> {
     let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
     let exact = scene.ask(pair::distance, &PairConfig::default());
     let beyond = PairConfig { distance_tolerance: 0.5 * exact.lower, ..PairConfig::default() };
-    let cheap = PairConfig { bounds: Bounds::Verdict, ..PairConfig::default() };
     let (exact_query, exact) = if exact.outcome == Outcome::Intersecting {
         ("contact", scene.ask(pair::contact, &PairConfig::default()))
     } else {
@@ -126,7 +125,6 @@ pub fn answers(scene: &Scene) -> Vec<(&'static str, PairAnswer)> {
     vec![
         (exact_query, exact),
         ("intersection", scene.ask(pair::intersection, &PairConfig::default())),
-        ("cheap distance", scene.ask(pair::distance, &cheap)),
         ("beyond a tolerance", scene.ask(pair::distance, &beyond)),
         ("through levels", scene.ask(pair::approximate, &PairConfig { relative_error: 0.2, ..all })),
         ("with a budget", scene.ask(pair::approximate, &PairConfig { step_budget: 1, ..all })),

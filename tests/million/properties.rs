@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 
 use swiftprox::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use swiftprox::pair::{
-    Bounds, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Status, contact, distance, intersection,
+    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
@@ -46,7 +46,7 @@ pub struct Tally {
     pub pairs: usize,
     pub queries: usize,
     intersecting: usize,
-    by_status: [usize; 8],
+    by_decider: [usize; 8],
     /// The most that one query took.
     pub most: Work,
 }
@@ -72,7 +72,7 @@ impl AddAssign for Tally {
         self.pairs += other.pairs;
         self.queries += other.queries;
         self.intersecting += other.intersecting;
-        for (mine, others) in self.by_status.iter_mut().zip(other.by_status) {
+        for (mine, others) in self.by_decider.iter_mut().zip(other.by_decider) {
             *mine += others;
         }
         self.most = self.most.max(other.most);
@@ -81,7 +81,7 @@ impl AddAssign for Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [_, marched, coherent, fallback, exact, .., spheres] = self.by_status;
+        let [_, marched, coherent, fallback, exact, .., spheres] = self.by_decider;
         let Tally { pairs, queries, intersecting, .. } = self;
         write!(f, "{pairs} pairs, {queries} queries ({intersecting} intersecting): ")?;
         write!(f, "{marched} marched, {coherent} coherent, {spheres} spheres, {fallback} fallback, {exact} exact; ")?;
@@ -162,19 +162,18 @@ impl Session {
     /// One query, its answer checked by itself.
     fn ask(&mut self, question: Question, placed: &Placed, cache: &mut PairCache) -> Option<PairAnswer> {
         let query = match question {
-            Question::Distance | Question::CheapDistance => distance,
+            Question::Distance => distance,
             Question::Contact => contact,
             Question::Intersection => intersection,
         };
-        let bounds = if question == Question::CheapDistance { Bounds::Verdict } else { Bounds::Tight };
-        let config = PairConfig { bounds, ..PairConfig::default() };
+        let config = PairConfig::default();
         let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
         let before = *cache;
         let mut answer = PairAnswer::default();
         let asked = query(&body1.shape, pose1, &body2.shape, pose2, cache, &config, &mut answer);
         self.tally.queries += 1;
         self.tally.intersecting += usize::from(answer.outcome == Outcome::Intersecting);
-        self.tally.by_status[answer.status as usize] += 1;
+        self.tally.by_decider[answer.decided_by as usize] += 1;
         self.tally.most = self.tally.most.max(Work::of(&answer));
         let answered = asked.is_ok();
         let verified = asked.map_err(|e| violation("an answer", e.to_string())).and_then(|()| {
@@ -199,8 +198,6 @@ impl Session {
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Question {
     Distance,
-    /// With [`Bounds::Verdict`].
-    CheapDistance,
     Contact,
     Intersection,
 }
@@ -222,7 +219,6 @@ enum Origin {
 /// What each must agree with the answer to `distance` from a cold cache in.
 const OTHER_QUERIES: &[(&str, Question, Origin)] = &[
     ("swapped objects", Question::Distance, Origin::Swapped),
-    ("cheap bounds", Question::CheapDistance, Origin::Own),
     ("contact", Question::Contact, Origin::Own),
     ("intersection", Question::Intersection, Origin::Own),
     ("a warm cache", Question::Distance, Origin::OwnKept),
@@ -232,7 +228,6 @@ const OTHER_QUERIES: &[(&str, Question, Origin)] = &[
     ("a cache of garbage", Question::Distance, Origin::Garbage),
     ("a cache of garbage, contact", Question::Contact, Origin::Garbage),
     ("a cache of garbage, intersection", Question::Intersection, Origin::Garbage),
-    ("a cache of garbage, cheap bounds", Question::CheapDistance, Origin::Garbage),
 ];
 
 /// Any bytes, or bytes that look like a cache's: small kinds and indices near the pair's own counts.
@@ -274,8 +269,8 @@ pub fn excess_work_without_levels(shapes: [&Shape; 2], answer: &PairAnswer) -> O
 }
 
 fn check_interval(placed: &Placed, answer: &PairAnswer, is_tight: bool) -> Result<(), Violation> {
-    let PairAnswer { outcome, status, lower, upper, .. } = *answer;
-    let is_verdict = matches!(outcome, Outcome::Separated | Outcome::Intersecting) && status != Status::None;
+    let PairAnswer { outcome, decided_by, lower, upper, .. } = *answer;
+    let is_verdict = matches!(outcome, Outcome::Separated | Outcome::Intersecting) && decided_by != DecidedBy::None;
     require(is_verdict, "a verdict", String::new)?;
     require((upper > 0.0) == (outcome == Outcome::Separated), "upper > 0 iff separated", String::new)?;
     let size = placed.bodies[0].radius() + placed.bodies[1].radius();

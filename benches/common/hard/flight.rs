@@ -5,7 +5,7 @@ use std::ops::AddAssign;
 
 use swiftprox::error::Result;
 use swiftprox::math::Pose;
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, Status, distance};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 use super::super::PosePair;
@@ -53,8 +53,8 @@ pub struct Tally {
     pub wrong: usize,
     pub missed: usize,
     pub not_a_number: usize,
-    /// Queries by [`Status`].
-    pub by_status: [usize; 8],
+    /// Queries by [`DecidedBy`].
+    pub by_decider: [usize; 8],
     pub most_marching_steps: u32,
     pub most_fallback_iterations: u32,
     pub most_exact_iterations: u32,
@@ -69,7 +69,7 @@ impl Tally {
         self.poses += 1;
         self.intersecting += usize::from(answer.outcome == Outcome::Intersecting);
         self.not_a_number += usize::from(has_nan(answer));
-        self.by_status[answer.status as usize] += 1;
+        self.by_decider[answer.decided_by as usize] += 1;
         if statistics.marching_steps >= self.most_marching_steps {
             self.most_marching_steps = statistics.marching_steps;
             self.vertices_there = shapes.map(|shape| shape.polyhedron().vertices.len()).into_iter().fold(0, usize::max);
@@ -78,9 +78,9 @@ impl Tally {
         self.most_exact_iterations = self.most_exact_iterations.max(statistics.exact_iterations);
     }
 
-    /// Queries without a status.
+    /// Queries that nothing decided.
     pub fn unnamed(&self) -> usize {
-        self.by_status[Status::None as usize]
+        self.by_decider[DecidedBy::None as usize]
     }
 
     /// The head of the columns of [`Tally::row`].
@@ -104,7 +104,7 @@ impl Tally {
     ];
 
     pub fn row(&self) -> [usize; 16] {
-        let [unnamed, marched, coherent, fallback, exact, .., spheres] = self.by_status;
+        let [unnamed, marched, coherent, fallback, exact, .., spheres] = self.by_decider;
         let Tally { sequences, poses, intersecting, wrong, missed, not_a_number, vertices_there, .. } = *self;
         let [marching, falling, exactly] =
             [self.most_marching_steps, self.most_fallback_iterations, self.most_exact_iterations].map(|n| n as usize);
@@ -126,7 +126,7 @@ impl AddAssign<&Tally> for Tally {
         self.wrong += other.wrong;
         self.missed += other.missed;
         self.not_a_number += other.not_a_number;
-        self.by_status.iter_mut().zip(other.by_status).for_each(|(mine, others)| *mine += others);
+        self.by_decider.iter_mut().zip(other.by_decider).for_each(|(mine, others)| *mine += others);
         if other.most_marching_steps >= self.most_marching_steps {
             self.most_marching_steps = other.most_marching_steps;
             self.vertices_there = other.vertices_there;

@@ -16,7 +16,7 @@ usage: compare [options]
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
   --query QUERY     distance, or intersection, the verdict alone (distance)
   --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
-  --methods LIST    of swiftprox, parry-hc, swiftprox-verdict, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
+  --methods LIST    of swiftprox, parry-hc, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
                     of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)

@@ -9,7 +9,7 @@ use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::query::*;
-use swiftprox::pair::{Bounds, Levels, Outcome, PairAnswer, PairConfig, Refinement, Start};
+use swiftprox::pair::{Levels, Outcome, PairAnswer, PairConfig, Refinement, Start};
 use swiftprox::scene::PairResult;
 
 use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
@@ -29,7 +29,6 @@ fn any_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
     let config = PairConfig {
         distance_tolerance: if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() },
-        bounds: *u.choose(&[Bounds::Tight, Bounds::Verdict])?,
         start: *u.choose(&STARTS)?,
         absolute_error: *u.choose(&ERRORS)?,
         relative_error: *u.choose(&ERRORS)?,
