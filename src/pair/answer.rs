@@ -9,7 +9,8 @@ pub enum Outcome {
     None = 0,
     /// The objects are disjoint, `0 < lower ≤ distance ≤ upper`; `lower` is 0 only for a distance below the smallest double.
     Separated = 1,
-    /// The objects are disjoint and farther apart than the distance tolerance: only `lower` is said, which is at least that.
+    /// The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
+    /// `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features are not said.
     Beyond = 2,
     /// The closed objects have a common point (touching included).
     Intersecting = 3,

@@ -45,11 +45,8 @@ pub enum Levels {
 
 /// What a pair query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct PairConfig {
-    /// The size of this struct, so that it can grow; set by swiftprox_pair_config_init.
-    pub struct_size: usize,
-    /// Of pairs farther apart than this only that is said, with a lower bound; +∞ (the default): of none.
+    /// Pairs farther apart than this are [`Outcome::Beyond`](super::Outcome::Beyond); from 0 to +∞ (the default: none is).
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -74,7 +71,6 @@ pub struct PairConfig {
 impl Default for PairConfig {
     fn default() -> Self {
         PairConfig {
-            struct_size: size_of::<PairConfig>(),
             distance_tolerance: f64::INFINITY,
             rotation_limit: ROTATION_LIMIT,
             start: Start::Automatic,

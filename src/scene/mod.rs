@@ -100,7 +100,7 @@ pub struct PairResult {
 pub struct SceneAnswer<'a> {
     /// Whether any tested pair intersects.
     pub intersecting: bool,
-    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next change or query.
+    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next query.
     pub pairs: &'a [PairResult],
     /// The intersecting pair at which the query stopped, if it did ([`SceneQuery::early_exit`]): of all that intersect the first in
     /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
@@ -393,7 +393,17 @@ impl Scene {
         .filter(|&(object1, object2)| self.tests(object1, object2))
     }
 
-    /// Brings `pairs` up to date. Pairs that stay keep what they remember, and queries need no more memory from here on.
+    /// Gives back the memory that is kept for later: that of the results, and that of pairs that are no more. What the others
+    /// remember stays.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if there is none for a smaller list of pairs.
+    pub fn shrink(&mut self) -> Result<()> {
+        self.results = Vec::new();
+        self.update_pairs()
+    }
+
+    /// Brings `pairs` up to date. Pairs that stay keep what they remember.
     fn update_pairs(&mut self) -> Result<()> {
         if !self.pairs_changed {
             return Ok(());
@@ -416,8 +426,6 @@ impl Scene {
                 }
             }
         }
-        self.results.clear();
-        reserve(&mut self.results, count)?;
         self.pairs = pairs;
         self.pairs_changed = false;
         Ok(())
@@ -499,6 +507,8 @@ impl Scene {
         check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;
         self.update_pairs()?;
         self.results.clear();
+        // From here on a query needs no memory.
+        reserve(&mut self.results, self.pairs.len())?;
         self.statistics.queries += 1;
         let share = query.error_budget / self.pairs.len() as f64;
         let [absolute_error, relative_error] =
