@@ -99,8 +99,8 @@ asan:
 	RUSTFLAGS=-Zsanitizer=address scripts/nightly.sh "" test --locked --profile checked --target $(HOST) $(ASAN_TESTS)
 	cmake -S . -B $(BUILD)/asan -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=ON \
 	    -DCMAKE_C_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
-	cmake --build $(BUILD)/asan --target scene_use bad_input mesh_reader allocator memory files threads busy
-	ctest --test-dir $(BUILD)/asan --output-on-failure --tests-regex '^(scene_use|bad_input|mesh_reader|allocator|memory|files|threads|busy)$$'
+	cmake --build $(BUILD)/asan --target scene_use results bad_input mesh_reader allocator memory files threads busy
+	ctest --test-dir $(BUILD)/asan --output-on-failure --tests-regex '^(scene_use|results|bad_input|mesh_reader|allocator|memory|files|threads|busy)$$'
 
 # The standard library is built for it, too: else its locks look like races.
 tsan:

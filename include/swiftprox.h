@@ -17,7 +17,7 @@
  * than 128 kB that do not grow with the input: a handle's own record, integers of the exact tier, messages with the path of a file.
  * Where that is refused the program ends with a message.
  *
- * Pointers. They are aligned and live as their types say. A null options, config or query means the defaults; another null
+ * Pointers. They are aligned and live as their types say. A null options, config, query or tuning means the defaults; another null
  * pointer is SWIFTPROX_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
  * nothing keeps a pointer of the caller except swiftprox_library_set_log, swiftprox_library_set_allocator and
  * swiftprox_library_register_mesh_reader.
@@ -32,11 +32,23 @@
  * (others are SWIFTPROX_ERROR_INVALID_ARGUMENT), elsewhere bytes that go to the system as they are, UTF-8 as a rule; what of a
  * path, of a file's content or of a callback's message is not UTF-8 stands in messages as U+FFFD.
  *
- * Structs. Options, configs, queries and infos begin with struct_size and may grow at their end: fill the first three with their
- * _init function and change members, set an info's struct_size to its size. A struct of an older header is accepted, one of a newer
- * header as long as what this library does not know is zero. All others (answers, results, features, statistics, meshes, caches)
- * stay as they are within a major version, while that is 0 within a minor one. Enumerators travel as int32_t; unknown ones are
- * refused.
+ * Structs. Options, configs, queries, tunings and infos begin with struct_size and may grow at their end. The program's compiler
+ * says it: fill the first four with their _init macro and change members, set an info's struct_size to its sizeof. Then header and
+ * library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
+ * is the default. Of a larger struct of a newer header this library leaves 0 what it does not know, and refuses by
+ * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
+ * results, features, statistics, meshes, caches, ids) stay as they are within a major version, while that is 0 within a minor one.
+ *
+ * Enums. Each is a type of its own, as large as an int32_t, so that compilers warn where two are mixed up. Any number is safe to
+ * hand over: those that are no enumerators are refused, and get words that say so.
+ *
+ * Determinism. The same library on the same machine answers the same calls with the same bits, whatever other threads and
+ * scenes do. Verdicts and the order of results are the same on every machine. Between processors with other vector units (none,
+ * AVX2, AVX-512) the last bits of distances, points and normals may differ, always within the intervals, and so may the levels
+ * of detail that are made there. Where nearest points are not unique, points, normals and features may differ as a whole; a
+ * query with a step budget may stop elsewhere. A pair's cache is plain bytes: it may be copied, put back and set to zero at any
+ * time. A simulation that goes back to an earlier step gets the same bits again if it puts the caches back, and the same
+ * verdicts in any case. A scene keeps its caches to itself: going back gives the same verdicts, not always the same last bits.
  *
  * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]: an
  * object is R*v + T over its vertices v, exactly as the doubles give it. R is accepted when every entry of R^T R - I is at most
@@ -577,7 +589,7 @@ typedef struct swiftprox_pair_config {
    * one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
    */
   uint32_t step_budget;
-  /** Where the query starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice. */
+  /** Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
 } swiftprox_pair_config;
 
@@ -647,8 +659,8 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
  * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
  * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
- * goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that comes
- * from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+ * goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that
+ * comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1,
@@ -728,8 +740,8 @@ void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
 #define swiftprox_scene_options_init(pointer) swiftprox_scene_options_init_sized((pointer), sizeof *(pointer))
 
 /**
- * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options` may be null
- * for the defaults.
+ * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
+ * may be null for the defaults.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
  * the message names the argument.
@@ -1000,7 +1012,7 @@ typedef struct swiftprox_scene_query {
    * swiftprox_scene_answer.found is it. Default: 0.
    */
   int32_t early_exit;
-  /** Where each pair starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice. */
+  /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
 } swiftprox_scene_query;
 
@@ -1051,8 +1063,8 @@ typedef struct swiftprox_scene_answer {
 } swiftprox_scene_answer;
 
 /**
- * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof, statistics
- * and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
+ * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
+ * statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
  * SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
@@ -1336,7 +1348,6 @@ swiftprox_status swiftprox_library_register_mesh_reader(const char *magic,
  * SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
  */
-SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *sink,
                                                   const double *vertices,
                                                   size_t vertex_count);
@@ -1350,7 +1361,6 @@ swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *si
  * SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
  */
-SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
                                                const uint32_t *indices,
                                                const uint32_t *valences,
@@ -1363,7 +1373,6 @@ swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
  *
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null.
  */
-SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_sink *sink);
 
 /**
@@ -1373,7 +1382,6 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  *
  * SWIFTPROX_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
  */
-SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);
 

@@ -152,8 +152,8 @@ typedef struct swiftprox_mesh {
  * The finest level comes first: `levels[0]` is the body itself, as
  * swiftprox_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
  * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
- * bounds the body. The arrays are copied. options->tuning->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input transform
- * goes for all levels.
+ * bounds the body. The arrays are copied. options->tuning->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input
+ * transform goes for all levels.
  *
  * On failure `*shape` is null. `options` may be null for the defaults.
  *

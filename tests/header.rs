@@ -198,7 +198,8 @@ fn old_standards(declaration: &str) -> String {
                 *last = last.trim_end_matches(',').to_string();
                 lines.push(format!("}} {enum_name};"));
             }
-            _ if line.starts_with("swiftprox_status ") => {
+            // What a sink refuses it remembers itself.
+            _ if line.starts_with("swiftprox_status ") && !line.contains(" swiftprox_mesh_sink_") => {
                 lines.extend(["SWIFTPROX_NODISCARD".to_string(), line.into()]);
             }
             _ if line.starts_with("#define ") && line.contains(" -") => lines.push(line.replace(" -", " (-") + ")"),

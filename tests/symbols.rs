@@ -12,6 +12,11 @@ fn library() -> PathBuf {
     std::env::current_exe().expect("a test knows where it is").with_file_name("libswiftprox.so")
 }
 
+/// What a program includes.
+fn headers() -> String {
+    [include_str!("../include/swiftprox.h"), include_str!("../include/swiftprox_tuning.h")].concat()
+}
+
 /// Names of the dynamic symbols that are defined.
 fn exports() -> Vec<String> {
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(library()).output();
@@ -25,7 +30,7 @@ fn exports() -> Vec<String> {
 #[cfg_attr(not(target_os = "linux"), ignore = "shared libraries of Linux")]
 fn only_functions_of_our_nouns_are_exported() {
     let exports = exports();
-    let header = include_str!("../include/swiftprox.h");
+    let header = headers();
     assert!(exports.len() > 30, "{exports:?}");
     for name in exports {
         let word = name.strip_prefix("swiftprox_").unwrap_or_else(|| panic!("{name} is exported without the prefix"));
@@ -39,15 +44,14 @@ fn only_functions_of_our_nouns_are_exported() {
 #[cfg_attr(not(target_os = "linux"), ignore = "shared libraries of Linux")]
 fn every_function_of_the_header_is_exported() {
     let exports = exports();
-    for line in include_str!("../include/swiftprox.h").lines() {
-        let declares = ["swiftprox_status swiftprox_", "const char *swiftprox_", "void swiftprox_"]
-            .iter()
-            .any(|s| line.starts_with(s));
-        if let Some((declaration, _)) = line.split_once('(')
-            && declares
-        {
-            let name = declaration.split([' ', '*']).next_back().unwrap_or_default();
+    let mut count = 0;
+    for line in headers().lines().filter(|line| !line.starts_with([' ', '#', '/'])) {
+        let declaration = line.split_once('(').map_or("", |(declaration, _)| declaration);
+        let name = declaration.split([' ', '*']).next_back().unwrap_or_default();
+        if name.starts_with("swiftprox_") && !declaration.starts_with("typedef") {
             assert!(exports.iter().any(|export| export == name), "{name} is not exported");
+            count += 1;
         }
     }
+    assert_eq!(count, exports.len());
 }

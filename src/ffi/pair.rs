@@ -31,7 +31,7 @@ pub struct CPairConfig {
     /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
     /// one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
     pub step_budget: u32,
-    /// Where the query starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
 }
 
@@ -141,8 +141,8 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
 /// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
 /// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
 /// unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
-/// goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that comes
-/// from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+/// goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that
+/// comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(
     shape1: *const Shape,

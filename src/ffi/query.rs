@@ -33,7 +33,7 @@ pub struct CSceneQuery {
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
     /// swiftprox_scene_answer.found is it. Default: 0.
     pub early_exit: i32,
-    /// Where each pair starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
 }
 
@@ -86,8 +86,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_init_sized(query: *mut CSceneQuer
     unsafe { init_struct(query, struct_size, &CSceneQuery::DEFAULT) }
 }
 
-/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof, statistics
-/// and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
+/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
+/// statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
 /// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,

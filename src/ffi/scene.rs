@@ -117,8 +117,8 @@ pub unsafe extern "C" fn swiftprox_scene_options_init_sized(options: *mut CScene
     unsafe { init_struct(options, struct_size, &CSceneOptions::DEFAULT) }
 }
 
-/// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options` may be null
-/// for the defaults.
+/// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
+/// may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
 /// the message names the argument.
