@@ -99,7 +99,7 @@ static void test_threads(void)
     }
     CHECK(done > 0);
     CHECK_OK(swiftprox_scene_activate_all(scene));
-    CHECK_OK(swiftprox_scene_query_contacts(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
     CHECK(answer.count == OBJECTS * (OBJECTS - 1) / 2);
 }
 

@@ -172,7 +172,7 @@ static int32_t read_mesh(void *user, const char *data, size_t size, swiftprox_me
     return 0;
 }
 
-static void hear(int32_t status, const char *message, void *user)
+static void hear(swiftprox_status status, const char *message, void *user)
 {
     (void)status, (void)user;
     CHECK(control() == expected && message[0] != '\0');
@@ -491,7 +491,7 @@ int main(int argument_count, char **arguments)
     CHECK(progress_calls > 100 && reader_calls == 17 && log_calls > 17 && (memory_calls > 0) == (set == SWIFTPROX_OK));
     CHECK_OK(swiftprox_library_register_mesh_reader("ENVIRONMENT", NULL, NULL));
     swiftprox_library_set_log(NULL, NULL);
-    swiftprox_library_set_allocator(NULL, NULL, NULL);
+    CHECK(swiftprox_library_set_allocator(NULL, NULL, NULL) == set);
     remove(mesh_path);
     remove(reader_path);
     remove(shape_path);

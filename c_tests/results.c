@@ -100,7 +100,8 @@ static void results_stay(const swiftprox_shape *shape)
     query.early_exit = 1;
     CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &found));
     CHECK(found.found != NULL);
-    const swiftprox_pair_result stopped_at = *found.found;
+    swiftprox_pair_result stopped_at;
+    memcpy(&stopped_at, found.found, sizeof stopped_at);
     CHECK_OK(swiftprox_scene_remove_object(scene, found.found->object1));
     add(scene, shape, 0);
     CHECK(memcmp(&stopped_at, found.found, sizeof stopped_at) == 0);

@@ -182,16 +182,27 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
         vertex_count: usize,
         own: [u64; 32],
     }
-    let mut info = OlderInfo { struct_size: std::mem::offset_of!(OlderInfo, own), dimension: 7, vertex_count: 7, own: [9; 32] };
+    let mut info =
+        OlderInfo { struct_size: std::mem::offset_of!(OlderInfo, own), dimension: 7, vertex_count: 7, own: [9; 32] };
     // SAFETY: as much room as is said.
-    assert_eq!(unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) }, StatusCode::Ok, "{}", last_message());
+    assert_eq!(
+        unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) },
+        StatusCode::Ok,
+        "{}",
+        last_message()
+    );
     assert_eq!((info.dimension, info.vertex_count, info.own), (3, 4, [9; 32]));
 
     // A newer info: what this library does not know is 0, whatever was there.
     let mut newer = [u64::MAX; 64];
     newer[0] = 8 * 40;
     // SAFETY: as above.
-    assert_eq!(unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) }, StatusCode::Ok, "{}", last_message());
+    assert_eq!(
+        unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) },
+        StatusCode::Ok,
+        "{}",
+        last_message()
+    );
     let known = size_of::<ShapeInfo>() / 8;
     assert_eq!(newer[2], 4);
     assert!(newer[known..40].iter().all(|&word| word == 0) && newer[40..].iter().all(|&word| word == u64::MAX));
@@ -237,7 +248,9 @@ fn an_answer_beyond_the_tolerance_says_what_is_documented() {
     let queries =
         [swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate];
     let mut deciders = Vec::new();
-    for (x, tolerance) in [(3.0, 1.0), (3.0, 1.999_999), (1.3, 0.1), (1.3, 0.3_f64.next_down()), (50.0, 0.0), (1.001, 0.0)] {
+    for (x, tolerance) in
+        [(3.0, 1.0), (3.0, 1.999_999), (1.3, 0.1), (1.3, 0.3_f64.next_down()), (50.0, 0.0), (1.001, 0.0)]
+    {
         let config = CPairConfig { distance_tolerance: tolerance, ..pair_config() };
         let (here, there) = (moved(0.0), moved(x));
         for query in queries {
@@ -246,8 +259,7 @@ fn an_answer_beyond_the_tolerance_says_what_is_documented() {
                 let mut answer = PairAnswer::default();
                 // SAFETY: every pointer is valid.
                 unsafe {
-                    let status =
-                        query(shape, here.as_ptr(), shape, there.as_ptr(), &mut cache, &config, &mut answer);
+                    let status = query(shape, here.as_ptr(), shape, there.as_ptr(), &mut cache, &config, &mut answer);
                     assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{x}: {}", last_message());
                     let status = swiftprox_pair_verify(shape, here.as_ptr(), shape, there.as_ptr(), &answer);
                     assert_eq!(status, StatusCode::Ok, "{}", last_message());

@@ -434,11 +434,7 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
 "#;
     with_compilers(|compiler, extension, standard| {
         let output = compile(&folder, compiler, extension, standard, source);
-        assert!(
-            output.status.success(),
-            "{compiler} -std={standard}:\n{}",
-            String::from_utf8_lossy(&output.stderr)
-        );
+        assert!(output.status.success(), "{compiler} -std={standard}:\n{}", String::from_utf8_lossy(&output.stderr));
     });
 }
 

@@ -190,7 +190,23 @@ fn refusals_name_the_line() {
         (Obj, "v 0 0 0\n\nf 1 2 3\n", "m: line 3: vertex 2 does not exist; the file has 1"),
         (Obj, "v 0 0 0\nf 1 1 -2\n", "m: line 2: vertex \"-2\" does not exist; 1 so far"),
         (Obj, "v 0 0 0\nf 1 1 99999999999\n", "m: line 2: vertex \"99999999999\" does not exist; 1 so far"),
-        (Obj, "garbage\n\0\0\n", "m: there are no vertices in it"),
+        (Obj, "\n# a letter\nDear reader,\nv is a letter\n", "m: line 4: vertex 0: \"is\" is not a number"),
+        (
+            Obj,
+            "o letter\nDear reader,\nthere is no body here\n",
+            "m: line 2: \"Dear\": no line of an OBJ file begins so, and none of this file gives a vertex; is it an OBJ file?",
+        ),
+        (
+            Obj,
+            "garbage\n\0\0\n",
+            "m: line 2: a zero byte in a word: this is UTF-16 or no text at all; save it as UTF-8 or ASCII",
+        ),
+        (
+            Obj,
+            "v\0 \0\x30\0\n\0",
+            "m: line 1: a zero byte in a word: this is UTF-16 or no text at all; save it as UTF-8 or ASCII",
+        ),
+        (Obj, "g nothing\nusemtl none\n", "m: there are no vertices in it"),
         (Stl, "solid a\nfacet normal 0 0 1\nouter lop", "m: line 3: \"lop\" where \"loop\" should be"),
         (Stl, "solid a\n", "m: line 2: triangle 0 or \"endsolid\": the file ends here"),
         (Stl, "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0\n", "m: line 5: triangle 0: the file ends here"),
@@ -202,6 +218,22 @@ fn refusals_name_the_line() {
     }
     let long = "x".repeat(1000);
     assert!(refusal(&format!("TRI {long}"), TriPoly).len() < 100);
+}
+
+/// As editors of Windows save text.
+#[test]
+fn text_of_sixteen_bits_is_told_so() {
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    let expected = "m: line 1: the file begins as UTF-16 text does; save it as UTF-8 or ASCII";
+    for encode in [u16::to_le_bytes as fn(u16) -> [u8; 2], u16::to_be_bytes] {
+        let bytes: Vec<u8> = std::iter::once(0xfeff).chain(text.encode_utf16()).flat_map(encode).collect();
+        for format in [None, Some(Format::Obj), Some(Format::Off), Some(Format::TriPoly), Some(Format::Stl)] {
+            assert_eq!(parse_mesh(&bytes, format, "m").unwrap_err().to_string(), expected, "{format:?}");
+        }
+        let message = parse_mesh(&bytes[2..], Some(Format::Obj), "m").unwrap_err().to_string();
+        assert!(message.starts_with("m: line 1: a zero byte in a word: this is UTF-16"), "{message}");
+    }
+    assert!(parse_mesh(text.as_bytes(), None, "m").is_ok());
 }
 
 /// Nothing may be allocated from a count that the file only claims: these would be 100 GB and more.

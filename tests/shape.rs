@@ -182,7 +182,10 @@ fn meshes_of_nothing_are_told() {
     for policy in [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull] {
         assert_eq!(mesh_message(Shape::from_mesh(&no_vertices, &with(policy))), "the mesh has no vertices");
     }
-    assert_eq!(mesh_message(Shape::from_mesh(&no_faces, &with(InputPolicy::Flat))), "the mesh has no faces");
+    assert_eq!(
+        mesh_message(Shape::from_mesh(&no_faces, &with(InputPolicy::Flat))),
+        "the mesh has no faces; the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices"
+    );
     assert!(Shape::from_mesh(&no_faces, &with(InputPolicy::Hull)).is_ok());
 }
 

@@ -148,7 +148,9 @@ class Query(unittest.TestCase):
                "face 3: edge 2-3 runs in the same direction in face 4: the faces are not consistently oriented":
                    box + "".join(sides[:3]) + "4 2 3 7 6\n" + "".join(sides[4:]),
                "face 5: vertex 4 lies 2.041e-1 off its plane (allowed 2.449e-9)": box.replace("1 1 1", "1 1 2") + "".join(sides)}
+        cure = "; the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices"
         for message, mesh in bad.items():
+            message += "" if message.startswith("line") else cure
             path = self.file("bad.off", mesh)
             for meshes in ((path, BOX), (BOX, path)):
                 done = self.run_tool(*meshes, poses)

@@ -4,7 +4,8 @@ use std::ffi::{CStr, c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
 use super::{
-    DecidedByNumber, Failure, FeatureKindNumber, LAST_ERROR, OutcomeNumber, StatusCode, StatusNumber, guard, must_return,
+    DecidedByNumber, Failure, FeatureKindNumber, LAST_ERROR, OutcomeNumber, StatusCode, StatusNumber, guard,
+    must_return,
 };
 use crate::base::enumerator::Enumerator;
 use crate::pair::{DecidedBy, FeatureKind, Outcome};
@@ -126,7 +127,8 @@ pub extern "C" fn swiftprox_library_last_error_message() -> *const c_char {
 
 /// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
 /// and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
-pub type LogCallback = Option<unsafe extern "C-unwind" fn(status: StatusNumber, message: *const c_char, user: *mut c_void)>;
+pub type LogCallback =
+    Option<unsafe extern "C-unwind" fn(status: StatusNumber, message: *const c_char, user: *mut c_void)>;
 
 #[derive(Clone, Copy)]
 struct Log {

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use super::arrays::{read_arrays, read_path};
 use super::scene::{SceneHandle, change, look};
 use super::shape_options::{CShapeOptions, read_options};
-use super::{Checked, Failure, StatusCode, Versioned, array, guard, init_struct, input, output, read_struct, write_struct};
+use super::{
+    Checked, Failure, StatusCode, Versioned, array, guard, init_struct, input, output, read_struct, write_struct,
+};
 use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::{collected, with_capacity};
 use crate::scene::Scene;

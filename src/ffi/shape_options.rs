@@ -3,7 +3,9 @@
 use std::ffi::c_void;
 
 use super::tuning::{CShapeTuning, read_shape_tuning};
-use super::{Checked, Failure, InputNumber, StatusCode, Versioned, call_out, init_struct, read_enumerator, read_struct};
+use super::{
+    Checked, Failure, InputNumber, StatusCode, Versioned, call_out, init_struct, read_enumerator, read_struct,
+};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Vector};
 use crate::base::progress::Progress;

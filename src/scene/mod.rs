@@ -397,10 +397,11 @@ impl Scene {
     /// remember stays.
     ///
     /// # Errors
-    /// [`Error::Memory`] if there is none for a smaller list of pairs.
+    /// [`Error::Memory`] if there is none for a smaller list of pairs; nothing has changed then.
     pub fn shrink(&mut self) -> Result<()> {
+        self.update_pairs()?;
         self.results = Vec::new();
-        self.update_pairs()
+        Ok(())
     }
 
     /// Brings `pairs` up to date. Pairs that stay keep what they remember.

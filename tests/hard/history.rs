@@ -4,9 +4,7 @@
 use std::cell::OnceCell;
 
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{
-    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Start, contact, distance, intersection,
-};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Start, contact, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
