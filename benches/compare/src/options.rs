@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::scenes::models::ELLIPSOIDS;
-use crate::scenes::orbits::{ORBITS, STEPS, Step};
 use crate::setting::Query;
+use testkit::models::ELLIPSOIDS;
+use testkit::orbits::{ORBITS, STEPS, Step};
 
 pub const HELP: &str = "\
 Speed and accuracy of exact distance: swiftprox beside parry3d-f64 and FCL, on ellipsoids that orbit one another.

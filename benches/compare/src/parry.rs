@@ -11,8 +11,8 @@ use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
 use swiftprox::mesh::PolygonMesh;
+use testkit::PosePair;
 
 /// Parry's own form of two poses. A quaternion cannot hold a matrix that is not quite orthonormal.
 pub fn pose_pair(poses: &PosePair) -> (Pose, Pose) {
