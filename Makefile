@@ -9,6 +9,7 @@
 # make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
 #                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
+# make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -39,7 +40,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability steps charts cases hard clean
+.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -120,6 +121,13 @@ stability:
 	-@scripts/require.sh $(PEERS)
 	scripts/stability.sh $(STABILITY).csv $(STABILITY)-cost.csv
 	$(STABILITY_PAGE)
+
+crowds:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
+	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --crowd 100,1000,10000,100000 --count 256 \
+	    --csv benches/results/crowds.csv
+	$(DRAW) benches/plot.py benches/results/crowds.csv
 
 steps:
 	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)

@@ -4,6 +4,7 @@ mod answers;
 mod build_time;
 #[cfg(ccd)]
 mod ccd;
+mod crowd;
 mod distance;
 #[cfg(fcl)]
 mod fcl;
@@ -37,6 +38,8 @@ fn main() -> ExitCode {
         }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
+        } else if let Some(counts) = &options.crowd {
+            crowd::run(&options, counts)
         } else if options.build {
             build_time::run(&options)
         } else {
