@@ -3,15 +3,11 @@
 
 #![allow(unsafe_code, reason = "the C functions are unsafe to call")]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
-use random::Random;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::allocator::swiftprox_library_set_allocator;
 use swiftprox::ffi::level::*;
@@ -29,6 +25,7 @@ use swiftprox::object::ObjectId;
 use swiftprox::pair::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use swiftprox::scene::SceneStatistics;
 use swiftprox::shape::Shape;
+use testkit::random::Random;
 
 const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
