@@ -182,24 +182,16 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
     let mut info =
         OlderInfo { struct_size: std::mem::offset_of!(OlderInfo, own), dimension: 7, vertex_count: 7, own: [9; 32] };
     // SAFETY: as much room as is said.
-    assert_eq!(
-        unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) },
-        StatusCode::Ok,
-        "{}",
-        last_message()
-    );
+    let status = unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
     assert_eq!((info.dimension, info.vertex_count, info.own), (3, 4, [9; 32]));
 
     // A newer info: what this library does not know is 0, whatever was there.
     let mut newer = [u64::MAX; 64];
     newer[0] = 8 * 40;
     // SAFETY: as above.
-    assert_eq!(
-        unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) },
-        StatusCode::Ok,
-        "{}",
-        last_message()
-    );
+    let status = unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
     let known = size_of::<ShapeInfo>() / 8;
     assert_eq!(newer[2], 4);
     assert!(newer[known..40].iter().all(|&word| word == 0) && newer[40..].iter().all(|&word| word == u64::MAX));
