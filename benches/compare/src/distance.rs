@@ -73,7 +73,7 @@ fn of_intersection(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     ])
 }
 
-/// No two of the same code follow each other: the second would find the branch predictors trained on the very poses.
+/// No two that search alike follow each other: the second would find the branch predictors trained on the very poses.
 fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let shape = shape(mesh)?;
     let rings = Rc::new(Rings::new(mesh));
