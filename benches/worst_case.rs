@@ -2,20 +2,17 @@
 //! how long they and building take, for bodies that are hard for marching: many vertices, many neighbours of one vertex, many sides
 //! of one face, flat and long bodies. Prints a CSV, one line for each body, number of vertices and motion; `make steps` draws it.
 
-#[path = "common/mod.rs"]
-mod common;
-
 use std::fmt;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use common::models;
-use common::random::Random;
 use swiftprox::error::{Error, Result};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, DecidedBy, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
+use testkit::models;
+use testkit::random::Random;
 
 const USAGE: &str =
     "usage: cargo bench --bench worst_case -- [--n N]... [--body NAME]... [--queries COUNT] [--csv PATH]";

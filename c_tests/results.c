@@ -1,6 +1,7 @@
 /* How long results last, and what memory a scene gives back: the list of a query stays as it is while objects are moved, added,
  * removed, activated and renamed, until the next query. Contacts are of pairs that touch unless the query says otherwise. Run under
  * valgrind it shows that nothing is read that was given back. */
+#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,6 +57,13 @@ static void make_row(swiftprox_scene *scene, const swiftprox_shape *shape, swift
     }
 }
 
+/* Whether two results say the same. Behind the last member stand bytes that nobody writes. */
+static int same(const swiftprox_pair_result *result, const swiftprox_pair_result *other)
+{
+    const size_t size = offsetof(swiftprox_pair_result, answer.statistics) + sizeof result->answer.statistics;
+    return memcmp(result, other, size) == 0;
+}
+
 static void results_stay(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
@@ -92,7 +100,9 @@ static void results_stay(const swiftprox_shape *shape)
             CHECK(swiftprox_scene_remove_object(scene, pair->object1) == SWIFTPROX_ERROR_HANDLE);
         }
     }
-    CHECK(memcmp(copy, answer.pairs, answer.count * sizeof *copy) == 0);
+    for (size_t i = 0; i < answer.count; ++i) {
+        CHECK(same(&copy[i], &answer.pairs[i]));
+    }
     free(copy);
 
     /* So does the pair at which a query stopped. */
@@ -100,11 +110,10 @@ static void results_stay(const swiftprox_shape *shape)
     query.early_exit = 1;
     CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &found));
     CHECK(found.found != NULL);
-    swiftprox_pair_result stopped_at;
-    memcpy(&stopped_at, found.found, sizeof stopped_at);
+    const swiftprox_pair_result stopped_at = *found.found;
     CHECK_OK(swiftprox_scene_remove_object(scene, found.found->object1));
     add(scene, shape, 0);
-    CHECK(memcmp(&stopped_at, found.found, sizeof stopped_at) == 0);
+    CHECK(same(&stopped_at, found.found));
 
     /* A refused query says nothing. */
     query.error_budget = -1;

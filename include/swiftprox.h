@@ -5,12 +5,13 @@
  *
  * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments.
  *
- * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused.
- * swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails changes nothing but the
- * outputs it names. Nothing is printed, nothing unwinds into the caller. A bug of the library, when it is caught, comes back as
- * SWIFTPROX_ERROR_BUG; a scene that was being changed answers SWIFTPROX_ERROR_POISONED from then on and can only be destroyed. What
- * a shape holds never changes once made, so no bug can spoil it. What a failed call does not say is NaN where it is a real number,
- * else 0 or null.
+ * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused, and compilers warn where
+ * one is ignored. swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
+ * changes nothing but the outputs it names. What initialises, shares and releases returns none: a mistake there, such as a null
+ * pointer, is ignored and told by that message and the log. Nothing is printed, nothing unwinds into the caller. A bug of the
+ * library, when it is caught, comes back as SWIFTPROX_ERROR_BUG; a scene that was being changed answers
+ * SWIFTPROX_ERROR_POISONED from then on and can only be destroyed. What a shape holds never changes once made, so no bug can
+ * spoil it. What a failed call does not say is NaN where it is a real number, else 0 or null.
  *
  * Memory. Arrays in proportion to what the caller gives, to a file or to a scene may be refused: the call then ends in
  * SWIFTPROX_ERROR_MEMORY, as each that allocates may, and nothing has changed. What else is allocated is small, in blocks of less
@@ -295,9 +296,9 @@ swiftprox_status swiftprox_shape_create_from_points(const double *points,
  * Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
  *
  * The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,
- * else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0 in
- * the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
- * mentioned, and no triangles with two equal corners.
+ * else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0
+ * in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first mentioned, and
+ * no triangles with two equal corners.
  *
  * On failure `*shape` is null. `options` may be null for the defaults.
  *
@@ -477,8 +478,8 @@ typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
   /** The errors that an approximate query may make: it stopped because its interval was narrow enough. */
   SWIFTPROX_DECIDED_BY_TOLERANCE = 5,
   /**
-   * The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on from
-   * there.
+   * The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on
+   * from there.
    */
   SWIFTPROX_DECIDED_BY_BUDGET = 6,
   /** The bounding spheres: they are apart, and farther than the distance tolerance if there is one. */
@@ -789,8 +790,8 @@ typedef struct swiftprox_object_options {
 } swiftprox_object_options;
 
 /**
- * Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the program
- * was compiled with. Null is ignored.
+ * Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
+ * program was compiled with. Null is ignored.
  */
 void swiftprox_object_options_init_sized(struct swiftprox_object_options *options,
                                          size_t struct_size);
@@ -874,8 +875,8 @@ swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id);
 
 /**
- * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of an
- * object that was removed. Two ids name the same object if their bits are equal.
+ * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
+ * an object that was removed. Two ids name the same object if their bits are equal.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
  */
@@ -1106,8 +1107,8 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
                                                             struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query says
- * otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
+ * As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+ * says otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
@@ -1174,7 +1175,7 @@ swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene)
  * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
  * more. What the others remember stays. The next query takes anew what it needs.
  *
- * SWIFTPROX_ERROR_MEMORY: there is none for a smaller list of pairs; the results are given back all the same.
+ * SWIFTPROX_ERROR_MEMORY: there is none for a smaller list of pairs; nothing has changed.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD

@@ -89,8 +89,8 @@ typedef struct swiftprox_shape_tuning {
 } swiftprox_shape_tuning;
 
 /**
- * Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program was
- * compiled with. Null is ignored.
+ * Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program
+ * was compiled with. Null is ignored.
  */
 void swiftprox_shape_tuning_init_sized(struct swiftprox_shape_tuning *tuning,
                                        size_t struct_size);
@@ -190,8 +190,8 @@ typedef struct swiftprox_level_info {
 } swiftprox_level_info;
 
 /**
- * Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest. Set
- * info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
+ * Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
+ * Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
  * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.

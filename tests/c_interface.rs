@@ -3,15 +3,11 @@
 
 #![allow(unsafe_code, reason = "the C functions are unsafe to call")]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
-use random::Random;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::allocator::swiftprox_library_set_allocator;
 use swiftprox::ffi::level::*;
@@ -29,6 +25,7 @@ use swiftprox::object::ObjectId;
 use swiftprox::pair::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use swiftprox::scene::SceneStatistics;
 use swiftprox::shape::Shape;
+use testkit::random::Random;
 
 const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
@@ -185,24 +182,16 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
     let mut info =
         OlderInfo { struct_size: std::mem::offset_of!(OlderInfo, own), dimension: 7, vertex_count: 7, own: [9; 32] };
     // SAFETY: as much room as is said.
-    assert_eq!(
-        unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) },
-        StatusCode::Ok,
-        "{}",
-        last_message()
-    );
+    let status = unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
     assert_eq!((info.dimension, info.vertex_count, info.own), (3, 4, [9; 32]));
 
     // A newer info: what this library does not know is 0, whatever was there.
     let mut newer = [u64::MAX; 64];
     newer[0] = 8 * 40;
     // SAFETY: as above.
-    assert_eq!(
-        unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) },
-        StatusCode::Ok,
-        "{}",
-        last_message()
-    );
+    let status = unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
     let known = size_of::<ShapeInfo>() / 8;
     assert_eq!(newer[2], 4);
     assert!(newer[known..40].iter().all(|&word| word == 0) && newer[40..].iter().all(|&word| word == u64::MAX));

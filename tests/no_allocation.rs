@@ -4,16 +4,10 @@
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-mod random_scene;
-mod shapes;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::Arc;
 
-use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
@@ -21,6 +15,7 @@ use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::Shape;
+use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 
 struct Counting;
 

@@ -17,10 +17,10 @@ use swiftprox::pair::{
 use swiftprox::shape::Shape;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::verify::verify;
-use swiftprox_fuzz::bodies::Body;
-use swiftprox_fuzz::cases::{Case, Random};
+use testkit::bodies::Body;
+use testkit::cases::{Case, Random};
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
-use swiftprox_fuzz::properties::{Placed, Session, Work};
+use testkit::properties::{Placed, Session, Work};
 
 /// The oracle takes time in the fourth power of this.
 const FEW_POINTS: usize = 6;

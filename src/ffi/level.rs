@@ -101,8 +101,8 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     })
 }
 
-/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
+/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
+/// Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
 /// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.

@@ -77,8 +77,8 @@ impl ObjectInfo {
 
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
-/// Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the program
-/// was compiled with. Null is ignored.
+/// Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
+/// program was compiled with. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_object_options_init_sized(options: *mut CObjectOptions, struct_size: usize) {
     // SAFETY: the header's pointer rules.
@@ -206,8 +206,8 @@ pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, 
     unsafe { change(scene, |scene| Ok(scene.remove_object(id)?)) }
 }
 
-/// Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of an
-/// object that was removed. Two ids name the same object if their bits are equal.
+/// Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
+/// an object that was removed. Two ids name the same object if their bits are equal.
 ///
 /// SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]

@@ -260,8 +260,10 @@ unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConfig> {
         return Ok(PairConfig::default());
     }
     let of_this_size;
-    // SAFETY: not null; the struct begins with its size, and one of today's size is read where it is.
-    let config = if unsafe { config.cast::<usize>().read() } == size_of::<CPairConfig>() {
+    // SAFETY: not null; the struct begins with its size.
+    let size = unsafe { config.cast::<usize>().read() };
+    let config = if size == size_of::<CPairConfig>() {
+        // SAFETY: as large as today's struct, whose members are plain numbers and a pointer.
         unsafe { &*config }
     } else {
         // SAFETY: by the caller.

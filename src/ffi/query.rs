@@ -141,8 +141,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
     unsafe { ask(Scene::query_approximate_distance, f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query says
-/// otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
+/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+/// says otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     scene: *mut SceneHandle,

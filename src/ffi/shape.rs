@@ -121,9 +121,9 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
 /// Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
 ///
 /// The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,
-/// else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0 in
-/// the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
-/// mentioned, and no triangles with two equal corners.
+/// else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0
+/// in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first mentioned, and
+/// no triangles with two equal corners.
 ///
 /// On failure `*shape` is null. `options` may be null for the defaults.
 ///

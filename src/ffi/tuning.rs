@@ -59,8 +59,8 @@ impl CShapeTuning {
     };
 }
 
-/// Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program was
-/// compiled with. Null is ignored.
+/// Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program
+/// was compiled with. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_tuning_init_sized(tuning: *mut CShapeTuning, struct_size: usize) {
     // SAFETY: the header's pointer rules.

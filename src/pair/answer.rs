@@ -35,8 +35,8 @@ pub enum DecidedBy {
     Integers = 4,
     /// The errors that an approximate query may make: it stopped because its interval was narrow enough.
     Tolerance = 5,
-    /// The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on from
-    /// there.
+    /// The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on
+    /// from there.
     Budget = 6,
     /// The bounding spheres: they are apart, and farther than the distance tolerance if there is one.
     BoundingSpheres = 7,

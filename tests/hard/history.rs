@@ -9,12 +9,12 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 
-use crate::cases::Random;
-use crate::common::caches::{WORDS, cache_of_words};
-use crate::common::hard::flight::{fly, poses};
-use crate::properties::excess_work_without_levels;
 use crate::truth::ExactPair;
 use crate::{Flight, ask, contradiction};
+use testkit::caches::{WORDS, cache_of_words};
+use testkit::cases::Random;
+use testkit::hard::flight::{fly, poses};
+use testkit::properties::excess_work_without_levels;
 
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
 const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
@@ -125,7 +125,7 @@ fn not_as_asked(name: &str, answer: &PairAnswer) -> Option<String> {
 /// Caches of another sequence of the same family: other bodies.
 fn foreign_caches(flight: &Flight) -> Vec<PairCache> {
     let other = flight.family.sequence(flight.seed ^ 0xf0, flight.index + 1);
-    let [first, second] = crate::common::hard::flight::shapes(&other).expect("bodies that the library admits");
+    let [first, second] = testkit::hard::flight::shapes(&other).expect("bodies that the library admits");
     let mut caches = Vec::new();
     fly(&other, [&first, &second], |_, _, _, cache| caches.push(*cache)).expect("accepted poses");
     caches

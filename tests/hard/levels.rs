@@ -10,12 +10,12 @@ use swiftprox::pair::{
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
-use crate::cases::Random;
-use crate::common::caches::cache_of_words;
-use crate::common::hard::flight::poses;
 use crate::history::{Query, words_of_a_cache};
-use crate::retold::extent;
 use crate::{Flight, ask, contradiction};
+use testkit::caches::cache_of_words;
+use testkit::cases::Random;
+use testkit::hard::flight::poses;
+use testkit::retold::extent;
 
 const KINDS: [HierarchyKind; 3] = [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
 

@@ -10,10 +10,10 @@ use crate::method::{Method, Reply, replies};
 use crate::options::Options;
 use crate::parry::{Climbing, Parry, Rings};
 use crate::report::{self, Row};
-use crate::scenes::models::cuboid;
 use crate::setting::{Query, setting, setting_of_pair};
 use crate::timing::{Time, median, time_methods};
 use crate::{model, motion};
+use testkit::models::cuboid;
 
 /// Answers farther apart than this, relative to the distance, are counted as disagreement.
 const AGREEMENT: f64 = 1e-6;
