@@ -7,13 +7,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <swiftprox.h>
 #include <swiftprox_tuning.h>
 
 #include "poses.h"
+#include "progress.h"
 
 enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
@@ -210,64 +209,8 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
     return files == 3 || wrong_usage("two meshes and a pose file are needed", "");
 }
 
-/* ---- progress ---- */
-
 /* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
 enum { QUERIES_A_LOOK = 64, OUTPUT_BUFFER = 1 << 16 };
-
-struct progress {
-    bool shown;           /* only to a person at a terminal */
-    bool shares_terminal; /* with the answers */
-    double next;          /* when to draw again */
-};
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static struct progress progress_start(void)
-{
-    return (struct progress){.shown = isatty(STDERR_FILENO), .shares_terminal = isatty(STDOUT_FILENO), .next = seconds() + 0.5};
-}
-
-static void progress_erase(const struct progress *progress)
-{
-    if (progress->shown) {
-        fputs("\r\033[K", stderr);
-    }
-}
-
-/* Draws the bar if it is time to; what stands behind it is for the caller to print. */
-static bool progress_draw(struct progress *progress, double fraction)
-{
-    enum { WIDTH = 40 };
-    if (!progress->shown) {
-        return false;
-    }
-    const double now = seconds();
-    const bool due = now >= progress->next;
-    if (progress->shares_terminal) { /* the answers so far go above the bar, never into it */
-        progress_erase(progress);
-        fflush(stdout);
-    }
-    if (due) {
-        const int filled = (int)((double)WIDTH * fraction);
-        fprintf(stderr, "\r[%.*s%*s] ", filled, "########################################", WIDTH - filled, "");
-        progress->next = progress->shares_terminal ? now : now + 0.1;
-    }
-    return due;
-}
-
-static void progress_look(struct progress *progress, size_t done, size_t total)
-{
-    if (progress_draw(progress, (double)done / (double)total)) {
-        fprintf(stderr, "%zu of %zu", done, total);
-        fflush(stderr);
-    }
-}
 
 /* ---- queries ---- */
 
