@@ -1,20 +1,16 @@
 //! Manifolds: what boxes on boxes and hulls on hulls have in common, and what of it stays from pose to pose.
 
-#[path = "../benches/common/random.rs"]
-mod random;
-mod shapes;
-
-use random::{Random, rotation};
-use shapes::{at, cuboid, hull};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{
     DepthAnswer, DepthCache, DepthConfig, FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
     depth, manifold,
 };
 use swiftprox::shape::Shape;
+use testkit::random::{Random, rotation};
+use testkit::shapes::{at, cuboid, hull};
 
-const ALL: ManifoldConfig = ManifoldConfig { struct_size: 0, rotation_limit: 1e-2, margin: 0.0, reduces: 0 };
-const FOUR: ManifoldConfig = ManifoldConfig { reduces: 1, ..ALL };
+const ALL: ManifoldConfig = ManifoldConfig { rotation_limit: 1e-2, margin: 0.0, reduces: false };
+const FOUR: ManifoldConfig = ManifoldConfig { reduces: true, ..ALL };
 
 fn query(
     shapes: [&Shape; 2],
@@ -212,7 +208,7 @@ fn hulls_on_hulls_have_points_on_both() {
         check(pair, placed, &config, &answer, &points);
         several += usize::from(points.len() > 1);
         single += usize::from(points.len() == 1);
-        let reduced = ManifoldConfig { reduces: 1, ..config };
+        let reduced = ManifoldConfig { reduces: true, ..config };
         let (_, four) = query(pair, placed, &mut ManifoldCache::default(), &reduced);
         assert!(four.len() <= 4 && four.iter().all(|point| points.contains(point)), "{four:?} {points:?}");
         let deepest =

@@ -1,5 +1,5 @@
 /* swiftprox-query: two meshes and a file of poses in, one certified answer a line out. It is a user of the C interface like
- * any other, and knows nothing that swiftprox.h does not say. */
+ * any other, and knows nothing that its headers do not say. */
 #include <errno.h>
 #include <fenv.h>
 #include <math.h>
@@ -7,19 +7,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <swiftprox.h>
+#include <swiftprox_tuning.h>
 
 #include "poses.h"
+#include "progress.h"
 
 enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
-static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
-                            "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
-                            "                       [--input strict|flat|hull] [--bounds tight|verdict] [--count N]\n"
-                            "                       [--bench PASSES]\n";
+static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth]\n"
+                            "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
+                            "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
@@ -29,13 +28,15 @@ static const char HELP[] =
     "  POSES   one query a line, 24 numbers: the row-major 3x4 [R|T] of A, then of B; blank lines and lines\n"
     "          that start with # are skipped; - is the standard input. What one query learned starts the next.\n"
     "\n"
-    "  --query contact       distance, witness points and normal, also where the objects touch or intersect\n"
-    "                        (the default)\n"
+    "  --query contact       distance, witness points and normal; of objects that touch or intersect the depth, its\n"
+    "                        witness points and normal (the default)\n"
     "  --query distance      the same for disjoint objects; the verdict alone for intersecting ones\n"
     "  --query intersection  the verdict alone; lower and upper are not tight\n"
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
-    "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
+    "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
+    "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
+    "                        as possible)\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
     "                        that they may answer (the default)\n"
     "  --levels none         no levels of detail\n"
@@ -50,8 +51,6 @@ static const char HELP[] =
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
-    "  --bounds tight        the tightest interval that double precision allows (the default)\n"
-    "  --bounds verdict      the cheapest interval that still proves the verdict\n"
     "  --count N             answer the first N queries only\n"
     "  --bench PASSES        print times instead of answers, see below\n"
     "  --help, --version     print this text, the version\n"
@@ -59,13 +58,14 @@ static const char HELP[] =
     "Each answer is a line of 15 fields, numbers with 17 significant digits:\n"
     "  distance depth  ax ay az  bx by bz  nx ny nz  lower upper  status steps\n"
     "  distance       best estimate; 0 when the objects touch or intersect\n"
-    "  depth          nan: penetration depth is not computed yet\n"
-    "  a, b           witness points on A and on B in the world frame\n"
+    "  depth          how far A has to move along n, or B against it, to come free (queries contact and depth)\n"
+    "  a, b           witness points on A and on B in the world frame; b - a is depth n where the objects intersect\n"
     "  n              unit normal in the world frame, from B to A\n"
     "  lower, upper   the true distance lies between them, rounding included (lower is printed rounded down\n"
     "                 and upper rounded up, so this holds for the printed decimals); both 0 when intersecting\n"
     "  status         how the query was decided: marched, coherent, fallback, exact, spheres: by bounding\n"
-    "                 spheres, or tolerance: by levels of detail\n"
+    "                 spheres, or tolerance: by levels of detail; a depth: narrow, apart, exact, or stalled, where the\n"
+    "                 interval is wider than could be\n"
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
@@ -84,9 +84,8 @@ typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, con
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
-    pair_query *query;
+    pair_query *query; /* NULL: the depth */
     swiftprox_input input;
-    swiftprox_bounds bounds;
     swiftprox_start start;
     swiftprox_hierarchy hierarchy;
     swiftprox_levels levels;
@@ -139,13 +138,11 @@ static bool parse_error(const char *word, double *error)
 
 static bool parse_option(const char *name, const char *value, struct arguments *arguments)
 {
-    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate"};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth"};
     static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
-                                                  swiftprox_pair_approximate};
+                                                  swiftprox_pair_approximate, NULL};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
     static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
-    static const char *const BOUNDS[] = {"tight", "verdict"};
-    static const swiftprox_bounds BOUNDS_VALUES[] = {SWIFTPROX_BOUNDS_TIGHT, SWIFTPROX_BOUNDS_VERDICT};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
     static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
                                                    SWIFTPROX_START_COLD};
@@ -156,7 +153,7 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
     int choice;
     if (strcmp(name, "--query") == 0) {
-        if ((choice = choose(value, QUERIES, 4)) < 0) {
+        if ((choice = choose(value, QUERIES, 5)) < 0) {
             return wrong_usage("--query does not know ", value);
         }
         arguments->query = QUERY_FUNCTIONS[choice];
@@ -165,11 +162,6 @@ static bool parse_option(const char *name, const char *value, struct arguments *
             return wrong_usage("--input does not know ", value);
         }
         arguments->input = INPUT_VALUES[choice];
-    } else if (strcmp(name, "--bounds") == 0) {
-        if ((choice = choose(value, BOUNDS, 2)) < 0) {
-            return wrong_usage("--bounds does not know ", value);
-        }
-        arguments->bounds = BOUNDS_VALUES[choice];
     } else if (strcmp(name, "--start") == 0) {
         if ((choice = choose(value, STARTS, 4)) < 0) {
             return wrong_usage("--start does not know ", value);
@@ -193,11 +185,9 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
-    static const char *const WITH_VALUE[] = {"--query", "--input", "--bounds", "--count",
-                                             "--bench", "--error", "--start",  "--levels"};
+    static const char *const WITH_VALUE[] = {"--query", "--input", "--count", "--bench", "--error", "--start", "--levels"};
     *arguments = (struct arguments){.query = swiftprox_pair_contact,
                                     .input = SWIFTPROX_INPUT_STRICT,
-                                    .bounds = SWIFTPROX_BOUNDS_TIGHT,
                                     .start = SWIFTPROX_START_AUTOMATIC,
                                     .hierarchy = SWIFTPROX_HIERARCHY_AUTOMATIC,
                                     .levels = SWIFTPROX_LEVELS_AUTOMATIC,
@@ -209,7 +199,7 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                 return wrong_usage("one file too many: ", argv[i]);
             }
             arguments->files[files++] = argv[i];
-        } else if (choose(argv[i], WITH_VALUE, 8) < 0) {
+        } else if (choose(argv[i], WITH_VALUE, 7) < 0) {
             return wrong_usage("unknown option ", argv[i]);
         } else if (i + 1 == argc) {
             return wrong_usage(argv[i], " wants a value");
@@ -222,64 +212,8 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
     return files == 3 || wrong_usage("two meshes and a pose file are needed", "");
 }
 
-/* ---- progress ---- */
-
 /* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
 enum { QUERIES_A_LOOK = 64, OUTPUT_BUFFER = 1 << 16 };
-
-struct progress {
-    bool shown;           /* only to a person at a terminal */
-    bool shares_terminal; /* with the answers */
-    double next;          /* when to draw again */
-};
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static struct progress progress_start(void)
-{
-    return (struct progress){.shown = isatty(STDERR_FILENO), .shares_terminal = isatty(STDOUT_FILENO), .next = seconds() + 0.5};
-}
-
-static void progress_erase(const struct progress *progress)
-{
-    if (progress->shown) {
-        fputs("\r\033[K", stderr);
-    }
-}
-
-/* Draws the bar if it is time to; what stands behind it is for the caller to print. */
-static bool progress_draw(struct progress *progress, double fraction)
-{
-    enum { WIDTH = 40 };
-    if (!progress->shown) {
-        return false;
-    }
-    const double now = seconds();
-    const bool due = now >= progress->next;
-    if (progress->shares_terminal) { /* the answers so far go above the bar, never into it */
-        progress_erase(progress);
-        fflush(stdout);
-    }
-    if (due) {
-        const int filled = (int)((double)WIDTH * fraction);
-        fprintf(stderr, "\r[%.*s%*s] ", filled, "########################################", WIDTH - filled, "");
-        progress->next = progress->shares_terminal ? now : now + 0.1;
-    }
-    return due;
-}
-
-static void progress_look(struct progress *progress, size_t done, size_t total)
-{
-    if (progress_draw(progress, (double)done / (double)total)) {
-        fprintf(stderr, "%zu of %zu", done, total);
-        fflush(stderr);
-    }
-}
 
 /* ---- queries ---- */
 
@@ -287,15 +221,36 @@ struct job {
     const swiftprox_shape *shapes[2];
     struct pose_list poses;
     const char *pose_path;
-    pair_query *query;
+    pair_query *query; /* NULL: the depth */
     swiftprox_pair_config config;
+    swiftprox_depth_config depth_config;
 };
 
-static swiftprox_status answer_query(const struct job *job, size_t index, swiftprox_pair_cache *cache,
-                                     swiftprox_pair_answer *answer)
+/* What the pair remembers. */
+struct caches {
+    swiftprox_pair_cache pair;
+    swiftprox_depth_cache depth;
+};
+
+struct answer {
+    swiftprox_pair_answer pair;
+    swiftprox_depth_answer depth;
+};
+
+static swiftprox_status answer_depth(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
-    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, cache, &job->config, answer);
+    return swiftprox_pair_depth(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->depth, &job->depth_config,
+                                &answer->depth);
+}
+
+static swiftprox_status answer_query(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
+{
+    const struct pose_pair *pair = &job->poses.pairs[index];
+    if (!job->query) {
+        return answer_depth(job, index, caches, answer);
+    }
+    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->pair, &job->config, &answer->pair);
 }
 
 /* What the library refused, with the line of the pose file; the exit status. */
@@ -305,20 +260,20 @@ static int refused(const struct job *job, size_t index, swiftprox_status status)
     return status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
 }
 
-static const char *status_word(swiftprox_pair_status status)
+static const char *status_word(swiftprox_decided_by decided_by)
 {
-    switch (status) {
-    case SWIFTPROX_PAIR_STATUS_MARCHED:
+    switch (decided_by) {
+    case SWIFTPROX_DECIDED_BY_MARCHING:
         return "marched";
-    case SWIFTPROX_PAIR_STATUS_COHERENT:
+    case SWIFTPROX_DECIDED_BY_COHERENCE:
         return "coherent";
-    case SWIFTPROX_PAIR_STATUS_FALLBACK:
+    case SWIFTPROX_DECIDED_BY_FALLBACK:
         return "fallback";
-    case SWIFTPROX_PAIR_STATUS_EXACT:
+    case SWIFTPROX_DECIDED_BY_INTEGERS:
         return "exact";
-    case SWIFTPROX_PAIR_STATUS_WITHIN_TOLERANCE:
+    case SWIFTPROX_DECIDED_BY_TOLERANCE:
         return "tolerance";
-    case SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES:
+    case SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES:
         return "spheres";
     default:
         return "none";
@@ -351,20 +306,51 @@ static void print_rounded(double value, int direction)
     fesetround(before);
 }
 
-static void print_answer(const struct job *job, const swiftprox_pair_answer *answer)
+static const char *ending_word(swiftprox_depth_ending ending)
+{
+    switch (ending) {
+    case SWIFTPROX_DEPTH_ENDING_NARROW:
+        return "narrow";
+    case SWIFTPROX_DEPTH_ENDING_SEPARATED:
+        return "apart";
+    case SWIFTPROX_DEPTH_ENDING_INTEGERS:
+        return "exact";
+    case SWIFTPROX_DEPTH_ENDING_STALLED:
+        return "stalled";
+    default:
+        return "none";
+    }
+}
+
+static void print_depth(const swiftprox_depth_answer *answer)
+{
+    const bool apart = answer->outcome == SWIFTPROX_OUTCOME_SEPARATED;
+    const swiftprox_depth_statistics *statistics = &answer->statistics;
+    print_number(apart ? NAN : 0); /* distance */
+    print_number(answer->depth);
+    print_vector(answer->world1);
+    print_vector(answer->world2);
+    print_vector(answer->normal);
+    print_rounded(answer->lower, FE_DOWNWARD);
+    print_rounded(answer->upper, FE_UPWARD);
+    printf("%s %llu\n", ending_word(answer->ending), (unsigned long long)statistics->steps + statistics->exact_iterations);
+}
+
+/* `depth` is NULL where none was asked for. */
+static void print_answer(const struct job *job, const swiftprox_pair_answer *answer, const swiftprox_depth_answer *depth)
 {
     static const double NOTHING[3] = {NAN, NAN, NAN};
     /* The verdict's query needs some direction and says which, but it is not the normal at nearest points. */
     const bool verdict_only = job->query == swiftprox_pair_intersection && answer->outcome == SWIFTPROX_OUTCOME_SEPARATED;
     const swiftprox_statistics *statistics = &answer->statistics;
     print_number(verdict_only ? NAN : answer->distance);
-    print_number(NAN); /* depth */
-    print_vector(verdict_only ? NOTHING : answer->world1);
-    print_vector(verdict_only ? NOTHING : answer->world2);
-    print_vector(verdict_only ? NOTHING : answer->normal);
+    print_number(depth ? depth->depth : NAN);
+    print_vector(verdict_only ? NOTHING : depth ? depth->world1 : answer->world1);
+    print_vector(verdict_only ? NOTHING : depth ? depth->world2 : answer->world2);
+    print_vector(verdict_only ? NOTHING : depth ? depth->normal : answer->normal);
     print_rounded(answer->lower, FE_DOWNWARD);
     print_rounded(answer->upper, FE_UPWARD);
-    printf("%s %llu\n", status_word(answer->status),
+    printf("%s %llu\n", status_word(answer->decided_by),
            (unsigned long long)statistics->marching_steps + statistics->fallback_iterations + statistics->exact_iterations);
 }
 
@@ -372,16 +358,25 @@ static int print_answers(const struct job *job)
 {
     const size_t count = job->poses.count;
     struct progress progress = progress_start();
-    swiftprox_pair_cache cache = {0};
+    struct caches caches = {0};
     for (size_t i = 0; i < count; i++) {
-        swiftprox_pair_answer answer;
-        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        struct answer answer;
+        swiftprox_status status = answer_query(job, i, &caches, &answer);
+        const bool contact = status == SWIFTPROX_OK && job->query == swiftprox_pair_contact &&
+                             answer.pair.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+        if (contact) {
+            status = answer_depth(job, i, &caches, &answer);
+        }
         if (status != SWIFTPROX_OK) {
             progress_erase(&progress);
             fflush(stdout);
             return refused(job, i, status);
         }
-        print_answer(job, &answer);
+        if (job->query) {
+            print_answer(job, &answer.pair, contact ? &answer.depth : NULL);
+        } else {
+            print_depth(&answer.depth);
+        }
         if (i % QUERIES_A_LOOK == QUERIES_A_LOOK - 1) {
             progress_look(&progress, i + 1, count);
         }
@@ -392,10 +387,10 @@ static int print_answers(const struct job *job)
 
 static int run_pass(const struct job *job)
 {
-    swiftprox_pair_cache cache = {0};
-    swiftprox_pair_answer answer;
+    struct caches caches = {0};
+    struct answer answer;
     for (size_t i = 0; i < job->poses.count; i++) {
-        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        const swiftprox_status status = answer_query(job, i, &caches, &answer);
         if (status != SWIFTPROX_OK) {
             return refused(job, i, status);
         }
@@ -457,7 +452,7 @@ static int32_t building_look(void *user, double fraction)
     return 0;
 }
 
-static bool load_shape(const char *path, char name, swiftprox_shape_options options, swiftprox_shape **shape)
+static bool load_shape(const char *path, char name, swiftprox_shape_options options, const swiftprox_shape **shape)
 {
     struct building building = {progress_start(), name};
     options.progress = building_look;
@@ -474,18 +469,20 @@ static bool load_shape(const char *path, char name, swiftprox_shape_options opti
 }
 
 /* One shape for both objects when both are one file. */
-static bool load_shapes(const struct arguments *arguments, swiftprox_shape *shapes[2])
+static bool load_shapes(const struct arguments *arguments, const swiftprox_shape *shapes[2])
 {
     swiftprox_shape_options options;
+    swiftprox_shape_tuning tuning;
     swiftprox_shape_options_init(&options);
+    swiftprox_shape_tuning_init(&tuning);
     options.input = arguments->input;
-    options.hierarchy = arguments->hierarchy;
+    options.tuning = &tuning;
+    tuning.hierarchy = arguments->hierarchy;
     if (!load_shape(arguments->files[0], 'A', options, &shapes[0])) {
         return false;
     }
     if (strcmp(arguments->files[0], arguments->files[1]) == 0) {
-        swiftprox_shape_retain(shapes[0]);
-        shapes[1] = shapes[0];
+        shapes[1] = swiftprox_shape_retain(shapes[0]);
         return true;
     }
     return load_shape(arguments->files[1], 'B', options, &shapes[1]);
@@ -495,13 +492,17 @@ static int run(const struct arguments *arguments)
 {
     static char buffer[OUTPUT_BUFFER];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    swiftprox_shape *shapes[2] = {NULL, NULL};
+    const swiftprox_shape *shapes[2] = {NULL, NULL};
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
+    swiftprox_pair_tuning tuning;
+    swiftprox_pair_tuning_init(&tuning);
+    tuning.start = arguments->start;
+    tuning.levels = arguments->levels;
     swiftprox_pair_config_init(&job.config);
-    job.config.bounds = arguments->bounds;
-    job.config.start = arguments->start;
-    job.config.levels = arguments->levels;
+    job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
+    swiftprox_depth_config_init(&job.depth_config);
+    job.depth_config.absolute_error = arguments->error;
 
     int result = BAD_FILE;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {

@@ -2,8 +2,6 @@
 //! way in which an answer comes about.
 
 mod answer;
-mod normal_cone;
-mod contact_direction;
 mod contact;
 mod placed;
 #[doc(hidden)]
@@ -28,14 +26,15 @@ use crate::base::math::Pose;
 use crate::base::simd::environment::{self, with_default};
 use crate::shape::Shape;
 
-pub use answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
+pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
-pub use config::{Bounds, Levels, PairConfig, Start};
-pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthStatistics, DepthStatus, depth};
+pub use config::{Levels, PairConfig, Start};
+pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub use descent::Refinement;
 use ladder::climb;
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
+pub(crate) use manifold::{Sink, manifold_into};
 #[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
@@ -83,11 +82,8 @@ pub fn intersection(
     query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
 }
 
-/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
-/// the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
-/// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
-/// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
-/// the normal, of object 2 along it.
+/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which the
+/// objects overlap least and the features that meet there: those of [`depth()`], which says how deep, and where.
 ///
 /// # Errors
 /// As [`distance`].
@@ -108,7 +104,7 @@ pub fn contact(
 /// soon as `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact
 /// distance.
 ///
-/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and
+/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and
 /// features are not said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only
 /// `lower` is said.
 ///

@@ -73,7 +73,7 @@ fn the_environment_changes_no_bit() {
 /// Bodies that are as deep in each other along several directions: where nothing moves but rounding the direction stays.
 #[test]
 fn at_ties_the_direction_stays() {
-    let cube = crate::shapes::cuboid([0.5, 0.5, 0.5]);
+    let cube = testkit::shapes::cuboid([0.5, 0.5, 0.5]);
     let mut random = Random::new(53);
     for _ in 0..50 {
         let mut cache = DepthCache::default();

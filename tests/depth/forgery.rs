@@ -4,8 +4,8 @@ use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::verify::verify_depth;
 
 use crate::bodies::{large, placed_deep};
-use crate::shapes::{at, cuboid};
 use crate::{Random, query};
+use testkit::shapes::{at, cuboid};
 
 /// Ways to make an answer false by more than rounding.
 const FORGERIES: [fn(&mut DepthAnswer); 10] = [

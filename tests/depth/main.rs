@@ -4,20 +4,16 @@
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
 
-#[path = "../../benches/common/mod.rs"]
-mod common;
-#[path = "../shapes/mod.rs"]
-mod shapes;
 mod allocation;
 mod bodies;
 mod caches;
 mod forgery;
 mod truth;
 
-use common::random::Random;
 use swiftprox::math::Pose;
 use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, depth};
 use swiftprox::shape::Shape;
+use testkit::random::Random;
 
 /// How deep two bodies are in each other, as narrow as can be proved.
 fn query(shapes: [&Shape; 2], poses: [&Pose; 2], cache: &mut DepthCache) -> DepthAnswer {

@@ -6,8 +6,8 @@ use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::verify::verify_depth;
 
-use crate::shapes::hull;
 use crate::{Random, query};
+use testkit::shapes::hull;
 
 type Integers = [i128; 3];
 

@@ -7,10 +7,7 @@ use crate::pair::config::check_accuracy;
 
 /// What a depth query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct DepthConfig {
-    /// The size of this struct, so that it can grow.
-    pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// `upper − lower` may be as large as this …
@@ -24,13 +21,7 @@ pub struct DepthConfig {
 
 impl Default for DepthConfig {
     fn default() -> Self {
-        DepthConfig {
-            struct_size: size_of::<DepthConfig>(),
-            rotation_limit: ROTATION_LIMIT,
-            absolute_error: 0.0,
-            relative_error: 0.0,
-            step_budget: u32::MAX,
-        }
+        DepthConfig { rotation_limit: ROTATION_LIMIT, absolute_error: 0.0, relative_error: 0.0, step_budget: u32::MAX }
     }
 }
 
@@ -48,7 +39,7 @@ impl DepthConfig {
 /// How a depth query ended. Values are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
-pub enum DepthStatus {
+pub enum DepthEnding {
     /// Nothing was asked yet.
     #[default]
     None = 0,
@@ -57,9 +48,9 @@ pub enum DepthStatus {
     /// A direction separates the objects.
     Separated = 2,
     /// Integer arithmetic decided what rounding hides: whether the objects are apart, touch or overlap. Touching is depth 0.
-    Exact = 3,
+    Integers = 3,
     /// The step budget was spent; the interval holds.
-    BudgetSpent = 4,
+    Budget = 4,
     /// No further vertex could be added to the proof: it has no room for more, or rounding hides where. The interval holds.
     Stalled = 5,
 }
@@ -78,12 +69,10 @@ pub struct DepthStatistics {
     pub exact_iterations: u32,
 }
 
-/// How deep two objects are in each other. Numbers that it does not say are NaN, features [`FeatureKind::None`].
+/// How deep two objects are in each other. Numbers that it does not say are NaN, features of no kind.
 ///
 /// The depth is the length of the shortest translation after which the objects have no common inner point: 0 of objects that touch
 /// or are flat. Moving object 1 by `depth · normal`, or object 2 by the opposite, parts them, as far as the interval is wide.
-///
-/// [`FeatureKind::None`]: crate::pair::FeatureKind::None
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct DepthAnswer {
@@ -91,7 +80,7 @@ pub struct DepthAnswer {
     /// separates them, and a depth of 0.
     pub outcome: Outcome,
     /// How the query ended.
-    pub status: DepthStatus,
+    pub ending: DepthEnding,
     /// The best estimate, `lower ≤ depth ≤ upper`.
     pub depth: f64,
     /// Lower end of the rigorous interval; more than 0 only for objects that overlap.
@@ -122,7 +111,7 @@ impl Default for DepthAnswer {
         const UNSAID: [f64; 3] = [f64::NAN; 3];
         DepthAnswer {
             outcome: Outcome::None,
-            status: DepthStatus::None,
+            ending: DepthEnding::None,
             depth: f64::NAN,
             lower: f64::NAN,
             upper: f64::NAN,

@@ -9,7 +9,7 @@ mod cache;
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::base::simd::environment::with_default;
-use crate::base::simd::{self, Kernel, Lanes, Portable, Work};
+use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::pair::placed::Placed;
@@ -19,7 +19,7 @@ use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::frame::Frame;
 use crate::solve::shell::{self, Ending, Expansion, Start, Storage, Wanted, Witness};
-pub use answer::{DepthAnswer, DepthConfig, DepthStatistics, DepthStatus};
+pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
 
@@ -52,14 +52,19 @@ fn answer_query(
     config.check()?;
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config, cache });
-    match found {
-        Some(found) => fill(answer, polyhedra, poses, &found),
-        None => {
-            poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
-            decide(answer, polyhedra, poses, None);
-        }
+    if found.is_none() {
+        poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
     }
+    fill(answer, polyhedra, poses, found.as_ref());
     Ok(())
+}
+
+/// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing.
+pub(super) fn deepest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> DepthAnswer {
+    let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
+    let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config: &config, cache: &mut cache });
+    fill(&mut answer, polyhedra, poses, found.as_ref());
+    answer
 }
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the shell.
@@ -103,7 +108,7 @@ impl Search<'_> {
     #[inline(always)]
     fn search<L: Lanes>(&mut self, frame: &Frame<L>, shell: &mut shell::Shell, start: &Start) -> Found {
         let DepthConfig { absolute_error, relative_error, step_budget, .. } = *self.config;
-        let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget };
+        let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget, lower: 0.0 };
         let expansion = shell::expand(frame, shell, start, &wanted);
         if shell.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
             *self.cache = DepthCache::default();
@@ -134,19 +139,20 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
 }
 
 /// Answers by what the search found, and where that leaves the verdict open by integers.
-fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Found) {
+fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
+    let Some(found) = found else { return decide(answer, polyhedra, poses, None) };
     let Found { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } = *found;
     answer.statistics = DepthStatistics { steps, supports, triangles, exact_iterations: 0 };
     if ending == Ending::Separated {
-        return fill_separated(answer, DepthStatus::Separated, &-direction);
+        return fill_separated(answer, DepthEnding::Separated, &-direction);
     }
     if !(lower > 0.0) {
         return decide(answer, polyhedra, poses, Some(found));
     }
-    answer.status = match ending {
-        Ending::Spent => DepthStatus::BudgetSpent,
-        Ending::Stuck | Ending::Flat => DepthStatus::Stalled,
-        Ending::Narrow | Ending::Separated => DepthStatus::Narrow,
+    answer.ending = match ending {
+        Ending::Spent => DepthEnding::Budget,
+        Ending::Stuck | Ending::Flat => DepthEnding::Stalled,
+        Ending::Narrow | Ending::Separated => DepthEnding::Narrow,
     };
     fill_overlapping(answer, polyhedra, poses, found);
 }
@@ -165,11 +171,11 @@ fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses
 fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
     let hint = found.map_or(&[][..], |found| &found.witness.pairs[..found.witness.count]);
     let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
-    answer.status = DepthStatus::Exact;
+    answer.ending = DepthEnding::Integers;
     match position {
         Position::Separated(apart) => {
             answer.statistics.exact_iterations = apart.iterations;
-            fill_separated(answer, DepthStatus::Exact, &apart.direction);
+            fill_separated(answer, DepthEnding::Integers, &apart.direction);
         }
         Position::Touching { normal, common } => {
             answer.outcome = Outcome::Intersecting;
@@ -192,11 +198,11 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
 }
 
 /// Of objects that are apart only a normal is said.
-fn fill_separated(answer: &mut DepthAnswer, status: DepthStatus, normal: &Vector) {
+fn fill_separated(answer: &mut DepthAnswer, ending: DepthEnding, normal: &Vector) {
     let statistics = answer.statistics;
     *answer = DepthAnswer {
         outcome: Outcome::Separated,
-        status,
+        ending,
         depth: 0.0,
         lower: 0.0,
         upper: 0.0,
@@ -239,27 +245,46 @@ fn fill_points(
     [answer.feature1, answer.feature2] = [0, 1].map(|i| contact::label(polyhedra[i], features[i], &points[i]));
 }
 
-/// The triangles of the shell that a cache holds, in the pair's poses; without a cache those that a search comes to. None where there
-/// is no shell.
-pub(super) fn proof(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    cache: Option<&DepthCache>,
-) -> Vec<[VertexPair; 3]> {
-    let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
-    if !frame.usual {
-        return Vec::new();
-    }
-    let mut storage = Storage::<255, 508>::empty();
-    let mut shell = storage.shell();
-    match cache {
-        Some(cache) => {
-            cache.unpack(&frame, &mut shell);
+/// Where a proof of a depth is looked for.
+pub(super) enum ProofFrom<'a> {
+    /// The shell that a cache holds.
+    Cache(&'a DepthCache),
+    /// A search like that of a query whose shell is too large to be kept, for a lower end of at least so much.
+    Search(f64),
+}
+
+/// The triangles of a shell in the pair's poses; none where there is no shell.
+pub(super) fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
+    simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from })
+}
+
+struct Proof<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    from: ProofFrom<'a>,
+}
+
+impl Kernel for Proof<'_> {
+    type Output = Vec<[VertexPair; 3]>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Self::Output {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        if !frame.usual {
+            return Vec::new();
         }
-        None => {
-            let start = Start { triangle: None, direction: None, first_triangles: 0 };
-            shell::expand(&frame, &mut shell, &start, &Wanted { width: 0.0, relative: 0.0, steps: u32::MAX });
+        let mut storage = Storage::<255, 508>::empty();
+        let mut shell = storage.shell();
+        match self.from {
+            ProofFrom::Cache(cache) => {
+                cache.unpack(&frame, &mut shell);
+            }
+            ProofFrom::Search(lower) => {
+                let start = Start { triangle: None, direction: None, first_triangles: 0 };
+                let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
+                shell::expand(&frame, &mut shell, &start, &wanted);
+            }
         }
+        (0..shell.triangle_count).map(|triangle| shell.pairs_of(triangle)).collect()
     }
-    (0..shell.triangle_count).map(|triangle| shell.pairs_of(triangle)).collect()
 }

@@ -8,27 +8,19 @@ use crate::pair::depth::DepthCache;
 
 /// What a manifold query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct ManifoldConfig {
-    /// The size of this struct, so that it can grow.
-    pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default.
     pub margin: f64,
-    /// 1: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of the line
-    /// between; none is moved. 0 (the default): all.
-    pub reduces: u32,
+    /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the line
+    /// between. None is moved. By default all are.
+    pub reduces: bool,
 }
 
 impl Default for ManifoldConfig {
     fn default() -> Self {
-        ManifoldConfig {
-            struct_size: size_of::<ManifoldConfig>(),
-            rotation_limit: ROTATION_LIMIT,
-            margin: 0.0,
-            reduces: 0,
-        }
+        ManifoldConfig { rotation_limit: ROTATION_LIMIT, margin: 0.0, reduces: false }
     }
 }
 

@@ -42,7 +42,38 @@ pub fn manifold(
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
+    let capacity = points.len();
+    let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
     let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write })
+}
+
+/// Where points go.
+pub(crate) struct Sink<'a> {
+    /// How many there is room for.
+    pub capacity: usize,
+    /// How many have been written.
+    pub written: usize,
+    /// Writes one at its place.
+    pub write: &'a mut dyn FnMut(usize, &ManifoldPoint),
+}
+
+impl Sink<'_> {
+    fn push(&mut self, point: impl FnOnce() -> ManifoldPoint) {
+        if self.written < self.capacity {
+            (self.write)(self.written, &point());
+            self.written += 1;
+        }
+    }
+}
+
+/// As [`manifold`], to where the caller says.
+pub(crate) fn manifold_into(
+    bodies: [Placed; 2],
+    cache: &mut ManifoldCache,
+    config: &ManifoldConfig,
+    points: &mut Sink,
+) -> Result<Manifold> {
     with_default(|| {
         config.check()?;
         let contact = find_contact(bodies, cache, config)?;
@@ -124,7 +155,7 @@ fn make(
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     contact: &Contact,
-    points: &mut [ManifoldPoint],
+    points: &mut Sink,
 ) -> Manifold {
     let mut answer = Manifold {
         outcome: contact.outcome,
@@ -146,19 +177,16 @@ fn make(
     if parallel(&faces[reference]) >= PARALLEL {
         cache.reference = [reference as u32 + 1, faces[reference].map_or(0, |facing| facing.face)];
         let found = clip(polyhedra, poses, &faces, reference, config, contact, points);
-        if found[1] > 0 {
+        if found > 0 {
             answer.reference = reference as u32 + 1;
-            [answer.point_count, answer.found_count] = found;
+            (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
             return answer;
         }
     } else {
         cache.reference = [0, 0];
     }
-    answer.found_count = 1;
-    if let Some(first) = points.first_mut() {
-        *first = contact.witness;
-        answer.point_count = 1;
-    }
+    points.push(|| contact.witness);
+    (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
 }
 
@@ -202,7 +230,7 @@ fn keep_reference(best: usize, faces: &[Option<Facing>; 2], cache: &ManifoldCach
     }
 }
 
-/// The points that both faces have in common: how many are written, and how many there are.
+/// Writes the points that both faces have in common; how many there are.
 fn clip(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -210,8 +238,8 @@ fn clip(
     reference: usize,
     config: &ManifoldConfig,
     contact: &Contact,
-    points: &mut [ManifoldPoint],
-) -> [u32; 2] {
+    points: &mut Sink,
+) -> usize {
     let between = (poses[0].translation() - poses[1].translation())
         + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre));
     let rounding = 64.0 * U * (polyhedra[0].radius + polyhedra[1].radius + between.norm());
@@ -233,29 +261,21 @@ fn clip(
         margin: config.margin,
     };
     let mut found = 0;
-    if config.reduces == 0 {
+    if !config.reduces {
         view.visit(|place| {
-            if let Some(point) = points.get_mut(found) {
-                *point = view.point(place);
-            }
+            points.push(|| view.point(place));
             found += 1;
         });
-        return [found.min(points.len()) as u32, found as u32];
+        return found;
     }
     view.visit(|_| found += 1);
-    let mut written = 0;
-    let mut write = |place: &Place| {
-        if let Some(point) = points.get_mut(written) {
-            *point = view.point(place);
-            written += 1;
-        }
-    };
+    let mut write = |place: &Place| points.push(|| view.point(place));
     if found <= FOUR {
         view.visit(&mut write);
     } else {
         view.four().iter().flatten().for_each(write);
     }
-    [written as u32, found as u32]
+    found
 }
 
 /// How many points a reduced manifold has.

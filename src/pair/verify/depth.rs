@@ -12,7 +12,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::Outcome;
-use crate::pair::depth::{DepthAnswer, DepthCache, proof};
+use crate::pair::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
@@ -146,14 +146,11 @@ fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &
 
 type Triangle = [VertexPair; 3];
 
-/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for.
+/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for, as a query does or until it proves it.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
-    for known in [Some(cache), None] {
-        let shell = proof(facts.polyhedra, facts.poses, known);
-        if known.is_some() && shell.is_empty() {
-            continue;
-        }
+    for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
+        let shell = proof(facts.polyhedra, facts.poses, from);
         why = encloses_ball(facts, &shell, lower);
         if why.is_ok() {
             return Ok(());

@@ -37,6 +37,8 @@ pub struct Wanted {
     pub relative: f64,
     /// How many steps it may take.
     pub steps: u32,
+    /// What the lower end is to come to, if it can: 0 but for a search for a proof.
+    pub lower: f64,
 }
 
 /// Where a search begins.
@@ -96,6 +98,7 @@ pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, want
         share: 1.0 - 1.0 / (1.0 + wanted.relative),
         width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
         best: Best { upper: f64::INFINITY, beyond: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
+        lower: wanted.lower,
         demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE, grows: true },
         steps: 0,
         supports: 0,
@@ -133,6 +136,8 @@ struct Search<'a, L> {
     width: f64,
     /// … or as a share of its upper end.
     share: f64,
+    /// See [`Wanted::lower`].
+    lower: f64,
     best: Best,
     demand: Demand,
     steps: u32,
@@ -211,7 +216,10 @@ impl<L: Lanes> Search<'_, L> {
         let target = reach - if share > self.width { share } else { self.width };
         let provable = reach - self.rounding.provable;
         let least = if provable > 0.0 { f64::MIN_POSITIVE } else { provable };
-        if target > least { target } else { least }
+        let target = if target > least { target } else { least };
+        // Where the bounds meet the planes' error still is between the distance of a triangle and the reach beyond it, twice.
+        let lower = self.lower.min(reach - 2.0 * self.rounding.plane);
+        if target > lower { target } else { lower }
     }
 
     /// Asks for a support, and takes its direction if the bodies overlap less along it.
