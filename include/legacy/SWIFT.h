@@ -233,4 +233,14 @@ private:
 #include "swift_legacy/scene_pairs.h"
 #include "swift_legacy/scene_queries.h"
 
+/* Last: they break the headers of the standard library. */
+#ifdef SWIFT_LEGACY_MIN_MAX
+#ifndef min
+#define min(a, b) SWIFT_min(a, b)
+#endif
+#ifndef max
+#define max(a, b) SWIFT_max(a, b)
+#endif
+#endif
+
 #endif

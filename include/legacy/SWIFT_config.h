@@ -13,7 +13,7 @@
  *                           could be of either. With 2, Query_Exact_Distance leaves out pairs at exactly the tolerance, as SWIFT++
  *                           does.
  *   SWIFT_LEGACY_QUIET      nothing is printed.
- *   SWIFT_LEGACY_MIN_MAX    the macros min and max of SWIFT 1.x are defined, where there are none.
+ *   SWIFT_LEGACY_MIN_MAX    SWIFT.h defines the macros min and max of SWIFT 1.x, where there are none.
  *   SWIFT_LEGACY_ALL_PAIRS  queries with the tolerance SWIFT_INFINITY list all pairs also where the broad phase is on, else those
  *                           whose boxes overlap.
  *

@@ -37,7 +37,7 @@ struct Geometry {
 #if defined(SWIFT_ONLY_TRIS) && defined(SWIFT_REPORT_EDGE_IDS)
     void number_edges()
     {
-        const std::vector<uint32_t> first = first_of_equal_vertices(body());
+        const std::vector<uint32_t> first = body().first_of_equal_vertices();
         for (std::size_t i = 0; i < body().indices.size() && body().valences.empty(); ++i) {
             const std::size_t face = i / 3, corner = i % 3;
             const int label = face_label(static_cast<uint32_t>(face));

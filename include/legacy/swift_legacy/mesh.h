@@ -83,6 +83,20 @@ struct Mesh {
         }
     }
 
+    /* For each vertex the first one with equal coordinates; 0 and -0 are equal. */
+    std::vector<uint32_t> first_of_equal_vertices() const
+    {
+        typedef std::pair<double, std::pair<double, double> > Point;
+        std::map<Point, uint32_t> first;
+        std::vector<uint32_t> firsts(vertex_count());
+        for (std::size_t v = 0; v < firsts.size(); ++v) {
+            const double* p = &vertices[3 * v];
+            const Point point(p[0] + 0.0, std::make_pair(p[1] + 0.0, p[2] + 0.0));
+            firsts[v] = first.insert(std::make_pair(point, static_cast<uint32_t>(v))).first->second;
+        }
+        return firsts;
+    }
+
     /* Leaves out the vertices that no face names: the old libraries took them, and they are no part of the surface. */
     void drop_unused_vertices()
     {
@@ -102,9 +116,10 @@ struct Mesh {
         }
         std::vector<double> used(3 * static_cast<std::size_t>(count));
         std::vector<int> labels(count);
+        const std::vector<uint32_t> first = first_of_equal_vertices();
         for (std::size_t v = 0; v < place.size(); ++v) {
             if (place[v] != unused) {
-                labels[place[v]] = vertex_labels.empty() ? static_cast<int>(v) : vertex_labels[v];
+                labels[place[v]] = static_cast<int>(first[v]);
                 for (std::size_t axis = 0; axis < 3; ++axis) {
                     used[3 * static_cast<std::size_t>(place[v]) + axis] = vertices[3 * v + axis];
                 }
@@ -159,25 +174,11 @@ inline std::string mesh_from_arrays(const SWIFT_Real* vertices, const int* faces
     return "";
 }
 
-/* For each vertex the first one with equal coordinates; 0 and -0 are equal. */
-inline std::vector<uint32_t> first_of_equal_vertices(const Mesh& mesh)
-{
-    typedef std::pair<double, std::pair<double, double> > Point;
-    std::map<Point, uint32_t> first;
-    std::vector<uint32_t> firsts(mesh.vertex_count());
-    for (std::size_t v = 0; v < firsts.size(); ++v) {
-        const double* p = &mesh.vertices[3 * v];
-        const Point point(p[0] + 0.0, std::make_pair(p[1] + 0.0, p[2] + 0.0));
-        firsts[v] = first.insert(std::make_pair(point, static_cast<uint32_t>(v))).first->second;
-    }
-    return firsts;
-}
-
 /* In the words of old, why a mesh that was refused is no surface; empty where that is not the reason. */
 inline std::string surface_fault(const Mesh& mesh)
 {
     typedef std::map<std::pair<uint32_t, uint32_t>, int> Edges;
-    const std::vector<uint32_t> first = first_of_equal_vertices(mesh);
+    const std::vector<uint32_t> first = mesh.first_of_equal_vertices();
     Edges edges;
     std::size_t at = 0;
     for (std::size_t face = 0; face < mesh.face_count; ++face) {
