@@ -6,7 +6,9 @@ use std::sync::Arc;
 use super::arrays::{read_arrays, read_path};
 use super::scene::{SceneHandle, change, look};
 use super::shape_options::{CShapeOptions, read_options};
-use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, output, read_struct, write_struct};
+use super::{
+    Checked, Failure, StatusCode, Versioned, array, guard, init_struct, input, output, read_struct, write_struct,
+};
 use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::{collected, with_capacity};
 use crate::scene::Scene;
@@ -27,10 +29,9 @@ pub struct CObjectOptions {
     pub fixed: i32,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for CObjectOptions {
     const NAME: &'static str = "swiftprox_object_options";
-    const FIRST_SIZE: usize = size_of::<CObjectOptions>();
 }
 
 impl CObjectOptions {
@@ -58,10 +59,9 @@ pub struct ObjectInfo {
     pub fixed: i32,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for ObjectInfo {
     const NAME: &'static str = "swiftprox_object_info";
-    const FIRST_SIZE: usize = size_of::<ObjectInfo>();
 }
 
 impl ObjectInfo {
@@ -77,17 +77,32 @@ impl ObjectInfo {
 
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
-/// Fills `options` with the defaults, struct_size included.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: options is null.
+/// Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
+/// program was compiled with. Null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_object_options_init(options: *mut CObjectOptions) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_object_options_init_sized(options: *mut CObjectOptions, struct_size: usize) {
     // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(options, "options", CObjectOptions::DEFAULT) })
+    unsafe { init_struct(options, struct_size, &CObjectOptions::DEFAULT) }
+}
+
+/// Adds an object of one convex piece. All its pairs are active. The scene takes a share of the shape: the caller's own may be
+/// released at once. On failure nothing is added and `*id` is null. `options` may be null for the defaults.
+///
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds. SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_add_shape(
+    scene: *mut SceneHandle,
+    shape: *const Shape,
+    options: *const CObjectOptions,
+    id: *mut ObjectId,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { add(scene, options, id, || Ok(vec![share(shape, "shape")?])) }
 }
 
 /// Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
-/// shape: the caller's own may be released at once. On failure nothing is added and `*id` is 0, which names no object.
+/// shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
 /// `options` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects or
@@ -105,17 +120,9 @@ pub unsafe extern "C" fn swiftprox_scene_add_object(
     unsafe {
         add(scene, options, id, || {
             let pieces = array(pieces, piece_count, "pieces")?;
-            let share = |(i, &piece): (usize, &*const Shape)| {
-                if piece.is_null() {
-                    return Err(Failure::null(&format!("pieces[{i}]")));
-                }
-                // A live shape, which came from Arc::into_raw: one more share of it.
-                Arc::increment_strong_count(piece);
-                Ok(Arc::from_raw(piece))
-            };
             let mut shares = with_capacity(pieces.len())?;
-            for piece in pieces.iter().enumerate() {
-                shares.push(share(piece)?);
+            for (i, &piece) in pieces.iter().enumerate() {
+                shares.push(share(piece, format_args!("pieces[{i}]"))?);
             }
             Ok(shares)
         })
@@ -169,7 +176,7 @@ pub unsafe extern "C" fn swiftprox_scene_add_file(
 }
 
 /// Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
-/// whatever those of its original are. On failure nothing is added and `*id` is 0.
+/// whatever those of its original are. On failure nothing is added and `*id` is null.
 ///
 /// SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
 /// SWIFTPROX_ERROR_MEMORY.
@@ -197,6 +204,26 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object(
 pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.remove_object(id)?)) }
+}
+
+/// Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
+/// an object that was removed. Two ids name the same object if their bits are equal.
+///
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
+    scene: *const SceneHandle,
+    id: ObjectId,
+    valid: *mut i32,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(valid, "valid", 0)?;
+        look(scene, |scene| {
+            valid.write(i32::from(scene.object(id).is_ok()));
+            Ok(())
+        })
+    })
 }
 
 /// Sets the number that comes back in every result of this object.
@@ -343,6 +370,21 @@ pub unsafe extern "C" fn swiftprox_scene_set_all_transforms(
 }
 
 // --- What the functions above share --------------------------------------------------------------------------------------
+
+/// One more share of a shape.
+///
+/// # Safety
+/// `shape` meets the header's pointer rules.
+unsafe fn share(shape: *const Shape, name: impl std::fmt::Display) -> Checked<Arc<Shape>> {
+    if shape.is_null() {
+        return Err(Failure::null(&name.to_string()));
+    }
+    // SAFETY: a live shape by the caller, which came from Arc::into_raw.
+    Ok(unsafe {
+        Arc::increment_strong_count(shape);
+        Arc::from_raw(shape)
+    })
+}
 
 /// Adds an object of the pieces that `make` makes.
 ///

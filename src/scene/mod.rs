@@ -15,7 +15,7 @@ use crate::base::error::{Error, Result, check_range};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::memory::{copied, reserve, with_capacity};
 use crate::base::simd::environment::with_default;
-use crate::pair::{self, Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status};
+use crate::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use crate::scene::activation::Activation;
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::shape::Shape;
@@ -41,8 +41,6 @@ pub struct SceneQuery {
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to +∞ (the default: all pairs). [`Scene::query_intersection`] does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// Which interval the answers carry.
-    pub bounds: Bounds,
     /// [`Scene::query_approximate_distance`]: `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
@@ -66,7 +64,6 @@ impl Default for SceneQuery {
         SceneQuery {
             early_exit: false,
             distance_tolerance: f64::INFINITY,
-            bounds: Bounds::Tight,
             absolute_error: 0.0,
             relative_error: 0.0,
             error_budget: f64::INFINITY,
@@ -103,7 +100,7 @@ pub struct PairResult {
 pub struct SceneAnswer<'a> {
     /// Whether any tested pair intersects.
     pub intersecting: bool,
-    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next change or query.
+    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next query.
     pub pairs: &'a [PairResult],
     /// The intersecting pair at which the query stopped, if it did ([`SceneQuery::early_exit`]): of all that intersect the first in
     /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
@@ -150,15 +147,15 @@ pub struct SceneStatistics {
 impl SceneStatistics {
     fn count(&mut self, answer: &PairAnswer) {
         self.pairs += 1;
-        *match answer.status {
-            Status::None => return,
-            Status::Marched => &mut self.marched,
-            Status::Coherent => &mut self.coherent,
-            Status::Fallback => &mut self.fallback,
-            Status::Exact => &mut self.exact,
-            Status::WithinTolerance => &mut self.within_tolerance,
-            Status::BudgetSpent => &mut self.budget_spent,
-            Status::BoundingSpheres => &mut self.bounding_spheres,
+        *match answer.decided_by {
+            DecidedBy::None => return,
+            DecidedBy::Marching => &mut self.marched,
+            DecidedBy::Coherence => &mut self.coherent,
+            DecidedBy::Fallback => &mut self.fallback,
+            DecidedBy::Integers => &mut self.exact,
+            DecidedBy::Tolerance => &mut self.within_tolerance,
+            DecidedBy::Budget => &mut self.budget_spent,
+            DecidedBy::BoundingSpheres => &mut self.bounding_spheres,
         } += 1;
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);
@@ -396,7 +393,18 @@ impl Scene {
         .filter(|&(object1, object2)| self.tests(object1, object2))
     }
 
-    /// Brings `pairs` up to date. Pairs that stay keep what they remember, and queries need no more memory from here on.
+    /// Gives back the memory that is kept for later: that of the results, and that of pairs that are no more. What the others
+    /// remember stays.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if there is none for a smaller list of pairs; nothing has changed then.
+    pub fn shrink(&mut self) -> Result<()> {
+        self.update_pairs()?;
+        self.results = Vec::new();
+        Ok(())
+    }
+
+    /// Brings `pairs` up to date. Pairs that stay keep what they remember.
     fn update_pairs(&mut self) -> Result<()> {
         if !self.pairs_changed {
             return Ok(());
@@ -419,8 +427,6 @@ impl Scene {
                 }
             }
         }
-        self.results.clear();
-        reserve(&mut self.results, count)?;
         self.pairs = pairs;
         self.pairs_changed = false;
         Ok(())
@@ -502,6 +508,8 @@ impl Scene {
         check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;
         self.update_pairs()?;
         self.results.clear();
+        // From here on a query needs no memory.
+        reserve(&mut self.results, self.pairs.len())?;
         self.statistics.queries += 1;
         let share = query.error_budget / self.pairs.len() as f64;
         let [absolute_error, relative_error] =
@@ -514,7 +522,6 @@ impl Scene {
             levels: query.levels,
             refinement: query.refinement,
             start: query.start,
-            bounds: query.bounds,
             ..PairConfig::default()
         };
         let mut intersecting = false;

@@ -36,7 +36,7 @@ pub struct Program {
     /// Its floating-point environment.
     environment: Environment,
     /// Shapes, one entry for each share.
-    shapes: Vec<*mut Shape>,
+    shapes: Vec<*const Shape>,
     scenes: Vec<Scene>,
     /// Ids that were good once, of any scene.
     old_ids: Vec<ObjectId>,
@@ -87,7 +87,8 @@ impl Program {
                 call @ 0..=5 => library(u, call),
                 6..=9 => self.pair_query_through_levels(u),
                 10..=12 => self.scene_query_through_levels(u),
-                13 | 14 => self.shape_from_levels(u),
+                13 => self.shape_from_levels(u),
+                14 => self.shrink(u),
                 _ => self.set_log(u),
             },
         }
@@ -103,7 +104,7 @@ impl Program {
                 assert_eq!(swiftprox_scene_destroy(scene.handle), StatusCode::Ok);
             }
             for &shape in &self.shapes {
-                assert_eq!(swiftprox_shape_release(shape), StatusCode::Ok);
+                swiftprox_shape_release(shape);
             }
         }
     }
@@ -128,12 +129,12 @@ unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answ
 /// What has to do with no handle.
 fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
     // SAFETY: what is null may be, by the header.
-    Ok(unsafe {
+    unsafe {
         match call {
-            0 => swiftprox_shape_options_init(null_mut()),
-            1 => swiftprox_scene_options_init(null_mut()),
-            2 => swiftprox_pair_config_init(null_mut()),
-            3 => swiftprox_scene_destroy(null_mut()),
+            0 => swiftprox_shape_options_init_sized(null_mut(), u.arbitrary()?),
+            1 => swiftprox_scene_options_init_sized(null_mut(), u.arbitrary()?),
+            2 => swiftprox_pair_config_init_sized(null_mut(), u.arbitrary()?),
+            3 => return Ok(swiftprox_scene_destroy(null_mut())),
             4 => swiftprox_shape_release(null()),
             _ => {
                 let _ = swiftprox_library_version();
@@ -141,8 +142,10 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
                 let _ = swiftprox_library_status_string(number);
                 let _ = swiftprox_library_outcome_string(number);
                 let _ = swiftprox_library_feature_kind_string(number);
-                swiftprox_object_options_init(null_mut())
+                let _ = swiftprox_library_decided_by_string(number);
+                swiftprox_object_options_init_sized(null_mut(), u.arbitrary()?);
             }
         }
-    })
+    }
+    Ok(StatusCode::Ok)
 }

@@ -8,12 +8,15 @@ use swiftprox::ffi::object::*;
 use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::swiftprox_shape_retain;
+use swiftprox::ffi::tuning::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::Outcome;
 use swiftprox::scene::{PairResult, SceneStatistics};
 use swiftprox::shape::Shape;
 
-use super::arguments::{Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, shape_options, start};
+use super::arguments::{
+    Block, any_pose, array, initialised, mesh_arrays, mesh_file, options, or_null, shape_options, start,
+};
 use super::model::{Object, Scene};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
@@ -28,13 +31,8 @@ impl Program {
         }
         let mut last = 1e-2;
         let limit = any_number(u, &mut last)?.to_ne_bytes();
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CSceneOptions>() };
-        let options = unsafe {
-            assert_eq!(swiftprox_scene_options_init(&mut value), StatusCode::Ok);
-            let offset = std::mem::offset_of!(CSceneOptions, rotation_limit);
-            options(u, &value, &[(offset, &limit)])?
-        };
+        let value: CSceneOptions = initialised(swiftprox_scene_options_init_sized);
+        let options = options(u, &value, &[(std::mem::offset_of!(CSceneOptions, rotation_limit), &limit)])?;
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
         let status = unsafe { swiftprox_scene_create(start(&options), &mut handle) };
@@ -82,10 +80,7 @@ impl Program {
         let place = self.scene(u)?;
         let (handle, user_data) = (self.scenes[place].handle, u.arbitrary::<u64>()?);
         let fixed = u.ratio(1, 4)?;
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CObjectOptions>() };
-        // SAFETY: room for the options.
-        assert_eq!(unsafe { swiftprox_object_options_init(&mut value) }, StatusCode::Ok);
+        let mut value: CObjectOptions = initialised(swiftprox_object_options_init_sized);
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
         // SAFETY: twelve doubles.
         value.pose = unsafe { any_pose(u)?.at::<[f64; 12]>().read() };
@@ -97,7 +92,7 @@ impl Program {
             match u.int_in_range(0..=7)? {
                 0 => {
                     let (shape_options, arrays) = (shape_options(u)?, mesh_arrays(u)?);
-                    pieces.push(null_mut());
+                    pieces.push(null());
                     let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
                     swiftprox_scene_add_mesh(
                         handle,
@@ -113,7 +108,7 @@ impl Program {
                 }
                 1 => {
                     let (shape_options, path) = (shape_options(u)?, mesh_file(u)?);
-                    pieces.push(null_mut());
+                    pieces.push(null());
                     let path = path.as_ref().map_or(null(), |path| path.as_ptr());
                     swiftprox_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
                 }
@@ -124,7 +119,11 @@ impl Program {
                     let block = Block::of(&pieces);
                     let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
                     pieces.truncate(count);
-                    swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
+                    if let ([piece], true) = (&pieces[..], user_data % 2 == 0) {
+                        swiftprox_scene_add_shape(handle, *piece, start(&given), &mut id)
+                    } else {
+                        swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
+                    }
                 }
             }
         };
@@ -211,6 +210,9 @@ impl Program {
         let found = scene.find(id).map(|found| &scene.objects[found]);
         // SAFETY: a living scene, a block as large as it says or null, room for the shape.
         unsafe {
+            let mut valid = 7;
+            assert_eq!(swiftprox_scene_is_object_valid(scene.handle, id, &mut valid), StatusCode::Ok);
+            assert_eq!(valid, i32::from(found.is_some()));
             if u.arbitrary()? {
                 let mut value = std::mem::zeroed::<ObjectInfo>();
                 value.struct_size = size_of::<ObjectInfo>();
@@ -223,8 +225,7 @@ impl Program {
             let expected = found.is_some_and(|object| piece < object.pieces);
             assert_eq!((status == StatusCode::Ok, !shape.is_null()), (expected, expected), "{}", last_message());
             if !shape.is_null() && self.shapes.len() < MOST_SHAPES {
-                assert_eq!(swiftprox_shape_retain(shape), StatusCode::Ok);
-                self.shapes.push(shape.cast_mut());
+                self.shapes.push(swiftprox_shape_retain(shape));
             }
             Ok(status)
         }
@@ -321,16 +322,16 @@ impl Program {
     pub fn scene_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CSceneQuery>() };
-        // SAFETY: room for the query.
-        assert_eq!(unsafe { swiftprox_scene_query_init(&mut value) }, StatusCode::Ok);
+        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
         let mut last = 1.0;
         let tolerance = any_number(u, &mut last)?.to_ne_bytes();
-        let bounds = u.int_in_range(-1..=2_i32)?.to_ne_bytes();
+        let levels = u.int_in_range(-1..=2_i32)?;
+        let tuning = CPairTuning { levels, ..initialised(swiftprox_pair_tuning_init_sized) };
+        if levels != 0 {
+            value.tuning = &tuning;
+        }
         let changes = [
             (std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..]),
-            (std::mem::offset_of!(CSceneQuery, bounds), &bounds[..]),
         ];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
@@ -344,7 +345,7 @@ impl Program {
         let block = Block::new(size_of::<CSceneAnswer>());
         let target = or_null(u, block.at::<CSceneAnswer>())?;
         let handle = or_null(u, scene.handle)?;
-        // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next change.
+        // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next query.
         unsafe {
             let status = inside(self.environment, || run(handle, start(&given), target));
             if target.is_null() {
@@ -360,7 +361,8 @@ impl Program {
             }
             let key = |r: &PairResult| ([r.object1, r.object2], [r.piece1, r.piece2], [r.user_data1, r.user_data2]);
             let tested = scene.tested();
-            if is_plain && query > 0 {
+            // Of contacts only pairs that touch are listed by default.
+            if is_plain && (1..=2).contains(&query) {
                 assert!(
                     listed.iter().map(key).eq(tested.iter().copied()),
                     "{} pairs of {}",
@@ -376,6 +378,13 @@ impl Program {
             }
             Ok(status)
         }
+    }
+
+    pub fn shrink(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let handle = or_null(u, self.scenes[place].handle)?;
+        // SAFETY: a living scene or null.
+        Ok(unsafe { swiftprox_scene_shrink(handle) })
     }
 
     pub fn statistics(&mut self, u: &mut Unstructured) -> Result<StatusCode> {

@@ -1,0 +1,4 @@
+//! Scenes, alone and from several threads.
+
+mod scenes;
+mod threads;
