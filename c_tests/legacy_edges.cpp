@@ -97,11 +97,12 @@ void built_levels()
     std::vector<SWIFT_Real> vertices;
     std::vector<int> faces;
     const int rings = 16, around = 32;
+    const double pi = PI;
     for (int ring = 0; ring <= rings; ++ring) {
-        const double polar = PI * ring / rings;
+        const double polar = pi * ring / rings;
         for (int i = 0; i < (ring % rings == 0 ? 1 : around); ++i) {
-            vertices.push_back(static_cast<SWIFT_Real>(std::sin(polar) * std::cos(2 * PI * i / around)));
-            vertices.push_back(static_cast<SWIFT_Real>(std::sin(polar) * std::sin(2 * PI * i / around)));
+            vertices.push_back(static_cast<SWIFT_Real>(std::sin(polar) * std::cos(2 * pi * i / around)));
+            vertices.push_back(static_cast<SWIFT_Real>(std::sin(polar) * std::sin(2 * pi * i / around)));
             vertices.push_back(static_cast<SWIFT_Real>(std::cos(polar)));
         }
     }

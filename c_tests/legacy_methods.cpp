@@ -171,10 +171,10 @@ void transformations()
     scene.Set_Object_Transformation(0, NULL, T);
     scene.Set_Object_Transformation(0, R, NULL);
     scene.Set_Object_Transformation(0, NULL);
-    CHECK(messages.has("no matrix is given"));
+    CHECK(messages.has("Error (Set_Object_Transformation): "));
     scene.Set_All_Object_Transformations(NULL);
     scene.Set_All_Object_Transformations(R, NULL);
-    CHECK(messages.has("no matrices are given"));
+    CHECK(messages.has("Error (Set_All_Object_Transformations): "));
     R[9] = 3;
     scene.Set_All_Object_Transformations(R, T);
     CHECK(messages.has("Error (Set_All_Object_Transformations): "));

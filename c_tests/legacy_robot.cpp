@@ -47,14 +47,15 @@ struct Proxy {
 
 std::vector<Proxy> contacts(SWIFT_Scene* scene, const std::vector<Rotation>& turns, const std::vector<SWIFT_Real>& places)
 {
+    bool has_cycle = false;
     int pairs, *ids = NULL, *counts = NULL;
     SWIFT_Real *distances = NULL, *points = NULL, *normals = NULL;
     try {
         scene->Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals);
     } catch (const char*) {
-        CHECK(!"a cycle");
-        return std::vector<Proxy>();
+        has_cycle = true;
     }
+    CHECK(!has_cycle);
     std::vector<Proxy> proxies;
     int at = 0;
     for (int k = 0; k < pairs; ++k) {
@@ -135,7 +136,7 @@ int main()
     try {
         is_any_near = scene->Query_Tolerance_Verification(false, static_cast<SWIFT_Real>(1.5), pairs, &ids);
     } catch (std::pair<int, int>) {
-        CHECK(!"a cycle");
+        is_any_near = false;
     }
     CHECK(is_any_near && pairs == 1 && ids[0] == 1 && ids[1] == 2);
 

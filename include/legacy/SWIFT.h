@@ -204,6 +204,7 @@ public:
 
 private:
     swiftprox_scene* scene_;
+    swiftprox_scene_query query_; /* initialised once */
     swift_legacy::Objects objects_;
     swift_legacy::Results results_;
     bool has_broad_phase_;
@@ -217,8 +218,6 @@ private:
     bool has_object(int id, const char* method) const;
     bool has_pair(int id1, int id2, const char* method) const;
     void check(swiftprox_status status, const char* method) const;
-    void place(int id, const SWIFT_Real* R, const SWIFT_Real* T);
-    void place_all(const SWIFT_Real* R, const SWIFT_Real* T);
     bool ask(const swift_legacy::Question& question, int& num_pairs, int** oids);
     void keep_overlapping_boxes();
     const swift_legacy::Part& placed_part(uint64_t id, uint32_t piece);

@@ -36,6 +36,11 @@ template <class Value> std::string text(const Value& value)
     return stream.str();
 }
 
+inline void report_no_object(int id, const char* method)
+{
+    report("Error: Object id out of range given to " + std::string(method) + ": " + text(id));
+}
+
 /* How messages about a piece begin that is being added. */
 inline std::string about_piece(int object, int piece)
 {

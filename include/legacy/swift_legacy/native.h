@@ -2,6 +2,7 @@
 #ifndef SWIFT_LEGACY_NATIVE_H
 #define SWIFT_LEGACY_NATIVE_H
 
+#include <algorithm>
 #include <cstring>
 #include <limits>
 #include <swiftprox.h>
@@ -100,16 +101,56 @@ inline const swiftprox_shape* make_hull(const Mesh& mesh)
     return status == SWIFTPROX_OK ? shape : NULL;
 }
 
-/* [R|T] from R and T, or from 12 numbers where T is null. */
-inline void native_pose(const SWIFT_Real* rotation, const SWIFT_Real* translation, double* pose)
+/* Numbers as doubles: as they are, or converted into `room`. */
+inline const double* doubles(const double* numbers, double*, std::size_t)
 {
-    for (int row = 0; row < 3; ++row) {
-        for (int column = 0; column < 4; ++column) {
-            pose[4 * row + column] = translation == NULL ? rotation[4 * row + column]
-                                     : column == 3       ? translation[row]
-                                                         : rotation[3 * row + column];
-        }
+    return numbers;
+}
+
+inline const double* doubles(const float* numbers, double* room, std::size_t count)
+{
+    if (numbers == NULL) {
+        return NULL;
     }
+    std::copy(numbers, numbers + count, room);
+    return room;
+}
+
+inline std::size_t room_for(const double*, std::size_t)
+{
+    return 1;
+}
+
+inline std::size_t room_for(const float*, std::size_t count)
+{
+    return count;
+}
+
+inline swiftprox_status set_transform(swiftprox_scene* scene, swiftprox_object_id id, const SWIFT_Real* rotation,
+                                      const SWIFT_Real* translation)
+{
+    double R[9], T[3];
+    return swiftprox_scene_set_transform(scene, id, doubles(rotation, R, 9), doubles(translation, T, 3));
+}
+
+inline swiftprox_status set_pose(swiftprox_scene* scene, swiftprox_object_id id, const SWIFT_Real* pose)
+{
+    double RT[12];
+    return swiftprox_scene_set_pose(scene, id, doubles(pose, RT, 12));
+}
+
+inline swiftprox_status set_all_transforms(swiftprox_scene* scene, const SWIFT_Real* rotations, const SWIFT_Real* translations,
+                                           std::size_t count)
+{
+    std::vector<double> R(room_for(rotations, 9 * count)), T(room_for(translations, 3 * count));
+    return swiftprox_scene_set_all_transforms(scene, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
+                                              count);
+}
+
+inline swiftprox_status set_all_poses(swiftprox_scene* scene, const SWIFT_Real* poses, std::size_t count)
+{
+    std::vector<double> RT(room_for(poses, 12 * count));
+    return swiftprox_scene_set_all_poses(scene, doubles(poses, &RT[0], 12 * count), count);
 }
 
 /* The largest double below a positive one. */
@@ -164,6 +205,11 @@ struct Question {
 inline void report_failure(const std::string& what)
 {
     report(what + swiftprox_library_last_error_message());
+}
+
+inline void report_failure_of(const char* method)
+{
+    report_failure("Error (" + std::string(method) + "): ");
 }
 
 } // namespace swift_legacy

@@ -25,7 +25,12 @@ struct Part {
     double lower[3]; /* the box in the world, where Object::has_boxes */
     double upper[3];
 
-    Part() : box(BOX_CUBE), enlargement_relative(0), enlargement_absolute(0), radius(0) {}
+    Part() : box(BOX_CUBE), enlargement_relative(0), enlargement_absolute(0), radius(0)
+    {
+        std::fill(centre, centre + 3, 0.0);
+        std::fill(lower, lower + 3, 0.0);
+        std::fill(upper, upper + 3, 0.0);
+    }
 
     double enlargement() const
     {
@@ -98,13 +103,12 @@ struct Object {
     swiftprox_object_id native;
     bool is_live;
     bool is_fixed;
-    int rank; /* among the live objects in order of creation, once Objects::rank has been called */
     std::vector<Part> parts;
     std::vector<Piece> pieces; /* of all parts, in the order in which the scene has them */
     std::vector<int> part_of;  /* the part of each piece */
     bool has_boxes;
 
-    Object() : native(), is_live(false), is_fixed(false), rank(0), has_boxes(false) {}
+    Object() : native(), is_live(false), is_fixed(false), has_boxes(false) {}
 
     /* Whether a part is made of several pieces. */
     bool is_united() const
@@ -132,7 +136,7 @@ struct Object {
 
 class Objects {
 public:
-    Objects() : united_(0), are_ranked_(true) {}
+    Objects() : united_(0), moving_(0), are_ranked_(true) {}
 
     bool has(int id) const
     {
@@ -177,6 +181,7 @@ public:
         free_.pop_back();
         created_.push_back(id);
         united_ += object.is_united() ? 1 : 0;
+        moving_ += is_fixed ? 0 : 1;
         are_ranked_ = false;
     }
 
@@ -184,6 +189,7 @@ public:
     {
         Object& object = (*this)[id];
         united_ -= object.is_united() ? 1 : 0;
+        moving_ -= object.is_fixed ? 0 : 1;
         object = Object();
         free_.push_back(id);
         created_.erase(std::find(created_.begin(), created_.end(), id));
@@ -194,6 +200,12 @@ public:
     const std::vector<int>& created() const
     {
         return created_;
+    }
+
+    /* Of those that are not fixed. */
+    std::size_t moving_count() const
+    {
+        return moving_;
     }
 
     bool any_is_united() const
@@ -211,11 +223,18 @@ public:
     void rank()
     {
         if (!are_ranked_) {
+            ranks_.resize(objects_.size());
             for (std::size_t i = 0; i < created_.size(); ++i) {
-                (*this)[created_[i]].rank = static_cast<int>(i);
+                ranks_[static_cast<std::size_t>(created_[i])] = static_cast<int>(i);
             }
             are_ranked_ = true;
         }
+    }
+
+    /* The place of an object in the order of creation, once they are ranked. */
+    int rank_of(int id) const
+    {
+        return ranks_[static_cast<std::size_t>(id)];
     }
 
     /* No two parts whose boxes overlap are farther apart. */
@@ -236,7 +255,9 @@ private:
     std::vector<Object> objects_; /* by id */
     std::vector<int> free_;       /* the next one last */
     std::vector<int> created_;
+    std::vector<int> ranks_;
     int united_;
+    std::size_t moving_;
     bool are_ranked_;
 };
 

@@ -11,6 +11,7 @@ inline SWIFT_Scene::SWIFT_Scene(bool broad_phase, bool)
         swift_legacy::report_failure("Error (SWIFT_Scene): ");
     }
     check(swiftprox_scene_create(NULL, &scene_), "SWIFT_Scene");
+    swiftprox_scene_query_init(&query_);
 }
 
 inline SWIFT_Scene::~SWIFT_Scene()
@@ -21,17 +22,17 @@ inline SWIFT_Scene::~SWIFT_Scene()
 inline void SWIFT_Scene::check(swiftprox_status status, const char* method) const
 {
     if (status != SWIFTPROX_OK) {
-        swift_legacy::report_failure("Error (" + std::string(method) + "): ");
+        swift_legacy::report_failure_of(method);
     }
 }
 
 inline bool SWIFT_Scene::has_object(int id, const char* method) const
 {
-    if (!objects_.has(id)) {
-        swift_legacy::report("Error: Object id out of range given to " + std::string(method) + ": " + swift_legacy::text(id));
-        return false;
+    const bool has = objects_.has(id);
+    if (!has) {
+        swift_legacy::report_no_object(id, method);
     }
-    return true;
+    return has;
 }
 
 /* Hands the parts over to the scene. */

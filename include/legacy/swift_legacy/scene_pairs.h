@@ -4,70 +4,38 @@
 
 #include "../SWIFT.h"
 
-/* From R and T, or from [R|T] where T is null. */
-inline void SWIFT_Scene::place(int id, const SWIFT_Real* R, const SWIFT_Real* T)
+inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* R, const SWIFT_Real* T)
 {
     if (!has_object(id, "Set_Object_Transformation(id)")) {
         return;
     }
-    double pose[12];
-    swift_legacy::native_pose(R, T, pose);
     objects_[id].has_boxes = false;
-    check(swiftprox_scene_set_pose(scene_, objects_[id].native, pose), "Set_Object_Transformation");
-}
-
-inline void SWIFT_Scene::place_all(const SWIFT_Real* R, const SWIFT_Real* T)
-{
-    std::vector<double> poses;
-    std::size_t at = 0;
-    for (std::size_t i = 0; i < objects_.created().size(); ++i) {
-        if (!objects_[objects_.created()[i]].is_fixed) {
-            double pose[12];
-            swift_legacy::native_pose(R + (T == NULL ? 12 : 9) * at, T == NULL ? NULL : T + 3 * at, pose);
-            poses.insert(poses.end(), pose, pose + 12);
-            ++at;
-        }
-    }
-    if (at > 0) {
-        objects_.forget_boxes();
-        check(swiftprox_scene_set_all_poses(scene_, &poses[0], at), "Set_All_Object_Transformations");
-    }
-}
-
-inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* R, const SWIFT_Real* T)
-{
-    if (R == NULL || T == NULL) {
-        swift_legacy::report("Error (Set_Object_Transformation): no matrix is given");
-        return;
-    }
-    place(id, R, T);
+    check(swift_legacy::set_transform(scene_, objects_[id].native, R, T), "Set_Object_Transformation");
 }
 
 inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* RT)
 {
-    if (RT == NULL) {
-        swift_legacy::report("Error (Set_Object_Transformation): no matrix is given");
+    if (!has_object(id, "Set_Object_Transformation(id)")) {
         return;
     }
-    place(id, RT, NULL);
+    objects_[id].has_boxes = false;
+    check(swift_legacy::set_pose(scene_, objects_[id].native, RT), "Set_Object_Transformation");
 }
 
 inline void SWIFT_Scene::Set_All_Object_Transformations(const SWIFT_Real* R, const SWIFT_Real* T)
 {
-    if (R == NULL || T == NULL) {
-        swift_legacy::report("Error (Set_All_Object_Transformations): no matrices are given");
-        return;
+    if (objects_.moving_count() > 0) {
+        objects_.forget_boxes();
+        check(swift_legacy::set_all_transforms(scene_, R, T, objects_.moving_count()), "Set_All_Object_Transformations");
     }
-    place_all(R, T);
 }
 
 inline void SWIFT_Scene::Set_All_Object_Transformations(const SWIFT_Real* RT)
 {
-    if (RT == NULL) {
-        swift_legacy::report("Error (Set_All_Object_Transformations): no matrices are given");
-        return;
+    if (objects_.moving_count() > 0) {
+        objects_.forget_boxes();
+        check(swift_legacy::set_all_poses(scene_, RT, objects_.moving_count()), "Set_All_Object_Transformations");
     }
-    place_all(RT, NULL);
 }
 
 /* Whether two ids name a pair. */

@@ -7,14 +7,14 @@
 /* Drops the pairs whose boxes do not overlap; those that intersect stay. */
 inline void SWIFT_Scene::keep_overlapping_boxes()
 {
-    std::vector<const swift_legacy::Found*>& listed = results_.listed();
+    std::vector<swift_legacy::Entry>& listed = results_.listed();
     std::size_t kept = 0;
     for (std::size_t i = 0; i < listed.size(); ++i) {
-        const swift_legacy::Found& found = *listed[i];
+        const swift_legacy::Found& found = *listed[i].found;
         const swift_legacy::Part& part1 = placed_part(found.user_data1, found.piece1);
         const swift_legacy::Part& part2 = placed_part(found.user_data2, found.piece2);
         if (swift_legacy::is_intersecting(found) || swift_legacy::overlap(part1, part2)) {
-            listed[kept++] = &found;
+            listed[kept++] = listed[i];
         }
     }
     listed.resize(kept);
@@ -36,25 +36,24 @@ inline const swift_legacy::Part& SWIFT_Scene::placed_part(uint64_t id, uint32_t 
 /* Asks, and lists what is found; true if a tested pair intersects. After a failure nothing is listed. */
 inline bool SWIFT_Scene::ask(const swift_legacy::Question& question, int& num_pairs, int** oids)
 {
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
-    query.early_exit = question.early_exit ? 1 : 0;
-    query.distance_tolerance = question.tolerance;
-    query.absolute_error = question.absolute_error;
-    query.relative_error = question.relative_error;
+    query_.early_exit = question.early_exit ? 1 : 0;
+    query_.distance_tolerance = question.tolerance;
+    query_.absolute_error = question.absolute_error;
+    query_.relative_error = question.relative_error;
 #ifdef SWIFT_LEGACY_ALL_PAIRS
     const bool lists_by_boxes = false;
 #else
     const bool lists_by_boxes = has_broad_phase_ && question.tolerance > DBL_MAX;
 #endif
     if (lists_by_boxes) {
-        query.distance_tolerance = objects_.farthest_with_overlapping_boxes();
+        query_.distance_tolerance = objects_.farthest_with_overlapping_boxes();
     }
     swiftprox_scene_answer answer;
     answer.pairs = NULL;
     answer.count = 0;
     answer.intersecting = 0;
-    check(question.ask(scene_, &query, &answer), "Query");
+    answer.found = NULL;
+    check(question.ask(scene_, &query_, &answer), "Query");
     objects_.rank();
     results_.take(answer, objects_);
     if (lists_by_boxes) {
