@@ -1,9 +1,9 @@
 /*
  * What SWIFT.h costs over the interface of C: the same queries by both.
  *
- *   legacy_cost pair|scene|near c|legacy STEPS
+ *   legacy_cost pair|scene|near c|legacy STEPS [DEGREES]
  *
- * pair: contacts of two bodies of 1,002 vertices in orbit. scene: all distances of 1,000 boxes. near: pairs of them within a
+ * pair: contacts of two bodies of 1,002 vertices in orbit, DEGREES a step (1). scene: all distances of 1,000 boxes. near: pairs of them within a
  * tolerance that few are. Count instructions (valgrind --tool=callgrind) with two numbers of STEPS and take the difference: they
  * repeat exactly, and what making the scene takes is in both.
  */
@@ -68,9 +68,9 @@ Body box()
 }
 
 /* Where object i is at a step: on an orbit of its own, turning. */
-void place(int i, int count, int step, SWIFT_Real* R, SWIFT_Real* T)
+void place(int i, int count, double turn, SWIFT_Real* R, SWIFT_Real* T)
 {
-    const double angle = 0.02 * step * (i % 7 + 1), c = std::cos(angle), s = std::sin(angle);
+    const double angle = turn * (i % 7 + 1), c = std::cos(angle), s = std::sin(angle);
     const double rows[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
     std::copy(rows, rows + 9, R);
     if (count == 2) {
@@ -89,6 +89,7 @@ struct Task {
     int count;
     bool asks_contacts;
     double tolerance;
+    double turn; /* a step */
 };
 
 double by_legacy(const Task& task, int steps)
@@ -107,7 +108,7 @@ double by_legacy(const Task& task, int steps)
     for (int step = 0; step < steps; ++step) {
         SWIFT_Real R[9], T[3];
         for (int i = 0; i < task.count; ++i) {
-            place(i, task.count, step, R, T);
+            place(i, task.count, step * task.turn, R, T);
             scene.Set_Object_Transformation(i, R, T);
         }
         int pairs, *ids;
@@ -160,7 +161,7 @@ double by_c(const Task& task, int steps)
     for (int step = 0; step < steps; ++step) {
         SWIFT_Real R[9], T[3];
         for (int i = 0; i < task.count; ++i) {
-            place(i, task.count, step, R, T);
+            place(i, task.count, step * task.turn, R, T);
             must(swiftprox_scene_set_transform(scene, ids[static_cast<std::size_t>(i)], R, T));
         }
         swiftprox_scene_answer answer;
@@ -182,8 +183,8 @@ double by_c(const Task& task, int steps)
 
 int main(int argc, char** argv)
 {
-    if (argc != 4) {
-        std::fprintf(stderr, "legacy_cost pair|scene|near c|legacy STEPS\n");
+    if (argc != 4 && argc != 5) {
+        std::fprintf(stderr, "legacy_cost pair|scene|near c|legacy STEPS [DEGREES]\n");
         return 2;
     }
     const std::string what = argv[1], by = argv[2];
@@ -192,6 +193,8 @@ int main(int argc, char** argv)
     task.body = what == "pair" ? ellipsoid() : box();
     task.count = what == "pair" ? 2 : 1000;
     task.asks_contacts = what != "scene";
+    const double pi = PI;
+    task.turn = (argc == 5 ? std::atof(argv[4]) : 1) * pi / 180;
     task.tolerance = what == "near" ? 1.1 : 1e300;
     std::printf("%.6f\n", by == "c" ? by_c(task, steps) : by_legacy(task, steps));
     return 0;

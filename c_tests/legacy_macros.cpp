@@ -16,7 +16,7 @@ int main()
     Messages messages;
     const BoxMesh box(0.5, 0.5, 0.5);
     SWIFT_Scene scene;
-    int first, second;
+    int first = -1, second = -1;
     CHECK(box.add(scene, first) && box.add(scene, second));
     move_to(scene, second, 9, 0, 0);
     int pairs = -1, *ids;

@@ -143,6 +143,13 @@ public:
         return id >= 0 && static_cast<std::size_t>(id) < objects_.size() && objects_[static_cast<std::size_t>(id)].is_live;
     }
 
+    /* Null where there is none. */
+    Object* find(int id)
+    {
+        Object* object = id >= 0 && static_cast<std::size_t>(id) < objects_.size() ? &objects_[static_cast<std::size_t>(id)] : NULL;
+        return object != NULL && object->is_live ? object : NULL;
+    }
+
     Object& operator[](int id)
     {
         return objects_[static_cast<std::size_t>(id)];

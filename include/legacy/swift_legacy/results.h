@@ -52,6 +52,10 @@ public:
     {
         keep_nearest();
         nearest_.resize(answer.count);
+        if (answer.count == 1) {
+            nearest_[0] = Entry(answer.pairs[0]);
+            return;
+        }
         ranks_.resize(answer.count);
         int before = 0;
         bool is_in_order = true;

@@ -6,20 +6,24 @@
 
 inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* R, const SWIFT_Real* T)
 {
-    if (!has_object(id, "Set_Object_Transformation(id)")) {
+    swift_legacy::Object* object = objects_.find(id);
+    if (object == NULL) {
+        swift_legacy::report_no_object(id, "Set_Object_Transformation(id)");
         return;
     }
-    objects_[id].has_boxes = false;
-    check(swift_legacy::set_transform(scene_, objects_[id].native, R, T), "Set_Object_Transformation");
+    object->has_boxes = false;
+    check(swift_legacy::set_transform(scene_, object->native, R, T), "Set_Object_Transformation");
 }
 
 inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* RT)
 {
-    if (!has_object(id, "Set_Object_Transformation(id)")) {
+    swift_legacy::Object* object = objects_.find(id);
+    if (object == NULL) {
+        swift_legacy::report_no_object(id, "Set_Object_Transformation(id)");
         return;
     }
-    objects_[id].has_boxes = false;
-    check(swift_legacy::set_pose(scene_, objects_[id].native, RT), "Set_Object_Transformation");
+    object->has_boxes = false;
+    check(swift_legacy::set_pose(scene_, object->native, RT), "Set_Object_Transformation");
 }
 
 inline void SWIFT_Scene::Set_All_Object_Transformations(const SWIFT_Real* R, const SWIFT_Real* T)
