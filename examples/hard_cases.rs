@@ -184,7 +184,7 @@ fn truth(placed: &Placed) -> (String, Truth) {
         let normal = direction(&integers(&towards_b)).join(" ");
         return (format!("{lo} {hi} {} {} 0 0 {normal}\n", written(&a), written(&b)), truth);
     }
-    let limit = if placed.a.len() + placed.b.len() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
+    let limit = if placed.a.count() + placed.b.count() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
     let depth = depth(placed, limit);
     let [[lo, _], [_, hi]] = [&depth.lower_square, &depth.upper_square].map(|square| root_enclosure(square, e));
     let points = if hi == "0" {

@@ -50,8 +50,8 @@ pub use pair::verify;
 pub use scene::object;
 pub use shape::file as shape_file;
 
-// Unit tests draw from the generator of the testkit, which knows this crate by its name. They cannot link the testkit: what it links
-// is another copy of this crate, with the same C functions.
+// Unit tests draw from the generator of the testkit, which knows this crate by its name. They cannot link the testkit: it would
+// bring another copy of this crate, with the same C functions.
 #[cfg(test)]
 extern crate self as swiftprox;
 #[cfg(test)]

@@ -52,7 +52,7 @@ pub fn setting_of_pair(
     }
 }
 
-/// A verdict as Ehmann & Lin had it, marching alone: neither bounding spheres nor the separating axis of the last verdict are asked.
+/// A verdict as Ehmann & Lin had it, by marching: neither bounding spheres nor the last separating axis are asked.
 pub fn verdict_by_marching(name: impl Into<String>, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
     const RUNGS: Rungs = Rungs { spheres: false, last_axis: false, ..Rungs::ALL };
     #[rustfmt::skip]

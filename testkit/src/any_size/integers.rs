@@ -38,7 +38,7 @@ pub fn place<'a>(a: &'a [[f64; 3]], b: &'a [[f64; 3]], pose: &'a [f64; 24]) -> P
 
 impl Body<'_> {
     /// The number of vertices.
-    pub fn len(&self) -> usize {
+    pub fn count(&self) -> usize {
         self.points.len()
     }
 
@@ -67,7 +67,7 @@ impl Body<'_> {
         // a height is off by less than 16u·reach. Where numbers may leave the range of doubles every vertex is looked at.
         let is_usual = self.reach == 0.0 || (1e-200..1e200).contains(&self.reach);
         let lowest = if is_usual { highest - 64.0 * f64::EPSILON * self.reach } else { f64::NEG_INFINITY };
-        let candidates = (0..self.len()).filter(|&i| !(heights[i] < lowest));
+        let candidates = (0..self.count()).filter(|&i| !(heights[i] < lowest));
         let mut best: Option<(IBig, usize)> = None;
         for i in candidates {
             let exact = dot(direction, &self.vertex(i));

@@ -1,5 +1,5 @@
-//! A three-axis sweep and prune as Ehmann & Lin had it (Baraff 1992; Cohen, Lin, Manocha & Ponamgi 1995): the ends of all boxes kept
-//! sorted on each axis by insertion, pairs that begin and end to overlap kept in a table. The pairs go to this library's pair layer.
+//! A three-axis sweep and prune as Ehmann & Lin had it (Baraff 1992; Cohen, Lin, Manocha & Ponamgi 1995): the ends of all boxes
+//! are kept sorted on each axis by insertion, overlapping pairs in a table. The pairs go to this library's pair layer.
 
 use std::collections::HashMap;
 
