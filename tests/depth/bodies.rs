@@ -255,3 +255,30 @@ fn any_magnitude_has_a_depth() {
         }
     }
 }
+
+/// Bodies a thousand million million times as long as they are thick: what a search makes of them has two ends all the same.
+#[test]
+fn stretched_bodies_have_depths() {
+    let mut random = Random::new(45);
+    let mut overlapping = 0;
+    for _ in 0..6_000 {
+        let shapes = [(); 2].map(|()| {
+            let stretch = [(); 3].map(|()| random.power(-50, 0));
+            let points: Vec<Vector> =
+                (0..4 + random.below(6)).map(|_| random.vector().component_mul(&Vector::from(stretch))).collect();
+            let turn = random.rotation();
+            hull(&points.iter().map(|p| turn * p).collect::<Vec<_>>())
+        });
+        let pair = [&shapes[0], &shapes[1]];
+        let away = random.vector() * random.power(-50, -1);
+        let poses = [Pose::IDENTITY, Pose::new(&random.rotation(), &away)];
+        let placed = [&poses[0], &poses[1]];
+        let mut cache = DepthCache::default();
+        for _ in 0..2 {
+            let answer = query(pair, placed, &mut cache);
+            check(pair, placed, &cache, &answer);
+            overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+        }
+    }
+    assert!(overlapping > 1_000, "{overlapping}");
+}

@@ -311,5 +311,5 @@ fn normals_of_contacts_overlap_little() {
         contacts += 1;
     }
     println!("{contacts} contacts, {worst} times the least overlap at worst");
-    assert!(contacts > 3_000 && worst < 1.0 + 1e-12, "{worst}");
+    assert!(contacts > 3_000 && worst < 1.0 + 1e-10, "{worst}");
 }

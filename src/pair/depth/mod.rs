@@ -186,18 +186,26 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, 0.0);
             fill_common(answer, polyhedra, poses, &common, &normal);
         }
-        Position::Overlapping(common) => match found {
-            Some(found) if found.expansion.upper < f64::INFINITY && found.triangles > 0 => {
-                fill_overlapping(answer, polyhedra, poses, found);
-                answer.statistics.exact_iterations = common.iterations;
+        Position::Overlapping(common) => {
+            let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
+            match known {
+                // The bounds have met, next to 0.
+                Some(found) if found.expansion.ending == Ending::Narrow && found.triangles > 0 => {
+                    fill_overlapping(answer, polyhedra, poses, found);
+                    answer.statistics.exact_iterations = common.iterations;
+                }
+                _ => {
+                    // The shell need not surround the origin, and says no point.
+                    let (upper, normal) = match known {
+                        Some(found) => (found.expansion.upper, -found.expansion.direction),
+                        None => exact::overlap_along_axes(polyhedra, poses),
+                    };
+                    answer.outcome = Outcome::Intersecting;
+                    (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
+                    fill_common(answer, polyhedra, poses, &common, &normal);
+                }
             }
-            _ => {
-                let (upper, normal) = exact::overlap_along_axes(polyhedra, poses);
-                answer.outcome = Outcome::Intersecting;
-                (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
-                fill_common(answer, polyhedra, poses, &common, &normal);
-            }
-        },
+        }
     }
 }
 

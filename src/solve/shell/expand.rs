@@ -174,7 +174,7 @@ impl<L: Lanes> Search<'_, L> {
                 // No direction of an earlier query but one that was not kept with its shell: as a start it saves two steps of 17.
                 let known = start.direction.as_ref().filter(|_| start.triangle.is_none());
                 let made = first::make(self.frame, shell, &self.rounding, known, &mut self.supports);
-                let Some(centre) = made else { return Ending::Flat };
+                let Some(centre) = made else { return self.measure_flat(shell) };
                 self.demand = Demand { centre, about_origin: false, ..self.demand };
             }
             let limit = if is_warm { WARM_STEPS.min(most_steps) } else { most_steps };
@@ -188,6 +188,22 @@ impl<L: Lanes> Search<'_, L> {
             }
             return ending;
         }
+    }
+
+    /// Upper bounds of differences too flat for a search: across what there is of a shell, and along the axes of the world.
+    #[cold]
+    fn measure_flat(&mut self, shell: &Shell) -> Ending {
+        if shell.triangle_count > 0 {
+            let (triangle, distance) = nearest::<L>(shell);
+            if distance > NO_PLANE {
+                self.ask(&shell.normal(triangle), None);
+            }
+        }
+        for axis in [Vector::x(), Vector::y(), Vector::z()] {
+            self.ask(&axis, None);
+            self.ask(&-axis, None);
+        }
+        if self.best.upper < 0.0 { Ending::Separated } else { Ending::Flat }
     }
 
     /// Whether the shell of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
