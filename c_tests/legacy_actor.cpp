@@ -1,6 +1,6 @@
 /*
- * An actor among boxes that slides on their grid: SWIFT++ with the broad phase, one object active, only the verdict is asked for. And the
- * grid of 15,625 placements of two boxes, with faces, edges and corners that align: each answer is the exact one.
+ * An actor among boxes that slides on their grid: SWIFT++ with the broad phase, one object active, only the verdict is asked
+ * for. And the grid of 15,625 placements of two boxes, with faces, edges and corners that align: each answer is the exact one.
  */
 #include "legacy_test.h"
 

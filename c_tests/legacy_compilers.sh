@@ -1,7 +1,9 @@
 #!/bin/sh
 # Builds the tests of SWIFT.h with one compiler by one standard, every warning an error, and runs them.
 #
-#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]    SOURCE: the project's folder; LIBRARY: that of the library
+#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]
+#
+# SOURCE: the project's folder; LIBRARY: that of the library; FOLDER: for the programs.
 set -eu
 compiler=$1 standard=$2 source=$3 library=$4 folder=$5
 shift 5

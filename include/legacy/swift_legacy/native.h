@@ -12,7 +12,10 @@
 
 namespace swift_legacy {
 
-/* How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text files. */
+/*
+ * How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text
+ * files.
+ */
 const double CONVEXITY_TOLERANCE = 1e-6;
 
 /* How many levels of detail a caller may give: a limit of SWIFT 1.x. */
