@@ -61,7 +61,6 @@ impl DepthCache {
             shell.clear();
             return start;
         }
-        shell.count_uses();
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
         for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
             let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
@@ -106,6 +105,19 @@ impl DepthCache {
         usize::from(largest) < vertices
     }
 
+    /// The shell that it holds stays, with another direction of least overlap.
+    #[inline(always)]
+    pub fn keep<L: Lanes>(&mut self, frame: &Frame<L>, triangle: usize, direction: &Vector) {
+        self.remember(frame, direction);
+        self.counts[2] = triangle.min(255) as u8;
+    }
+
+    #[inline(always)]
+    fn remember<L: Lanes>(&mut self, frame: &Frame<L>, direction: &Vector) {
+        let own = frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector();
+        self.direction = [(own.x as f32).to_bits(), (own.y as f32).to_bits(), (own.z as f32).to_bits()];
+    }
+
     /// Keeps a shell, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
     #[inline(always)]
     pub fn pack<L: Lanes>(
@@ -116,8 +128,7 @@ impl DepthCache {
         direction: &Vector,
         first_triangles: usize,
     ) {
-        let own = frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector();
-        self.direction = [own.x, own.y, own.z].map(|x| (x as f32).to_bits());
+        self.remember(frame, direction);
         let (vertices, triangles) = (shell.vertex_count, shell.triangle_count);
         let is_small = vertices <= MOST_VERTICES && (4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles;
         if !is_small {

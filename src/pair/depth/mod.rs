@@ -116,7 +116,11 @@ impl Search<'_> {
             return Found { expansion, witness, triangles: 0 };
         }
         let (witness, triangle) = shell::witness(frame, shell, &expansion);
-        self.cache.pack(frame, shell, triangle, &expansion.direction, expansion.first_triangles);
+        if expansion.is_as_kept {
+            self.cache.keep(frame, triangle, &expansion.direction);
+        } else {
+            self.cache.pack(frame, shell, triangle, &expansion.direction, expansion.first_triangles);
+        }
         Found { expansion, witness, triangles: shell.triangle_count as u32 }
     }
 }

@@ -82,6 +82,8 @@ pub struct Expansion {
     pub farthest: VertexPair,
     /// Triangles that the last first shell came to.
     pub first_triangles: usize,
+    /// Whether the shell is the one that the search began with.
+    pub is_as_kept: bool,
     /// Expansions.
     pub steps: u32,
     /// Support vertices asked for.
@@ -103,6 +105,7 @@ pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, want
         steps: 0,
         supports: 0,
         first_triangles: start.first_triangles,
+        is_as_kept: false,
     };
     let ending = search.run(shell, start, wanted.steps.min(MOST_STEPS));
     let is_sure = ending != Ending::Separated && shell.triangle_count > 0;
@@ -115,6 +118,7 @@ pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, want
         direction: search.best.direction,
         farthest: search.best.farthest,
         first_triangles: search.first_triangles,
+        is_as_kept: search.is_as_kept,
         steps: search.steps,
         supports: search.supports,
     }
@@ -143,6 +147,7 @@ struct Search<'a, L> {
     steps: u32,
     supports: u32,
     first_triangles: usize,
+    is_as_kept: bool,
 }
 
 /// What a step came to.
@@ -159,11 +164,13 @@ impl<L: Lanes> Search<'_, L> {
     #[inline(always)]
     fn run(&mut self, shell: &mut Shell, start: &Start, most_steps: u32) -> Ending {
         let mut is_warm = self.takes_over(shell, start);
+        self.is_as_kept = is_warm;
         if self.best.upper < 0.0 {
             return Ending::Separated;
         }
         loop {
             if !is_warm {
+                self.is_as_kept = false;
                 // No direction of an earlier query but one that was not kept with its shell: as a start it saves two steps of 17.
                 let known = start.direction.as_ref().filter(|_| start.triangle.is_none());
                 let made = first::make(self.frame, shell, &self.rounding, known, &mut self.supports);
@@ -245,6 +252,10 @@ impl<L: Lanes> Search<'_, L> {
             }
             if self.steps >= most_steps {
                 return Ending::Spent;
+            }
+            if self.is_as_kept {
+                shell.count_uses();
+                self.is_as_kept = false;
             }
             self.steps += 1;
             match self.step(shell, triangle, is_warm, &mut straightened) {

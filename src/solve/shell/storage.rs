@@ -238,24 +238,27 @@ impl Shell<'_> {
         }
     }
 
-    /// Whether a shell of less than 128 triangles is a closed oriented cycle: half-edges are in pairs, and the ends of each are those of
+    /// Whether a shell of at most 128 triangles is a closed oriented cycle: half-edges are in pairs, and the ends of each are those of
     /// its twin. Of corners and twins nothing is known.
     #[inline(always)]
     pub fn is_closed(&self) -> bool {
         const MOST: usize = 128;
-        let arrays = (self.corners.first_chunk::<MOST>(), self.twins.first_chunk::<MOST>());
-        let (Some(corners), Some(twins)) = arrays else { return false };
-        let count = self.triangle_count.min(MOST);
-        let mut is_open = self.triangle_count > count;
-        // Without a branch: indices are masked, and what is out of range is noted.
-        for triangle in 0..count {
-            let [a, b, c, _] = corners[triangle];
-            let [x, y, z, _] = twins[triangle];
-            for (k, twin, head) in [(0, x, b), (1, y, c), (2, z, a)] {
-                let (other, side) = (triangle_of(twin), usize::from(twin & 3));
-                is_open |= (other >= count) | (side == 3);
-                is_open |= twins[other % MOST][side] != half_edge(triangle, k);
-                is_open |= corners[other % MOST][side] != head;
+        const NONE: u32 = u32::MAX;
+        // Twin, tail and head of each half-edge, in 11, 8 and 8 bits. No half-edge is like what is not in use.
+        let mut told = [[NONE; 4]; MOST];
+        let surface = self.corners.iter().zip(&*self.twins).take(self.triangle_count);
+        for (told, (&[a, b, c, _], &[x, y, z, _])) in told.iter_mut().zip(surface) {
+            let tell =
+                |twin: HalfEdge, tail: u8, head: u8| u32::from(twin) | u32::from(tail) << 11 | u32::from(head) << 19;
+            *told = [tell(x, a, b), tell(y, b, c), tell(z, c, a), NONE];
+        }
+        let mut is_open = self.triangle_count > MOST;
+        for (triangle, own) in told.iter().take(self.triangle_count).enumerate() {
+            for (k, &own) in own[..3].iter().enumerate() {
+                let twin = own as usize & 2047;
+                let (tail, head) = (own >> 11 & 255, own >> 19);
+                let expected = (4 * triangle + k) as u32 | head << 11 | tail << 19;
+                is_open |= told[twin / 4 % MOST][twin % 4] != expected || twin / 4 >= MOST;
             }
         }
         !is_open
