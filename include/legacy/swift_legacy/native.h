@@ -8,6 +8,7 @@
 #include <swiftprox.h>
 #include <swiftprox_tuning.h>
 
+#include "defaults.h"
 #include "mesh.h"
 
 namespace swift_legacy {
@@ -39,7 +40,7 @@ struct LevelOptions {
     bool are_asked_for() const
     {
 #ifdef SWIFT_HIERARCHY
-        return least_triangles != 50 || ratio < 0.25 || ratio > 0.25;
+        return least_triangles != DEFAULT_MIN_TCOUNT || ratio < DEFAULT_QSLIM_TRATIO || ratio > DEFAULT_QSLIM_TRATIO;
 #else
         return false;
 #endif
