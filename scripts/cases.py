@@ -197,7 +197,9 @@ def judge_pose(arguments, row, answer, truth, pose, promise, complain):
         complain("missed: truth [%s, %s], interval [%s, %s] by %s" % (lo, hi, lower, upper, answer[13]))
     if bounded and promise:
         apart = 0.0 if arguments.query == "depth" else float(distance)
-        width = float(upper - lower - printing(lower) - printing(upper)) / promise.width([float(word) for word in pose], apart)
+        excess = float(upper - lower - printing(lower) - printing(upper))
+        # Nothing is promised of two points, and nothing is to be.
+        width = excess / promise.width([float(word) for word in pose], apart) if excess > 0 else 0.0
         row.widest = max(row.widest, width)
         if width > 1:
             row.counts["wide"] += 1
