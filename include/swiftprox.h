@@ -208,7 +208,9 @@ enum {
    */
   SWIFTPROX_PAIR_STATUS_BUDGET_SPENT = 6,
   /** The bounding spheres are apart, and farther than the distance tolerance if there is one: no more was asked. */
-  SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES = 7
+  SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES = 7,
+  /** In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof. */
+  SWIFTPROX_PAIR_STATUS_INSCRIBED_SPHERES = 8
 };
 typedef int32_t swiftprox_pair_status;
 
@@ -564,7 +566,7 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_feature feature2;
   /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
   uint32_t proof[4][2];
-  /** How many entries of `proof` are used (1 to 4 when intersecting, else 0). */
+  /** How many entries of `proof` are used: 1 to 4 when intersecting, but for SWIFTPROX_PAIR_STATUS_INSCRIBED_SPHERES, else 0. */
   uint32_t proof_count;
   /** What the query did. */
   struct swiftprox_statistics statistics;
@@ -692,7 +694,7 @@ typedef struct swiftprox_scene_answer {
 typedef struct swiftprox_scene_statistics {
   /** Queries. */
   uint64_t queries;
-  /** Pairs of convex pieces tested. */
+  /** Active pairs of convex pieces that were near enough to be looked at. How near that is depends on earlier queries. */
   uint64_t pairs;
   /** ... of which Voronoi marching decided. */
   uint64_t marched;
@@ -714,7 +716,7 @@ typedef struct swiftprox_scene_statistics {
   uint64_t budget_spent;
   /**
    * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
-   * themselves; the last entry is for all levels beyond, too.
+   * themselves, also where no geometry was asked; the last entry is for all levels beyond, too.
    */
   uint64_t by_level[8];
   /**
@@ -724,6 +726,12 @@ typedef struct swiftprox_scene_statistics {
   double error_spent;
   /** Of the pairs, those whose bounding spheres decided. */
   uint64_t bounding_spheres;
+  /** ... of which balls inside the pieces decided. */
+  uint64_t inscribed_spheres;
+  /** ... of which neither piece had moved since the same query before: its answer was given again. */
+  uint64_t unmoved;
+  /** ... of which the pieces had not moved far enough since their last test to be listed. */
+  uint64_t out_of_reach;
 } swiftprox_scene_statistics;
 
 

@@ -320,6 +320,8 @@ static const char *status_word(swiftprox_pair_status status)
         return "tolerance";
     case SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES:
         return "spheres";
+    case SWIFTPROX_PAIR_STATUS_INSCRIBED_SPHERES:
+        return "inner spheres";
     default:
         return "none";
     }

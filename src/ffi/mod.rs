@@ -296,7 +296,17 @@ enumerator!(Start { Automatic, Cache, Table, Cold });
 enumerator!(Levels { Automatic, None, All });
 enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });
 enumerator!(Outcome { None, Separated, Beyond, Intersecting, Undecided });
-enumerator!(Status { None, Marched, Coherent, Fallback, Exact, WithinTolerance, BudgetSpent, BoundingSpheres });
+enumerator!(Status {
+    None,
+    Marched,
+    Coherent,
+    Fallback,
+    Exact,
+    WithinTolerance,
+    BudgetSpent,
+    BoundingSpheres,
+    InscribedSpheres
+});
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 
 /// A string that must not be null.

@@ -39,6 +39,8 @@ pub enum Status {
     BudgetSpent = 6,
     /// The bounding spheres are apart, and farther than the distance tolerance if there is one: no more was asked.
     BoundingSpheres = 7,
+    /// In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
+    InscribedSpheres = 8,
 }
 
 /// Kind of a feature.
@@ -113,7 +115,7 @@ pub struct PairAnswer {
     pub feature2: Feature,
     /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used (1 to 4 when intersecting, else 0).
+    /// How many entries of `proof` are used: 1 to 4 when intersecting, but for [`Status::InscribedSpheres`], else 0.
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,

@@ -94,7 +94,7 @@ mod tests {
                     model.values_mut().for_each(|flag| *flag = active);
                 }
                 1 | 2 if ids.len() < 12 => {
-                    let id = table.insert(Vec::new(), &ObjectOptions::default()).unwrap();
+                    let id = table.insert(Vec::new(), &ObjectOptions::default(), 0).unwrap();
                     activation.set_object(table.get_mut(id).unwrap(), true);
                     model.extend(ids.iter().map(|&earlier| ([earlier, id], true)));
                     ids.push(id);

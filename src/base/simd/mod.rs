@@ -72,6 +72,23 @@ pub fn dispatch_to_avx2<K: Kernel>(kernel: &mut K) -> K::Output {
     run_portable(kernel)
 }
 
+/// Asks the memory for what will be read soon.
+#[inline(always)]
+pub fn prefetch<T>(place: &T) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        const LINE: usize = 64;
+        let first = std::ptr::from_ref(place).cast::<i8>();
+        for at in (0..size_of::<T>()).step_by(LINE) {
+            // SAFETY: a hint reads nothing, and the addresses are those of one object.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.add(at)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
+}
+
 /// From now on this process does without more features than these: all machines round alike at the baseline. For tests.
 pub fn narrow_to(most: Features) {
     #[cfg(target_arch = "x86_64")]
