@@ -1,7 +1,7 @@
 //! What a step of a scene costs: poses set, one query answered. Ellipsoids of 102 vertices and radius 1 at constant density, moving
 //! so that none changes its speed.
 //!
-//! `cargo bench --bench scenes -- [COUNT …]` prints a row for each motion and query: milliseconds a step, mean, median and worst, over
+//! `cargo bench --bench scenes -- [COUNT …] [MOTION …] [QUERY …]` prints a row for each motion and query: milliseconds a step, mean, median and worst, over
 //! a hundred steps or as many as fit a second, behind two that are not timed; and what the queries did, a step.
 
 #[path = "common/mod.rs"]
@@ -22,6 +22,8 @@ const DENSITY: f64 = 0.053;
 
 /// How far an object goes in a step, and how far it turns.
 const STEP: f64 = 0.03;
+
+const QUERIES: [&str; 3] = ["intersection", "distance", "contacts"];
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Motion {
@@ -135,11 +137,19 @@ fn main() {
     println!(
         "objects,motion,query,mean ms,median ms,worst ms,of it poses,listed,looked at,out of reach,unmoved,far apart,balls overlap,marched,others"
     );
-    let counts: Vec<usize> = std::env::args().filter_map(|argument| argument.parse().ok()).collect();
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let counts: Vec<usize> = arguments.iter().filter_map(|argument| argument.parse().ok()).collect();
+    let is_asked = |names: &[&str], name: &str| {
+        let is_one = |argument: &String| names.contains(&argument.as_str());
+        !arguments.iter().any(is_one) || arguments.iter().any(|argument| argument == name)
+    };
     for count in if counts.is_empty() { vec![100, 1_000, 10_000] } else { counts } {
         for motion in [Motion::All, Motion::OneInTwenty, Motion::Teleport] {
-            for query in ["intersection", "distance", "contacts"] {
-                measure(count, motion, query);
+            for query in QUERIES {
+                let motions = ["All", "OneInTwenty", "Teleport"];
+                if is_asked(&motions, &format!("{motion:?}")) && is_asked(&QUERIES, query) {
+                    measure(count, motion, query);
+                }
             }
         }
     }

@@ -345,7 +345,7 @@ fn a_removed_object_is_gone_and_its_id_stale() {
 #[test]
 fn a_copy_shares_the_geometry_and_stands_where_its_original_does() {
     let mut scene = scene();
-    let options = ObjectOptions { pose: at(1.0, 2.0, 3.0), fixed: true, user_data: 7 };
+    let options = ObjectOptions { pose: at(1.0, 2.0, 3.0), fixed: true, user_data: 7, ..Default::default() };
     let id = scene.add_object(vec![cuboid([1.0; 3]), cuboid([2.0; 3])], &options).unwrap();
     let copy = scene.copy_object(id).unwrap();
     let (original, copied) = (scene.object(id).unwrap(), scene.object(copy).unwrap());
@@ -516,8 +516,12 @@ fn answers_do_not_depend_on_the_past() {
         match random.below(10) {
             0..3 if ids.len() < 9 => {
                 let pieces = (0..1 + random.below(3)).map(|_| shapes[random.below(4)].clone()).collect();
-                let options =
-                    ObjectOptions { pose: random_pose(&mut random, 1.5), fixed: random.below(3) == 0, user_data: step };
+                let options = ObjectOptions {
+                    pose: random_pose(&mut random, 1.5),
+                    fixed: random.below(3) == 0,
+                    user_data: step,
+                    ..Default::default()
+                };
                 ids.push(scene.add_object(pieces, &options).unwrap());
             }
             3 if ids.len() > 4 => scene.remove_object(ids.swap_remove(random.below(ids.len()))).unwrap(),

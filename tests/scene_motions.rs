@@ -160,7 +160,12 @@ fn run(motion: Motion, setting: Setting, family: &[Vec<Arc<Shape>>], what: &str)
     let mut ids = Vec::new();
     for k in 0..OBJECTS {
         let fixed = setting == Setting::Fixed && k % 3 == 0;
-        let options = ObjectOptions { pose: anywhere(&mut random, size, setting), fixed, user_data: k as u64 };
+        let options = ObjectOptions {
+            pose: anywhere(&mut random, size, setting),
+            fixed,
+            user_data: k as u64,
+            ..Default::default()
+        };
         ids.push(scene.add_object(family[k % family.len()].clone(), &options).unwrap());
     }
     let mut near = 0;

@@ -13,11 +13,11 @@ use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ObjectPair, PairFilter, PairResult, Query, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::Shape;
 
 /// Without the variable.
-const CALLS: usize = 3_000;
+const CALLS: usize = 10_000;
 
 const MOST_OBJECTS: usize = 40;
 
@@ -26,14 +26,38 @@ struct Model {
     objects: Vec<Object>,
     /// Deactivated pairs, the earlier object first.
     inactive: Vec<[ObjectId; 2]>,
+    /// What the filter refuses: pairs whose numbers' sum has this remainder by 5.
+    refused: Option<u64>,
+    given: Option<Vec<[ObjectId; 2]>>,
+    /// Near at the last query about events.
+    events: Vec<[ObjectId; 2]>,
 }
 
+#[derive(Clone)]
 struct Object {
     id: ObjectId,
     pieces: Vec<Arc<Shape>>,
     pose: Pose,
+    piece_poses: Vec<Pose>,
     fixed: bool,
     user_data: u64,
+    groups: u32,
+    mask: u32,
+}
+
+impl Object {
+    fn world(&self, piece: usize) -> Pose {
+        let (outer, inner) = (&self.pose, &self.piece_poses[piece]);
+        if self.piece_poses.iter().all(|pose| *pose == Pose::IDENTITY) {
+            return self.pose;
+        }
+        Pose::new(&(outer.rotation() * inner.rotation()), &outer.transform(&inner.translation()))
+    }
+}
+
+/// What the filter adds up: ids, as it is told no more.
+fn refuses(remainder: u64, pair: [ObjectId; 2]) -> bool {
+    pair.map(|id| id.to_bits() % 5).iter().sum::<u64>() % 5 == remainder
 }
 
 type Key = (ObjectId, ObjectId, u64, u64, u32, u32);
@@ -54,22 +78,45 @@ impl Model {
         }
     }
 
+    fn tests(&self, one: &Object, other: &Object) -> bool {
+        let pair = [one.id, other.id];
+        !(one.fixed && other.fixed)
+            && one.groups & other.mask != 0
+            && other.groups & one.mask != 0
+            && !self.inactive.contains(&pair)
+            && !self.refused.is_some_and(|remainder| refuses(remainder, pair))
+            && self.given.as_ref().is_none_or(|given| given.contains(&pair) || given.contains(&[pair[1], pair[0]]))
+    }
+
+    /// What is near to a shape that is put somewhere.
+    fn near_placed(&self, shape: &Shape, pose: &Pose, tolerance: f64) -> Vec<(Key, PairAnswer)> {
+        let mut found = Vec::new();
+        for one in &self.objects {
+            for (piece, piece_shape) in one.pieces.iter().enumerate() {
+                let answer = asked(piece_shape, &one.world(piece), shape, pose, tolerance);
+                if answer.outcome != Outcome::Beyond {
+                    found.push(((one.id, ObjectId::NULL, one.user_data, 0, piece as u32, 0), answer));
+                }
+            }
+        }
+        found
+    }
+
     /// All pairs not farther apart than the tolerance, asked of the pair layer.
     fn near(&self, tolerance: f64) -> Vec<(Key, PairAnswer)> {
         let mut found = Vec::new();
         for (k, one) in self.objects.iter().enumerate() {
             for other in &self.objects[k + 1..] {
-                if one.fixed && other.fixed || self.inactive.contains(&[one.id, other.id]) {
+                if !self.tests(one, other) {
                     continue;
                 }
-                for (piece1, shape1) in (0..).zip(&one.pieces) {
-                    for (piece2, shape2) in (0..).zip(&other.pieces) {
-                        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-                        let config = PairConfig { distance_tolerance: tolerance, ..PairConfig::default() };
-                        pair::distance(shape1, &one.pose, shape2, &other.pose, &mut cache, &config, &mut answer)
-                            .unwrap();
+                for (piece1, shape1) in one.pieces.iter().enumerate() {
+                    for (piece2, shape2) in other.pieces.iter().enumerate() {
+                        let answer = asked(shape1, &one.world(piece1), shape2, &other.world(piece2), tolerance);
                         if answer.outcome != Outcome::Beyond {
-                            found.push(((one.id, other.id, one.user_data, other.user_data, piece1, piece2), answer));
+                            let users = (one.user_data, other.user_data);
+                            let pieces = (piece1 as u32, piece2 as u32);
+                            found.push(((one.id, other.id, users.0, users.1, pieces.0, pieces.1), answer));
                         }
                     }
                 }
@@ -77,6 +124,14 @@ impl Model {
         }
         found
     }
+}
+
+/// Without a past.
+fn asked(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, distance_tolerance: f64) -> PairAnswer {
+    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+    pair::distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).unwrap();
+    answer
 }
 
 fn agree(listed: &[PairResult], expected: &[(Key, PairAnswer)], what: &str) {
@@ -89,23 +144,37 @@ fn agree(listed: &[PairResult], expected: &[(Key, PairAnswer)], what: &str) {
     }
 }
 
-fn query(scene: &mut Scene, model: &Model, random: &mut Random, what: &str) {
+fn query(scene: &mut Scene, model: &mut Model, shapes: &[Arc<Shape>], random: &mut Random, what: &str) {
     let distance_tolerance = random.pick(&[0.0, 0.05, 0.3, 2.0, 1e3, f64::INFINITY]);
     let early_exit = random.below(8) == 0;
     let query = SceneQuery { distance_tolerance, early_exit, ..SceneQuery::default() };
-    let kind = random.below(6);
+    let kind = random.below(9);
+    let what = format!("{what}: {kind} {query:?}");
+    let verdict_only = kind < 2 || kind > 5 && random.below(2) == 0;
+    let tolerance = if verdict_only { 0.0 } else { distance_tolerance };
+    let question = if verdict_only { Query::Intersection } else { Query::Distance };
+    let mut expected = model.near(tolerance);
     let answer = match kind {
         0 | 1 => scene.query_intersection(&query),
         2 => scene.query_exact_distance(&query),
         3 => scene.query_contacts(&query),
         4 => scene.query_approximate_distance(&SceneQuery { absolute_error: 0.01, ..query }),
-        _ => scene.query_approximate_distance(&SceneQuery { error_budget: 0.5, ..query }),
+        5 => scene.query_approximate_distance(&SceneQuery { error_budget: 0.5, ..query }),
+        6 if !model.objects.is_empty() => {
+            let id = model.objects[random.below(model.objects.len())].id;
+            expected.retain(|((one, other, ..), _)| [one, other].contains(&&id));
+            scene.query_object(id, question, &query)
+        }
+        7 => {
+            let (shape, pose) = (&shapes[random.below(shapes.len())], random_pose(random, 4.0));
+            expected = model.near_placed(shape, &pose, tolerance);
+            scene.query_placed(shape, &pose, question, &query)
+        }
+        _ => return events(scene, model, tolerance, &what),
     };
     let answer = answer.unwrap();
-    let what = format!("{what}: {kind} {query:?}");
-    let mut expected = model.near(if kind < 2 { 0.0 } else { distance_tolerance });
     let intersects = |(_, answer): &(Key, PairAnswer)| answer.outcome == Outcome::Intersecting;
-    if kind < 2 {
+    if verdict_only {
         expected.retain(intersects);
     }
     let first = expected.iter().position(intersects);
@@ -123,6 +192,21 @@ fn query(scene: &mut Scene, model: &Model, random: &mut Random, what: &str) {
     }
 }
 
+fn events(scene: &mut Scene, model: &mut Model, distance: f64, what: &str) {
+    let mut expected = model.near(distance);
+    if distance == 0.0 {
+        expected.retain(|(_, answer)| answer.outcome == Outcome::Intersecting);
+    }
+    let mut near: Vec<[ObjectId; 2]> = expected.iter().map(|((one, other, ..), _)| [*one, *other]).collect();
+    near.dedup();
+    let found = scene.query_events(distance).unwrap();
+    let ids = |pairs: &[ObjectPair]| pairs.iter().map(|pair| [pair.object1, pair.object2]).collect::<Vec<_>>();
+    let new: Vec<_> = near.iter().filter(|pair| !model.events.contains(pair)).copied().collect();
+    let old: Vec<_> = model.events.iter().filter(|pair| !near.contains(pair)).copied().collect();
+    assert_eq!((ids(found.began), ids(found.ended)), (new, old), "{what}");
+    model.events = near;
+}
+
 #[test]
 fn a_long_life() {
     let calls = std::env::var("SWIFTPROX_SOAK").map_or(CALLS, |count| count.parse().expect("a number of calls"));
@@ -132,19 +216,22 @@ fn a_long_life() {
     shapes.push(ellipsoid(&mut random, 12, [0.3, 0.3, 0.3], Vector::new(0.4, 0.0, 0.0)));
     shapes.push(ellipsoid(&mut random, 600, [0.6, 0.6, 0.6], Vector::new(3.0, 0.0, 0.1)));
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
-    let mut model = Model { objects: Vec::new(), inactive: Vec::new() };
+    let mut model = Model { objects: Vec::new(), inactive: Vec::new(), refused: None, given: None, events: Vec::new() };
     for call in 0..calls {
         let what = format!("call {call}");
         let count = model.objects.len();
         let any = if count > 0 { random.below(count) } else { 0 };
-        match random.below(24) {
+        match random.below(36) {
             0..3 if count < MOST_OBJECTS => {
                 let pieces: Vec<_> =
                     (0..1 + random.below(3)).map(|_| shapes[random.below(shapes.len())].clone()).collect();
                 let (pose, fixed) = (random_pose(&mut random, 4.0), random.below(4) == 0);
-                let options = ObjectOptions { pose, fixed, user_data: call as u64 };
+                let (groups, mask) = (1 << random.below(3), if random.below(3) == 0 { 0b110 } else { u32::MAX });
+                let options = ObjectOptions { pose, fixed, user_data: call as u64, groups, mask };
                 let id = scene.add_object(pieces.clone(), &options).unwrap();
-                model.objects.push(Object { id, pieces, pose, fixed, user_data: call as u64 });
+                let piece_poses = vec![Pose::IDENTITY; pieces.len()];
+                let user_data = call as u64;
+                model.objects.push(Object { id, pieces, pose, piece_poses, fixed, user_data, groups, mask });
             }
             3 if count > 0 => {
                 let Object { id, .. } = model.objects.remove(any);
@@ -154,9 +241,8 @@ fn a_long_life() {
             4 if count > 0 && count < MOST_OBJECTS => {
                 let original = &model.objects[any];
                 let id = scene.copy_object(original.id).unwrap();
-                let (pieces, pose) = (original.pieces.clone(), original.pose);
-                let (fixed, user_data) = (original.fixed, original.user_data);
-                model.objects.push(Object { id, pieces, pose, fixed, user_data });
+                let copy = Object { id, ..original.clone() };
+                model.objects.push(copy);
             }
             5 if count > 0 => {
                 model.objects[any].user_data = call as u64;
@@ -203,7 +289,50 @@ fn a_long_life() {
                 }
                 scene.set_all_poses(&poses).unwrap();
             }
-            _ => query(&mut scene, &model, &mut random, &what),
+            16 if count > 0 => {
+                let fixed = random.below(3) == 0;
+                scene.set_fixed(model.objects[any].id, fixed).unwrap();
+                model.objects[any].fixed = fixed;
+            }
+            17 if count > 0 => {
+                let (groups, mask) = (1 << random.below(3), random.pick(&[0b110, 0b11, u32::MAX, 0]));
+                scene.set_filter(model.objects[any].id, groups, mask).unwrap();
+                (model.objects[any].groups, model.objects[any].mask) = (groups, mask);
+            }
+            18 if count > 0 => {
+                let piece = random.below(model.objects[any].pieces.len());
+                let pose = if random.below(4) == 0 { Pose::IDENTITY } else { random_pose(&mut random, 0.5) };
+                scene.set_piece_pose(model.objects[any].id, piece as u32, &pose).unwrap();
+                model.objects[any].piece_poses[piece] = pose;
+            }
+            19 if count > 1 => {
+                let ids: Vec<ObjectId> = (0..random.below(5)).map(|k| model.objects[(any + k) % count].id).collect();
+                let poses: Vec<Pose> = ids.iter().map(|_| random_pose(&mut random, 4.0)).collect();
+                scene.set_poses(&ids, &poses).unwrap();
+                for (id, pose) in ids.iter().zip(poses) {
+                    let place = model.place(*id);
+                    model.objects[place].pose = pose;
+                }
+            }
+            20 if random.below(3) == 0 => {
+                model.refused = if random.below(2) == 0 { Some(random.below(5) as u64) } else { None };
+                let filter = model.refused.map(|remainder| PairFilter::new(move |a, b| !refuses(remainder, [a, b])));
+                scene.set_pair_filter(filter);
+            }
+            21 if count > 1 && random.below(3) == 0 => {
+                let mut pair = || {
+                    let one = random.below(count);
+                    [model.objects[one].id, model.objects[(one + 1 + random.below(count - 1)) % count].id]
+                };
+                let pairs: Vec<[ObjectId; 2]> = (0..60).map(|_| pair()).collect();
+                model.given = Some(pairs);
+                scene.set_pairs(model.given.as_deref()).unwrap();
+            }
+            22 if random.below(2) == 0 => {
+                model.given = None;
+                scene.set_pairs(None).unwrap();
+            }
+            _ => query(&mut scene, &mut model, &shapes, &mut random, &what),
         }
         assert_eq!(scene.object_count(), model.objects.len());
     }

@@ -365,6 +365,7 @@ unsafe fn add(
             pose: Pose::from_row_major(&options.pose),
             fixed: options.fixed != 0,
             user_data: options.user_data,
+            ..ObjectOptions::default()
         };
         made = Some((make()?, options));
         Ok(())

@@ -121,10 +121,11 @@ pub struct PairAnswer {
     pub statistics: Statistics,
 }
 
-/// Says nothing: no number of it reads as a contact.
-impl Default for PairAnswer {
-    fn default() -> Self {
+impl PairAnswer {
+    /// Says nothing: no number of it reads as a contact.
+    pub(crate) const UNSAID: PairAnswer = {
         const UNSAID: [f64; 3] = [f64::NAN; 3];
+        const NO_FEATURE: Feature = Feature { kind: FeatureKind::None, ids: [0; 2] };
         PairAnswer {
             outcome: Outcome::None,
             status: Status::None,
@@ -136,11 +137,17 @@ impl Default for PairAnswer {
             world1: UNSAID,
             world2: UNSAID,
             normal: UNSAID,
-            feature1: Feature::default(),
-            feature2: Feature::default(),
+            feature1: NO_FEATURE,
+            feature2: NO_FEATURE,
             proof: [[0; 2]; 4],
             proof_count: 0,
-            statistics: Statistics::default(),
+            statistics: Statistics { marching_steps: 0, fallback_iterations: 0, exact_iterations: 0, levels: [0; 2] },
         }
+    };
+}
+
+impl Default for PairAnswer {
+    fn default() -> Self {
+        PairAnswer::UNSAID
     }
 }

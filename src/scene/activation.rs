@@ -17,6 +17,8 @@ const LEAST_CROWD: usize = 64;
 #[derive(Debug, Default)]
 pub(crate) struct Activation {
     latest: Stamp,
+    /// Something was deactivated, ever.
+    says_no: bool,
     all: Stamp,
     /// Since the last word on all; the earlier created object first. Words on objects removed since do no harm, as no id comes
     /// again.
@@ -28,6 +30,7 @@ pub(crate) struct Activation {
 impl Activation {
     /// The next word: "active" or not.
     fn say(&mut self, active: bool) -> Stamp {
+        self.says_no |= !active;
         self.latest = self.latest.next(active);
         self.latest
     }
@@ -62,6 +65,11 @@ impl Activation {
         let stamp = self.say(active);
         self.pairs.insert(pair, stamp);
         Ok(())
+    }
+
+    /// Whether some pair may be inactive.
+    pub(crate) fn says_no(&self) -> bool {
+        self.says_no
     }
 
     /// Whether a pair is active, the earlier created object first.

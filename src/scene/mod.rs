@@ -18,25 +18,34 @@ mod boxes;
 mod proxies;
 mod broad_phase;
 mod narrow_phase;
+mod poses;
+mod filters;
 mod run;
+mod object_query;
+mod events;
 
 use std::sync::Arc;
 
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::{Pose, ROTATION_LIMIT};
+#[cfg(doc)]
+use crate::base::math::Pose;
+use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::copied;
 use crate::base::simd::environment::with_default;
+use crate::pair::PairConfig;
 #[cfg(doc)]
 use crate::pair::{self, Outcome};
-use crate::pair::{PairConfig, Query};
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::BroadPhase;
-use crate::scene::broad_phase::near_pairs::Testing;
+use crate::scene::events::Events;
 use crate::scene::narrow_phase::Findings;
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::proxies::{Label, NewProxy, Proxies};
 use crate::shape::Shape;
 
+pub use crate::pair::Query;
+pub use events::{ObjectPair, SceneEvents};
+pub use filters::PairFilter;
 pub use query::{PairResult, SceneAnswer, SceneQuery};
 pub use statistics::SceneStatistics;
 
@@ -57,15 +66,18 @@ impl Default for SceneOptions {
 ///
 /// A new pair is active, a pair of two fixed objects never exists. What is said of a pair, an object or all holds for
 /// the pairs there are until something later is said that covers them; objects added later begin with all their pairs
-/// active. Deactivated pairs are not tested and remember nothing.
+/// active. Deactivated pairs are not tested, and keep what they remember while they are near.
 #[derive(Debug)]
 pub struct Scene {
     objects: ObjectTable,
     proxies: Proxies,
     broad_phase: BroadPhase,
     activation: Activation,
-    /// What was said on activation is not yet said to the near pairs.
-    activation_changed: bool,
+    filter: Option<PairFilter>,
+    /// What was said on the testing of pairs and is not yet said to the near ones.
+    news: News,
+    /// The pairs of a program with a broad phase of its own; where there are none, the scene's own finds what is near.
+    given: Option<Vec<[ObjectId; 2]>>,
     rotation_limit: f64,
     /// How many times queries have looked at the pairs.
     passes: u64,
@@ -74,7 +86,18 @@ pub struct Scene {
     findings: Findings,
     /// The results of the query before, or what is left of them.
     before: Vec<PairResult>,
+    events: Events,
     statistics: SceneStatistics,
+}
+
+/// What is to be said to the near pairs, the later including the earlier.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum News {
+    None,
+    /// Activation has changed.
+    Activation,
+    /// All are to be filtered anew.
+    Filter,
 }
 
 /// What makes two queries the same.
@@ -97,12 +120,15 @@ impl Scene {
             proxies: Proxies::default(),
             broad_phase: BroadPhase::default(),
             activation: Activation::default(),
-            activation_changed: false,
+            filter: None,
+            news: News::None,
+            given: None,
             rotation_limit,
             passes: 0,
             last: None,
             findings: Findings::default(),
             before: Vec::new(),
+            events: Events::default(),
             statistics: SceneStatistics::default(),
         })
     }
@@ -128,23 +154,27 @@ impl Scene {
         let object = self.objects.get_mut(id)?;
         self.activation.set_object(object, true);
         for (piece, shape) in (0..).zip(&object.pieces) {
-            let label = Label { object: id, user_data: options.user_data, piece, fixed: options.fixed };
+            let ObjectOptions { user_data, fixed, groups, mask, .. } = *options;
+            let label = Label { object: id, user_data, piece, fixed, groups, mask };
             self.proxies.push(NewProxy { shape: shape.clone(), pose: options.pose, label });
             self.broad_phase.push();
         }
         Ok(id)
     }
 
-    /// Adds an object with the pieces (shared), the pose, the fixedness and the user data of another one. All its pairs
-    /// are active, whatever those of its original are.
+    /// Adds an object with the pieces (shared), the poses, the fixedness, the filter bits and the user data of another one. All its
+    /// pairs are active, whatever those of its original are.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Limit`] when there are no ids left,
     /// [`Error::Memory`]. Nothing is added then.
     pub fn copy_object(&mut self, id: ObjectId) -> Result<ObjectId> {
         let original = self.objects.get(id)?;
-        let options = ObjectOptions { pose: original.pose, fixed: original.fixed, user_data: original.user_data };
-        self.add_object(copied(&original.pieces)?, &options)
+        let options = original.options();
+        let piece_poses = copied(&original.piece_poses)?;
+        let copy = self.add_object(copied(&original.pieces)?, &options)?;
+        self.put_pieces(copy, piece_poses)?;
+        Ok(copy)
     }
 
     /// Removes an object and its pairs. Its id is stale from now on; all other ids stay as they are.
@@ -178,6 +208,39 @@ impl Scene {
         self.objects.len()
     }
 
+    /// Fixes an object or lets it move: two fixed ones are never tested. What its pairs remember stays.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub fn set_fixed(&mut self, id: ObjectId, fixed: bool) -> Result<()> {
+        let object = self.objects.get_mut(id)?;
+        let was_fixed = std::mem::replace(&mut object.fixed, fixed);
+        if fixed != was_fixed {
+            for proxy in object.proxies() {
+                self.broad_phase.take_out(proxy, was_fixed);
+                self.proxies.labels[proxy].fixed = fixed;
+                self.proxies.look_for_pairs_of(proxy);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the filter bits of an object ([`ObjectOptions::groups`]).
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub fn set_filter(&mut self, id: ObjectId, groups: u32, mask: u32) -> Result<()> {
+        let object = self.objects.get_mut(id)?;
+        if (object.groups, object.mask) != (groups, mask) {
+            (object.groups, object.mask) = (groups, mask);
+            for proxy in object.proxies() {
+                (self.proxies.labels[proxy].groups, self.proxies.labels[proxy].mask) = (groups, mask);
+                self.proxies.look_for_pairs_of(proxy);
+            }
+        }
+        Ok(())
+    }
+
     /// Sets the number that comes back in every result of this object.
     ///
     /// # Errors
@@ -187,139 +250,6 @@ impl Scene {
         object.user_data = user_data;
         for proxy in object.proxies() {
             self.proxies.labels[proxy].user_data = user_data;
-        }
-        Ok(())
-    }
-
-    // --- Poses ---
-
-    /// Moves an object, a fixed one too. For twelve numbers see [`Pose::from_row_major`], for R and T [`Pose::new`].
-    ///
-    /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Pose`] for a pose that is not accepted;
-    /// the object then stays where it is.
-    pub fn set_pose(&mut self, id: ObjectId, pose: &Pose) -> Result<()> {
-        let object = self.objects.get_mut(id)?;
-        let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
-        with_default(|| {
-            pose.check(limit)?;
-            place(object, pose, proxies, passes);
-            Ok(())
-        })
-    }
-
-    /// Moves all objects that are not fixed, in order of creation.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] unless there is one pose for each, [`Error::Pose`] for a pose that is not accepted; all objects then
-    /// stay where they are.
-    pub fn set_all_poses(&mut self, poses: &[Pose]) -> Result<()> {
-        let moving = self.objects.iter().filter(|object| !object.fixed).count();
-        if poses.len() != moving {
-            return Err(Error::Argument(format!("{} poses for {moving} objects that are not fixed", poses.len())));
-        }
-        for (k, pose) in poses.iter().enumerate() {
-            with_default(|| pose.check(self.rotation_limit))
-                .map_err(|e| Error::Pose(format!("pose {k} of {moving}: {e}")))?;
-        }
-        let mut poses = poses.iter();
-        let (proxies, passes) = (&mut self.proxies, self.passes);
-        with_default(|| {
-            self.objects.for_each_mut(|object| {
-                if !object.fixed
-                    && let Some(pose) = poses.next()
-                {
-                    place(object, pose, proxies, passes);
-                }
-            });
-        });
-        Ok(())
-    }
-
-    // --- Activation ---
-
-    /// Activates or deactivates the pair of two objects, in either order, with all its pairs of pieces. No effect on two
-    /// fixed objects.
-    ///
-    /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice,
-    /// [`Error::Memory`]; the pair stays as it is.
-    pub fn set_pair_active(&mut self, id1: ObjectId, id2: ObjectId, active: bool) -> Result<()> {
-        let (object1, object2) = self.ordered_pair(id1, id2)?;
-        let pair = [object1.id(), object2.id()];
-        let objects = &self.objects;
-        let pieces = (object1.proxies(), object2.proxies());
-        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok())?;
-        let testing = if active { Testing::Active } else { Testing::Inactive };
-        for proxy1 in pieces.0 {
-            for proxy2 in pieces.1.clone() {
-                self.broad_phase.near.set_testing(&self.proxies.firsts, [proxy1 as u32, proxy2 as u32], testing);
-            }
-        }
-        Ok(())
-    }
-
-    /// Activates or deactivates all pairs that an object is in.
-    ///
-    /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's.
-    pub fn set_object_active(&mut self, id: ObjectId, active: bool) -> Result<()> {
-        self.activation.set_object(self.objects.get_mut(id)?, active);
-        self.activation_changed = true;
-        Ok(())
-    }
-
-    /// Activates or deactivates all pairs.
-    pub fn set_all_active(&mut self, active: bool) {
-        self.activation.set_all(active);
-        self.activation_changed = true;
-    }
-
-    /// Whether queries test the pair of two objects, given in either order.
-    ///
-    /// # Errors
-    /// As [`Scene::set_pair_active`].
-    pub fn is_pair_active(&self, id1: ObjectId, id2: ObjectId) -> Result<bool> {
-        let (object1, object2) = self.ordered_pair(id1, id2)?;
-        Ok(self.tests(object1, object2))
-    }
-
-    /// Two different objects, the earlier created first.
-    fn ordered_pair(&self, id1: ObjectId, id2: ObjectId) -> Result<(&Object, &Object)> {
-        let (object1, object2) = (self.objects.get(id1)?, self.objects.get(id2)?);
-        match object1.first_proxy.cmp(&object2.first_proxy) {
-            std::cmp::Ordering::Less => Ok((object1, object2)),
-            std::cmp::Ordering::Equal => {
-                Err(Error::Argument(format!("object {id1} is given twice: an object makes no pair with itself")))
-            }
-            std::cmp::Ordering::Greater => Ok((object2, object1)),
-        }
-    }
-
-    /// Whether queries test the pair, the earlier created object first.
-    fn tests(&self, object1: &Object, object2: &Object) -> bool {
-        !(object1.fixed && object2.fixed) && self.activation.is_active(object1, object2)
-    }
-
-    // --- Near pairs ---
-
-    /// Brings the near pairs up to date: all that a query with this tolerance may list are among them.
-    ///
-    /// # Errors
-    /// [`Error::Memory`].
-    fn update_near_pairs(&mut self, tolerance: f64) -> Result<()> {
-        let (objects, activation) = (&self.objects, &self.activation);
-        let testing = |pair: [&Label; 2]| testing(objects, activation, pair);
-        if self.activation_changed {
-            self.broad_phase.near.for_each_testing(&self.proxies.labels, testing);
-            self.activation_changed = false;
-        }
-        self.broad_phase.update(&mut self.proxies, tolerance, testing)?;
-        if self.proxies.has_many_gone()
-            && let Some(numbers) = self.broad_phase.renumber(&mut self.proxies)
-        {
-            let renumber = |object: &mut Object| object.first_proxy = numbers[object.first_proxy as usize];
-            self.objects.for_each_mut(renumber);
         }
         Ok(())
     }
@@ -380,21 +310,5 @@ impl Scene {
     /// Sets all statistics to zero.
     pub fn reset_statistics(&mut self) {
         self.statistics = SceneStatistics::default();
-    }
-}
-
-/// Puts all pieces of an object elsewhere. `passes`: how many times queries have looked at the pairs.
-fn place(object: &mut Object, pose: &Pose, proxies: &mut Proxies, passes: u64) {
-    object.pose = *pose;
-    for proxy in object.proxies() {
-        proxies.place(proxy, pose, passes);
-    }
-}
-
-/// Whether a near pair is tested, the earlier created object first.
-fn testing(objects: &ObjectTable, activation: &Activation, labels: [&Label; 2]) -> Testing {
-    match labels.map(|label| objects.get(label.object)) {
-        [Ok(object1), Ok(object2)] if activation.is_active(object1, object2) => Testing::Active,
-        _ => Testing::Inactive,
     }
 }

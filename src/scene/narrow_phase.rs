@@ -2,12 +2,12 @@
 //!
 //! | first look | settles |
 //! |---|---|
+//! | outer spheres | pairs farther apart than the tolerance |
 //! | odometers | pairs that cannot have come near since they were last found apart |
 //! | stamps | pairs of which neither piece has moved since the same query before: its answer is given again |
-//! | outer spheres | pairs farther apart than the tolerance |
 //! | inner spheres | of queries for intersection alone, pairs that certainly intersect |
 //!
-//! Only the second and the fourth list pairs. The fourth is a function of the poses, and an answer given again is the one that the
+//! Only the last two list pairs. The last is a function of the poses, and an answer given again is the one that the
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
 use crate::base::error::Result;
@@ -24,8 +24,21 @@ use crate::shape::Shape;
 /// Pairs that are looked at before the first of them is tested.
 pub(crate) const BLOCK: usize = 256;
 
-/// So many tests ahead the memory is asked for poses: one test takes about as long as memory does.
-const AHEAD: usize = 3;
+/// So many tests ahead the memory is asked for poses and caches: one test takes about as long as memory does.
+const TEST_AHEAD: usize = 3;
+
+/// So many looks ahead it is asked for spheres.
+const LOOK_AHEAD: usize = 16;
+
+/// The answer of balls that overlap.
+const INSCRIBED: PairAnswer = PairAnswer {
+    outcome: Outcome::Intersecting,
+    status: Status::InscribedSpheres,
+    distance: 0.0,
+    lower: 0.0,
+    upper: 0.0,
+    ..PairAnswer::UNSAID
+};
 
 /// One of the pair queries of [`pair`](crate::pair).
 pub(crate) type Solver = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
@@ -50,7 +63,9 @@ pub(crate) struct Pass<'a> {
 /// What came of a part of the pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
-    pub results: Vec<PairResult>,
+    /// Kept from pass to pass, with what is left of earlier ones behind the results.
+    slots: Vec<PairResult>,
+    count: usize,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
     /// Of one block of pairs those that the first look has not settled.
@@ -60,14 +75,32 @@ pub(crate) struct Findings {
 impl Findings {
     /// For another pass.
     pub fn clear(&mut self) {
-        self.results.clear();
+        self.count = 0;
         self.statistics = SceneStatistics::default();
         self.intersecting = false;
     }
 
+    /// Those of the pass, in the scene's order.
+    pub fn results(&self) -> &[PairResult] {
+        &self.slots[..self.count]
+    }
+
+    /// Takes the place of the results of before, and gives it to them.
+    pub fn swap_results(&mut self, before: &mut Vec<PairResult>) {
+        std::mem::swap(&mut self.slots, before);
+    }
+
+    /// Room for `count` more results.
+    fn reserve(&mut self, count: usize) -> Result<()> {
+        let missing = (self.count + count).saturating_sub(self.slots.len());
+        reserve(&mut self.slots, missing)?;
+        self.slots.resize(self.slots.len() + missing, PairResult::default());
+        Ok(())
+    }
+
     /// Sum of `upper − lower` over the results.
     pub fn error_spent(&self) -> f64 {
-        self.results.iter().map(|result| result.answer.upper - result.answer.lower).sum()
+        self.results().iter().map(|result| result.answer.upper - result.answer.lower).sum()
     }
 }
 
@@ -87,23 +120,28 @@ impl Pass<'_> {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn run(&self, pairs: &mut [NearPair], caches: &mut [PairCache], findings: &mut Findings) -> Result<bool> {
-        for (pairs, caches) in pairs.chunks_mut(BLOCK).zip(caches.chunks_mut(BLOCK)) {
+        for pairs in pairs.chunks_mut(BLOCK) {
             findings.left.clear();
-            for (k, pair) in pairs.iter_mut().enumerate() {
-                match self.look(pair, &mut findings.statistics) {
-                    Look::Settled => pair.result = UNLISTED,
+            for k in 0..pairs.len() {
+                if let Some(ahead) = pairs.get(k + LOOK_AHEAD) {
+                    prefetch(&self.proxies.spheres[ahead.proxies[1] as usize]);
+                }
+                match self.look(&mut pairs[k], &mut findings.statistics) {
+                    Look::Settled => pairs[k].result = UNLISTED,
                     look => push(&mut findings.left, (k, look))?,
                 }
             }
-            reserve(&mut findings.results, findings.left.len())?;
+            findings.reserve(findings.left.len())?;
             for k in 0..findings.left.len() {
-                if let Some((ahead, _)) = findings.left.get(k + AHEAD) {
-                    for proxy in pairs[*ahead].proxies {
+                if let Some((ahead, Look::Test)) = findings.left.get(k + TEST_AHEAD) {
+                    let ahead = &pairs[*ahead];
+                    prefetch(&caches[ahead.cache as usize]);
+                    for proxy in ahead.proxies {
                         prefetch(&self.proxies.poses[proxy as usize]);
                     }
                 }
                 let (at, look) = findings.left[k];
-                if self.list(look, &mut pairs[at], &mut caches[at], findings)? {
+                if self.list(look, &mut pairs[at], caches, findings)? {
                     return Ok(true);
                 }
             }
@@ -118,6 +156,11 @@ impl Pass<'_> {
         }
         let before = std::mem::replace(&mut pair.looked_at, self.number);
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
+        let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
+        if are_far_apart(spheres1, spheres2, self.tolerance) {
+            statistics.count_settled(Settled::BoundingSpheres);
+            return Look::Settled;
+        }
         let [motion1, motion2] = [&self.proxies.motions[a], &self.proxies.motions[b]];
         let travelled = motion1.odometer + motion2.odometer;
         // With s the odometers' sum when the pair was tested and s' now: from fl(s')(1 + 8u) + τ < (s(1 − 8u) + lower)(1 − 8u), all
@@ -133,32 +176,15 @@ impl Pass<'_> {
             statistics.count_settled(Settled::Unmoved);
             return Look::Settled;
         }
-        let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
-        if are_far_apart(spheres1, spheres2, self.tolerance) {
-            statistics.count_settled(Settled::BoundingSpheres);
-            return Look::Settled;
-        }
         let inner = self.proxies.inner[a] + self.proxies.inner[b];
         if self.verdict_only && overlap_inside(spheres1, spheres2, inner) { Look::Intersects } else { Look::Test }
     }
 
     /// Adds the pair's result if it is listed; true if the query is to stop there.
     #[inline(always)]
-    fn list(&self, look: Look, pair: &mut NearPair, cache: &mut PairCache, findings: &mut Findings) -> Result<bool> {
-        let results = &mut findings.results;
-        let [a, b] = pair.proxies.map(|proxy| proxy as usize);
-        let [label1, label2] = [&self.proxies.labels[a], &self.proxies.labels[b]];
-        results.push(PairResult {
-            object1: label1.object,
-            object2: label2.object,
-            user_data1: label1.user_data,
-            user_data2: label2.user_data,
-            piece1: label1.piece,
-            piece2: label2.piece,
-            answer: PairAnswer::default(),
-        });
-        let at = results.len() - 1;
-        let answer = &mut results[at].answer;
+    fn list(&self, look: Look, pair: &mut NearPair, caches: &mut [PairCache], findings: &mut Findings) -> Result<bool> {
+        let at = findings.count;
+        let answer = &mut findings.slots[at].answer;
         match look {
             Look::Settled => {}
             Look::Again(result) => {
@@ -166,28 +192,14 @@ impl Pass<'_> {
                 findings.statistics.count_again(answer);
             }
             Look::Intersects => {
-                *answer = PairAnswer {
-                    outcome: Outcome::Intersecting,
-                    status: Status::InscribedSpheres,
-                    distance: 0.0,
-                    lower: 0.0,
-                    upper: 0.0,
-                    ..PairAnswer::default()
-                };
+                *answer = INSCRIBED;
                 findings.statistics.count(answer);
             }
             Look::Test => {
-                let [shape1, shape2] = [&self.proxies.shapes[a], &self.proxies.shapes[b]];
-                let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
-                // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-                (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
+                *answer = PairAnswer::default();
+                self.test(pair, &mut caches[pair.cache as usize], answer)?;
                 findings.statistics.count(answer);
-                pair.reach = self.reach(answer, a, b);
             }
-        }
-        // What a budget left open may go on the next time.
-        if answer.status == Status::BudgetSpent {
-            pair.looked_at = 0;
         }
         let is_listed = match answer.outcome {
             Outcome::Intersecting => true,
@@ -196,13 +208,38 @@ impl Pass<'_> {
         };
         if !is_listed {
             pair.result = UNLISTED;
-            results.pop();
             return Ok(false);
         }
-        pair.result = at as u32;
         let intersects = answer.outcome == Outcome::Intersecting;
+        pair.result = at as u32;
+        self.sign(pair, &mut findings.slots[at]);
+        findings.count += 1;
         findings.intersecting |= intersects;
         Ok(intersects & self.early_exit)
+    }
+
+    /// Asks the pair layer.
+    #[inline(always)]
+    fn test(&self, pair: &mut NearPair, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
+        let [a, b] = pair.proxies.map(|proxy| proxy as usize);
+        let [shape1, shape2] = [&self.proxies.shapes[a], &self.proxies.shapes[b]];
+        let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
+        // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
+        (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
+        pair.reach = self.reach(answer, a, b);
+        // What a budget left open may go on the next time.
+        if answer.status == Status::BudgetSpent {
+            pair.looked_at = 0;
+        }
+        Ok(())
+    }
+
+    /// Whose result it is.
+    #[inline(always)]
+    fn sign(&self, pair: &NearPair, result: &mut PairResult) {
+        let [label1, label2] = pair.proxies.map(|proxy| &self.proxies.labels[proxy as usize]);
+        (result.object1, result.user_data1, result.piece1) = (label1.object, label1.user_data, label1.piece);
+        (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
     }
 
     /// See [`NearPair::reach`] and [`Pass::look`].

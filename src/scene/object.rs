@@ -72,11 +72,16 @@ pub struct ObjectOptions {
     pub fixed: bool,
     /// The caller's own; it comes back in every result.
     pub user_data: u64,
+    /// The groups it is in, one bit each; the default is the first. Two objects are tested if each one's mask has a bit of the
+    /// other's groups.
+    pub groups: u32,
+    /// The groups it is tested against; the default is all.
+    pub mask: u32,
 }
 
 impl Default for ObjectOptions {
     fn default() -> Self {
-        ObjectOptions { pose: Pose::IDENTITY, fixed: false, user_data: 0 }
+        ObjectOptions { pose: Pose::IDENTITY, fixed: false, user_data: 0, groups: 1, mask: u32::MAX }
     }
 }
 
@@ -102,12 +107,18 @@ pub struct Object {
     /// Convex pieces in one local frame, shared; at least one. They are never tested against each other.
     pub(crate) pieces: Vec<Arc<Shape>>,
     pub(crate) pose: Pose,
+    /// Where each piece is in the object; none where all are at its origin.
+    pub(crate) piece_poses: Vec<Pose>,
     pub(crate) fixed: bool,
     pub(crate) user_data: u64,
+    pub(crate) groups: u32,
+    pub(crate) mask: u32,
     /// The last word on the activation of its pairs.
     pub(crate) activation: Stamp,
     /// The first of its rows among the scene's proxies, one for each piece.
     pub(crate) first_proxy: u32,
+    /// How many objects the scene had created before this one.
+    serial: u64,
     /// Where it stands in the table's order of creation.
     place: u32,
     id: ObjectId,
@@ -129,6 +140,44 @@ impl Object {
         &self.pose
     }
 
+    /// Where a piece is in the object.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose(&self, piece: usize) -> &Pose {
+        assert!(piece < self.pieces.len(), "piece {piece} of {}", self.pieces.len());
+        self.piece_poses.get(piece).unwrap_or(&Pose::IDENTITY)
+    }
+
+    /// Where a piece is in the world: the pose for which queries answer.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose_in_world(&self, piece: usize) -> Pose {
+        if self.piece_poses.is_empty() { self.pose } else { composed(&self.pose, self.piece_pose(piece)) }
+    }
+
+    /// What it was made of, but for the pieces.
+    pub(crate) fn options(&self) -> ObjectOptions {
+        let Object { pose, fixed, user_data, groups, mask, .. } = *self;
+        ObjectOptions { pose, fixed, user_data, groups, mask }
+    }
+
+    /// Whether the two may make a pair, activation and the program's filter aside.
+    pub(crate) fn may_meet(&self, other: &Object) -> bool {
+        !(self.fixed && other.fixed) && self.groups & other.mask != 0 && other.groups & self.mask != 0
+    }
+
+    /// The groups it is in.
+    pub fn groups(&self) -> u32 {
+        self.groups
+    }
+
+    /// The groups it is tested against.
+    pub fn mask(&self) -> u32 {
+        self.mask
+    }
+
     /// Whether it is fixed.
     pub fn fixed(&self) -> bool {
         self.fixed
@@ -139,11 +188,21 @@ impl Object {
         self.user_data
     }
 
+    /// Its place in the order of creation, for ever.
+    pub(crate) fn serial(&self) -> u64 {
+        self.serial
+    }
+
     /// Its rows among the scene's proxies.
     pub(crate) fn proxies(&self) -> Range<usize> {
         let first = self.first_proxy as usize;
         first..first + self.pieces.len()
     }
+}
+
+/// The pose of what is at `inner` in a frame that is at `outer`, each number rounded.
+pub(crate) fn composed(outer: &Pose, inner: &Pose) -> Pose {
+    Pose::new(&(outer.rotation() * inner.rotation()), &outer.transform(&inner.translation()))
 }
 
 #[derive(Debug)]
@@ -163,8 +222,10 @@ pub(crate) struct ObjectTable {
     /// Slots of the objects in order of creation, [`GONE`] in the places of those removed.
     order: Vec<u32>,
     count: usize,
+    created: u64,
 }
 
+/// No slot.
 const GONE: u32 = u32::MAX;
 
 impl ObjectTable {
@@ -173,7 +234,7 @@ impl ObjectTable {
         let count = SCENES.fetch_add(1, Ordering::Relaxed);
         // Tags repeat after 2²⁰ − 1 scenes; zero is left to the null id.
         let scene = (count % ((1 << SCENE_BITS) - 1)) as u32 + 1;
-        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), count: 0 }
+        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), count: 0, created: 0 }
     }
 
     /// Adds an object; the caller has checked the pieces and the pose.
@@ -201,10 +262,24 @@ impl ObjectTable {
         };
         self.slots[slot].generation += 1;
         let id = ObjectId::new(slot, self.slots[slot].generation, self.scene);
-        let ObjectOptions { pose, fixed, user_data } = *options;
+        let ObjectOptions { pose, fixed, user_data, groups, mask } = *options;
         let (activation, place) = (Stamp::default(), self.order.len() as u32);
-        self.slots[slot].object = Some(Object { pieces, pose, fixed, user_data, activation, first_proxy, place, id });
+        self.slots[slot].object = Some(Object {
+            pieces,
+            pose,
+            piece_poses: Vec::new(),
+            fixed,
+            user_data,
+            groups,
+            mask,
+            activation,
+            first_proxy,
+            serial: self.created,
+            place,
+            id,
+        });
         self.count += 1;
+        self.created += 1;
         self.order.push(slot as u32);
         Ok(id)
     }

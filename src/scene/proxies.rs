@@ -38,7 +38,7 @@ pub(crate) struct Motion {
     pub odometer: f64,
     /// While the odometer is not above this, the piece is in its box.
     pub limit: f64,
-    /// The number of queries before the last move.
+    /// The number of passes over the pairs before the last move.
     pub moved: u64,
     /// How far it goes in a step, smoothed; 0 before the first.
     rate: f32,
@@ -57,6 +57,9 @@ pub(crate) struct Label {
     pub piece: u32,
     /// Two fixed ones are never tested.
     pub fixed: bool,
+    /// See [`ObjectOptions`](crate::scene::object::ObjectOptions).
+    pub groups: u32,
+    pub mask: u32,
 }
 
 /// A piece to be added.
@@ -83,6 +86,8 @@ pub(crate) struct Proxies {
     pub escaped: Vec<u32>,
     /// How many are gone.
     pub gone: usize,
+    /// Some have come or gone or may meet others than before, since anybody asked.
+    pub has_news: bool,
 }
 
 impl Proxies {
@@ -107,7 +112,7 @@ impl Proxies {
 
     /// Adds a piece for which there is room.
     pub fn push(&mut self, new: NewProxy) {
-        let (spheres, inner, rigid) = placed(&new.shape, &new.pose);
+        let (spheres, inner, rigid) = placed(&new.shape, &new.pose, new.pose.rotation_defect());
         self.shapes.push(new.shape);
         self.poses.push(new.pose);
         self.spheres.push(spheres);
@@ -119,8 +124,35 @@ impl Proxies {
         self.look_for_pairs_of(self.labels.len() - 1);
     }
 
-    /// Its pairs are to be looked for anew.
+    /// Adds a row for which there is room and which no other part of the scene hears of; gives its number.
+    pub fn push_unseen(&mut self, new: NewProxy) -> usize {
+        let has_news = self.has_news;
+        self.push(new);
+        self.escaped.pop();
+        self.has_news = has_news;
+        self.len() - 1
+    }
+
+    /// Ends the row of [`Proxies::push_unseen`].
+    pub fn pop_unseen(&mut self) {
+        self.shapes.pop();
+        self.poses.pop();
+        self.spheres.pop();
+        self.inner.pop();
+        self.motions.pop();
+        self.boxes.pop();
+        self.labels.pop();
+        self.firsts.pop();
+    }
+
+    /// It may meet others than before: its pairs are to be looked for anew.
     pub fn look_for_pairs_of(&mut self, proxy: usize) {
+        self.has_news = true;
+        self.escape(proxy);
+    }
+
+    /// It may be out of its box.
+    fn escape(&mut self, proxy: usize) {
         let motion = &mut self.motions[proxy];
         if !motion.has_escaped {
             motion.has_escaped = true;
@@ -139,8 +171,8 @@ impl Proxies {
         self.look_for_pairs_of(proxy);
     }
 
-    /// Puts a piece elsewhere. `queries`: how many there have been.
-    pub fn place(&mut self, proxy: usize, pose: &Pose, queries: u64) {
+    /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs.
+    pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
         let old = self.poses[proxy];
         if old == *pose {
             return;
@@ -148,10 +180,10 @@ impl Proxies {
         let shape = &self.shapes[proxy];
         let lever = shape.extent().lever;
         let motion = &mut self.motions[proxy];
-        let (spheres, inner, rigid) = placed(shape, pose);
+        let (spheres, inner, rigid) = placed(shape, pose, defect);
         let way = way_bound(&old, pose, lever, motion.rigid & rigid);
         motion.rigid = rigid;
-        motion.moved = queries;
+        motion.moved = passes;
         // Never below the exact sum; infinite sums say that nothing is known.
         motion.odometer = (motion.odometer + way).next_up();
         motion.rate = if motion.rate == 0.0 { way as f32 } else { 0.75 * motion.rate + 0.25 * way as f32 };
@@ -160,7 +192,7 @@ impl Proxies {
         self.inner[proxy] = inner;
         // An infinite odometer is above every limit but an infinite one, which only boxes without end have.
         if motion.odometer > motion.limit {
-            self.look_for_pairs_of(proxy);
+            self.escape(proxy);
         }
     }
 
@@ -189,7 +221,8 @@ impl Proxies {
     #[inline(always)]
     pub fn may_meet(&self, a: usize, b: usize) -> bool {
         let [one, other] = [&self.labels[a], &self.labels[b]];
-        (one.object != other.object) & !(one.fixed & other.fixed) & !self.is_gone(a) & !self.is_gone(b)
+        let are_masked = (one.groups & other.mask == 0) | (other.groups & one.mask == 0);
+        (one.object != other.object) & !(one.fixed & other.fixed) & !are_masked & !self.is_gone(a) & !self.is_gone(b)
     }
 
     /// Whether the rows of pieces that are gone should be dropped.
@@ -242,9 +275,8 @@ impl Proxies {
 ///
 /// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
 /// d ≤ 1e-2; d as computed is off by at most 4u.
-fn placed(shape: &Shape, pose: &Pose) -> (Spheres, f64, bool) {
+fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, f64, bool) {
     let polyhedron = shape.polyhedron();
-    let defect = pose.rotation_defect();
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };

@@ -94,18 +94,20 @@ impl Extent {
     /// |R's row|·|p| ≤ 1.02ρ.
     fn reach_of_points(&self, pose: &Pose, radius: f64) -> Reach {
         let error = 12.0 * f64::from(f32::EPSILON / 2.0) * radius;
-        let mut turned = Turned { pose, points: &self.points, lower: [0.0; 3], upper: [0.0; 3] };
+        let mut turned = Turned { pose, points: &self.points, ends: [[0.0; 2]; 3] };
         simd::dispatch(&mut turned);
-        Reach { lower: turned.lower.map(|x| f64::from(x) - error), upper: turned.upper.map(|x| f64::from(x) + error) }
+        Reach {
+            lower: turned.ends.map(|[least, _]| f64::from(least) - error),
+            upper: turned.ends.map(|[_, greatest]| f64::from(greatest) + error),
+        }
     }
 }
 
-/// The ends of turned points along the three axes. Plain loops over eight numbers, which the compiler turns into vectors.
+/// The ends of turned points along the three axes.
 struct Turned<'a> {
     pose: &'a Pose,
     points: &'a [[[f32; 8]; 3]],
-    lower: [f32; 3],
-    upper: [f32; 3],
+    ends: [[f32; 2]; 3],
 }
 
 impl Kernel for Turned<'_> {
@@ -113,18 +115,8 @@ impl Kernel for Turned<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
-        for axis in 0..3 {
-            let [a, b, c] = [0, 1, 2].map(|column| self.pose.rows[axis][column] as f32);
-            let (mut lower, mut upper) = ([f32::INFINITY; 8], [f32::NEG_INFINITY; 8]);
-            for [x, y, z] in self.points {
-                for lane in 0..8 {
-                    let at = a * x[lane] + b * y[lane] + c * z[lane];
-                    lower[lane] = if at < lower[lane] { at } else { lower[lane] };
-                    upper[lane] = if at > upper[lane] { at } else { upper[lane] };
-                }
-            }
-            self.lower[axis] = lower.into_iter().fold(f32::INFINITY, f32::min);
-            self.upper[axis] = upper.into_iter().fold(f32::NEG_INFINITY, f32::max);
+        for (ends, row) in self.ends.iter_mut().zip(&self.pose.rows) {
+            *ends = L::load(row).extreme_products(self.points);
         }
     }
 }

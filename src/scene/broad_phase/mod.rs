@@ -8,6 +8,8 @@ mod grid;
 pub(crate) mod tree;
 pub(crate) mod near_pairs;
 
+use std::ops::Range;
+
 use crate::base::error::Result;
 use crate::base::memory::{extend, reserve};
 use crate::scene::object::ObjectId;
@@ -42,6 +44,8 @@ pub(crate) struct BroadPhase {
     smaller: (u32, f64),
     /// An update was not finished: everything is to be made anew.
     is_broken: bool,
+    /// The list holds what the program has given.
+    is_given: bool,
 }
 
 impl Default for BroadPhase {
@@ -57,6 +61,7 @@ impl Default for BroadPhase {
             tolerance: 0.0,
             smaller: (0, 0.0),
             is_broken: false,
+            is_given: false,
         }
     }
 }
@@ -116,6 +121,47 @@ impl BroadPhase {
             proxies.motions[proxy as usize].has_escaped = false;
         }
         self.is_broken = false;
+        Ok(())
+    }
+
+    /// Boxes overlap of all that are not farther apart than this.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The next update looks for all pairs.
+    pub fn begin_anew(&mut self) {
+        self.is_broken = true;
+        self.is_given = false;
+    }
+
+    /// Makes the list hold the pairs of these pieces, if it does not, each pair's in a range each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
+    pub fn take(
+        &mut self,
+        proxies: &mut Proxies,
+        pieces: impl Iterator<Item = (Range<usize>, Range<usize>)>,
+        mut testing: impl FnMut([&Label; 2]) -> Testing,
+    ) -> Result<()> {
+        // Pieces that have moved or come stay in the list of escaped ones; of those gone the pairs have to go.
+        if self.is_given && !proxies.has_news {
+            return Ok(());
+        }
+        self.is_given = false;
+        self.candidates.clear();
+        for (pieces1, pieces2) in pieces {
+            for piece1 in pieces1 {
+                for piece2 in pieces2.clone() {
+                    self.candidates.add_if_meeting(proxies, piece1 as u32, piece2 as u32)?;
+                }
+            }
+        }
+        let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
+        self.near.update(&mut self.candidates, &proxies.firsts, |_| true, is_tested)?;
+        proxies.has_news = false;
+        self.is_given = true;
         Ok(())
     }
 

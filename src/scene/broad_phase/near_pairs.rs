@@ -24,6 +24,8 @@ pub(crate) struct NearPair {
     pub reach: f64,
     /// The query in which it was last looked at: its number from 1 on.
     pub looked_at: u64,
+    /// Where its memory is.
+    pub cache: u32,
     /// Where in the results of that query its own is, or [`UNLISTED`].
     pub result: u32,
     pub testing: Testing,
@@ -34,7 +36,14 @@ pub(crate) const UNLISTED: u32 = u32::MAX;
 
 impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
-        NearPair { proxies, reach: f64::NEG_INFINITY, looked_at: 0, result: UNLISTED, testing: Testing::Active }
+        NearPair {
+            proxies,
+            reach: f64::NEG_INFINITY,
+            looked_at: 0,
+            cache: 0,
+            result: UNLISTED,
+            testing: Testing::Active,
+        }
     }
 }
 
@@ -121,8 +130,10 @@ impl Candidates {
 #[derive(Debug, Default)]
 pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
-    /// What each pair's queries remember, in the same order.
+    /// What each pair's queries remember, in no order: pairs move when others come and go, this does not.
     pub caches: Vec<PairCache>,
+    /// Caches without a pair; with room for all.
+    free: Vec<u32>,
     /// Pairs that come, until they are merged.
     arrivals: Vec<NearPair>,
 }
@@ -153,17 +164,15 @@ impl NearPairs {
             let is_candidate = found.get(next) == Some(&pair);
             next += usize::from(is_candidate);
             if is_candidate || !is_open(pair) {
-                if kept < at {
-                    self.pairs[kept] = self.pairs[at];
-                    self.caches[kept] = self.caches[at];
-                }
+                self.pairs[kept] = self.pairs[at];
                 kept += 1;
+            } else {
+                self.free.push(self.pairs[at].cache);
             }
         }
         found.copy_within(next.., new);
         found.truncate(new + found.len() - next);
         self.pairs.truncate(kept);
-        self.caches.truncate(kept);
         self.merge(found, firsts, testing)
     }
 
@@ -179,30 +188,37 @@ impl NearPairs {
         extend(arrivals, new_pairs.iter().map(|&pair| NearPair::new(pair)))?;
         arrivals.iter_mut().for_each(|pair| pair.testing = testing(pair.proxies));
         reserve(&mut self.pairs, arrivals.len())?;
-        reserve(&mut self.caches, arrivals.len())?;
+        let more = arrivals.len().saturating_sub(self.free.len());
+        reserve(&mut self.caches, more)?;
+        let room = self.caches.len() + more - self.free.len();
+        reserve(&mut self.free, room)?;
+        for pair in arrivals.iter_mut() {
+            pair.cache = self.free.pop().unwrap_or(self.caches.len() as u32);
+            match self.caches.get_mut(pair.cache as usize) {
+                Some(cache) => *cache = PairCache::default(),
+                None => self.caches.push(PairCache::default()),
+            }
+        }
         let (mut old, mut new) = (self.pairs.len(), arrivals.len());
         self.pairs.extend_from_slice(arrivals);
-        self.caches.resize(self.pairs.len(), PairCache::default());
         while new > 0 {
             let at = old + new - 1;
             let arrival = arrivals[new - 1];
             if old > 0 && order(firsts, self.pairs[old - 1].proxies) > order(firsts, arrival.proxies) {
                 old -= 1;
                 self.pairs[at] = self.pairs[old];
-                self.caches[at] = self.caches[old];
             } else {
                 new -= 1;
                 self.pairs[at] = arrival;
-                self.caches[at] = PairCache::default();
             }
         }
         Ok(())
     }
 
-    /// Says anew of all whether they are tested, but for those that were rejected.
-    pub fn for_each_testing(&mut self, labels: &[Label], testing: impl Fn([&Label; 2]) -> Testing) {
-        for pair in self.pairs.iter_mut().filter(|pair| pair.testing != Testing::Rejected) {
-            pair.testing = testing(pair.proxies.map(|proxy| &labels[proxy as usize]));
+    /// Says anew of all whether they are tested, from what was said before.
+    pub fn for_each_testing(&mut self, labels: &[Label], mut testing: impl FnMut(Testing, [&Label; 2]) -> Testing) {
+        for pair in &mut self.pairs {
+            pair.testing = testing(pair.testing, pair.proxies.map(|proxy| &labels[proxy as usize]));
         }
     }
 
@@ -259,7 +275,10 @@ mod tests {
             for pair in found {
                 model.entry(pair).or_insert(0);
             }
-            assert_eq!(list.caches.len(), list.pairs.len());
+            assert_eq!(list.caches.len(), list.pairs.len() + list.free.len());
+            let caches: BTreeSet<u32> =
+                list.pairs.iter().map(|pair| pair.cache).chain(list.free.iter().copied()).collect();
+            assert_eq!(caches.len(), list.caches.len(), "no two share one");
             let listed: Vec<([u32; 2], u64)> = list.pairs.iter().map(|pair| (pair.proxies, pair.looked_at)).collect();
             assert_eq!(listed, model.iter().map(|(pair, &mark)| (pair.1, mark)).collect::<Vec<_>>());
             for pair in &mut list.pairs {
