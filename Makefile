@@ -9,6 +9,7 @@
 # make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
 #                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
+# make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -33,13 +34,13 @@ PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
 # DRAW=python3 takes that.
 DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
 MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
-COAL = $(BUILD)/coal/bin/python
 STABILITY = benches/results/stability
+STABILITY_PAGE = $(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability steps charts cases hard clean
+.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -59,13 +60,7 @@ test:
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	cargo fmt --check
-	cargo clippy --locked --profile checked --all-targets -- -D warnings
-	@! LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' \
-	    --exclude-dir=target --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$$' || \
-	    { echo 'comments are at most 132 columns wide'; exit 1; }
-	python3 benches/figures.py --check $(FIGURES)-*.csv
-	python3 benches/plot.py --check
+	scripts/lint.sh
 
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:
@@ -90,27 +85,17 @@ fuzz:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++
 	scripts/fuzz.sh $(SECONDS) $(TARGET)
 
-# What needs nightly Rust, or a component of it, is skipped where that is missing; scripts/nightly.sh says so. The tests are those
-# of unsafe code and of everything that reads what others wrote; C programs are compiled for both sanitizers, the library is not.
-ASAN_TESTS = --lib --test c_interface --test mesh_io --test shape_file --test hull --test hull_check --test verify --test flat_edges
-HOST = $(shell PATH='$(PATH)' rustc -vV | sed -n 's/^host: //p')
 asan:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake
-	RUSTFLAGS=-Zsanitizer=address scripts/nightly.sh "" test --locked --profile checked --target $(HOST) $(ASAN_TESTS)
-	cmake -S . -B $(BUILD)/asan -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=ON \
-	    -DCMAKE_C_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
-	cmake --build $(BUILD)/asan --target scene_use bad_input mesh_reader allocator memory files threads busy
-	ctest --test-dir $(BUILD)/asan --output-on-failure --tests-regex '^(scene_use|bad_input|mesh_reader|allocator|memory|files|threads|busy)$$'
+	scripts/sanitizers.sh address
 
-# The standard library is built for it, too: else its locks look like races.
 tsan:
 	@scripts/require.sh $(CC_PACKAGES)
-	RUSTFLAGS=-Zsanitizer=thread scripts/nightly.sh rust-src test --locked --profile checked -Zbuild-std --target $(HOST) \
-	    --lib --test c_interface --test threads --test lookup
+	scripts/sanitizers.sh thread
 
 miri:
 	@scripts/require.sh $(CC_PACKAGES)
-	MIRIFLAGS=-Zmiri-disable-isolation scripts/nightly.sh "miri rust-src" miri test --locked --lib
+	scripts/sanitizers.sh miri
 
 valgrind:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake valgrind=valgrind
@@ -125,33 +110,24 @@ bench:
 	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --csv $(RESULTS)
 	$(DRAW) benches/plot.py $(RESULTS)
 
-# Each measurement takes a minute or two.
-COMPARE = $(TIMED) $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare
 figures:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
-	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
-	$(COMPARE) --figures 5,6,7,8,9,10,11,12 --count 1800 --passes 5 --csv $(FIGURES)-paper.csv
-	$(COMPARE) --figures choice --count 1800 --passes 15 --csv $(FIGURES)-choice.csv
-	$(COMPARE) --figures error --count 1800 --passes 5 --csv $(FIGURES)-error.csv
-	$(COMPARE) --figures size --count 900 --passes 3 --csv $(FIGURES)-size.csv
-	$(COMPARE) --build --n 1002,10002,100002 --passes 2 --csv $(FIGURES)-build.csv
-	$(COMPARE) --query intersection --n 1002,10002 --count 1800 --passes 5 --csv $(FIGURES)-verdict.csv
+	TIMED='$(TIMED)' scripts/figures.sh
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 
-# Peers that are not installed are left out; coal comes from PyPI into an environment of its own in build/.
 stability:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh $(PEERS)
-	cmake -S . -B $(BUILD) -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON
-	cmake --build $(BUILD) --target stability_runners
-	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
-	rm -rf $(BUILD)/hard
-	cargo run --locked --release --example hard_cases -- $(BUILD)/hard
-	-@test -x $(COAL) || { python3 -m venv $(BUILD)/coal && $(BUILD)/coal/bin/pip install -q coal==3.0.3; } || rm -rf $(BUILD)/coal
-	python3 benches/stability/stability.py $(BUILD)/hard --build $(BUILD) --coal $(COAL) \
-		--compare $${CARGO_TARGET_DIR:-benches/compare/target}/release/compare --csv $(STABILITY).csv --cost $(STABILITY)-cost.csv
-	$(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
+	scripts/stability.sh $(STABILITY).csv $(STABILITY)-cost.csv
+	$(STABILITY_PAGE)
+
+crowds:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS)
+	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --crowd 100,1000,10000,100000 --count 256 \
+	    --csv benches/results/crowds.csv
+	$(DRAW) benches/plot.py benches/results/crowds.csv
 
 steps:
 	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)
@@ -162,7 +138,7 @@ charts:
 	@scripts/require.sh $(MATPLOTLIB)
 	$(DRAW) benches/plot.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
-	$(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
+	$(STABILITY_PAGE)
 
 cases:
 	$(if $(CASES),,$(error make cases CASES=DIR: the folder of cases is missing))

@@ -74,7 +74,7 @@ def marching_rule(rows):
     ratio = {s: mean(rows, step=s, series="first violated") / mean(rows, step=s, series="most violated") for s in steps}
     worst = max(ratio.values())
     text = ", ".join(f"{value:.2f} at {s if s == 'random' else s + '°'}" for s, value in ratio.items())
-    return ("J5", "marching to the most violated plane is faster than V-Clip, by less than two times",
+    return ("Fig. 5", "marching to the most violated plane is faster than V-Clip, by less than two times",
             verdict(min(ratio.values()) > 0.97 and 1.05 < worst < 2), f"first / most violated: {text}. The first-violated "
             "series is our own code with that rule alone changed, not V-Clip: V-Clip also tests one feature after the other.")
 
@@ -84,7 +84,7 @@ def tables_on_fat(rows):
     own = {name: time for name, time in means.items() if name != "shells"}
     factors = [max(t for n, t in own.items() if n.endswith(d)) / min(t for n, t in own.items() if n.endswith(d)) for d in ("5.625", "11.25")]
     resolution = mean([r for r in rows if r["figure"] == "6" and r["model"] == "fat"], series="2 11.25") / own["2 5.625"]
-    return ("J6a", "of look-up tables on fat bodies the resolution counts, the radius factor does not",
+    return ("Fig. 6, claim 1", "of look-up tables on fat bodies the resolution counts, the radius factor does not",
             HOLDS if max(factors) < min(1.05, resolution) else PARTLY if max(factors) < resolution else HOLDS_NOT,
             f"between factors {100 * (max(factors) - 1):.0f} %, between 5.625° and 11.25° {100 * (resolution - 1):.0f} %")
 
@@ -92,7 +92,7 @@ def tables_on_fat(rows):
 def tables_by_model(rows):
     means = {m: mean(rows, figure="6", model=m, series="2 5.625") for m in ("fat", "plate", "long")}
     ours = {m: mean(rows, figure="6", model=m, series="shells") for m in means}
-    return ("J6b", "tables are much better on fat bodies than on plates and long ones",
+    return ("Fig. 6, claim 2", "tables are much better on fat bodies than on plates and long ones",
             verdict(min(means["plate"], means["long"]) > 1.3 * means["fat"]),
             f"LUT 2 5.625: {listed(means)} ns. Looked up in turns on several shells that goes away: {listed(ours)} ns")
 
@@ -104,7 +104,7 @@ def tables_factor(rows):
         best[model] = means
     is_best = all(means[2] <= 1.02 * min(means.values()) for means in best.values())
     text = "; ".join(f"{m}: " + ", ".join(f"factor {f} {ns(t)}" for f, t in means.items()) for m, means in best.items())
-    return ("J6c", "on plates and long bodies the factor 2 is best", verdict(is_best), f"{text} ns")
+    return ("Fig. 6, claim 3", "on plates and long bodies the factor 2 is best", verdict(is_best), f"{text} ns")
 
 
 def removal_intersection(rows):
@@ -112,7 +112,7 @@ def removal_intersection(rows):
     by_cut_off = {c: geometric_mean([t for n, t in means.items() if n.startswith(f"{c} ")]) for c in (20, 100, 250)}
     spread = max(means.values()) / min(means.values())
     coarse = by_cut_off[20] == min(by_cut_off.values())
-    return ("J7", "Dobkin-Kirkpatrick, intersection: little difference among settings; the coarser the coarsest level the better",
+    return ("Fig. 7", "Dobkin-Kirkpatrick, intersection: little difference among settings; the coarser the coarsest level the better",
             HOLDS if spread < 1.5 and coarse else PARTLY if spread < 1.5 or coarse else HOLDS_NOT,
             f"slowest / fastest setting {spread:.2f}; by cut-off {listed(by_cut_off)} ns. On round bodies of the small orbit the coarsest "
             "levels stand off so far that they intersect")
@@ -121,7 +121,7 @@ def removal_intersection(rows):
 def removal_distance(rows):
     means = by_series(rows, figure="8")
     policies = {p: geometric_mean([t for n, t in means.items() if n.endswith(f" {p}")]) for p in ("Single", "Single-Single", "Double-Double")}
-    return ("J8", "Dobkin-Kirkpatrick, exact distance: Double-Double is best", verdict(min(policies, key=policies.get) == "Double-Double"),
+    return ("Fig. 8", "Dobkin-Kirkpatrick, exact distance: Double-Double is best", verdict(min(policies, key=policies.get) == "Double-Double"),
             f"{listed(policies)} ns")
 
 
@@ -138,14 +138,14 @@ def quadric_intersection(rows):
     means = rate_means(rows, "9")
     slower = means[0.125] > 1.05 * max(means[0.25], means[0.0625])
     coarse = means[0.03125] <= 1.02 * min(means.values())
-    return ("J9", "quadric levels, intersection: 0.125 stands out as slower, its coarsest level has 250 triangles; the coarsest hierarchy is best",
+    return ("Fig. 9", "quadric levels, intersection: 0.125 stands out as slower, its coarsest level has 250 triangles; the coarsest hierarchy is best",
             HOLDS if slower and coarse else PARTLY if slower or coarse else HOLDS_NOT, f"{listed(means)} ns")
 
 
 def quadric_distance(rows):
     means = rate_means(rows, "10")
     two = [means[r] for r in (0.125, 0.0625, 0.03125)]
-    return ("J10", "quadric levels, exact distance: two levels beat more, and coarser ones are better still",
+    return ("Fig. 10", "quadric levels, exact distance: two levels beat more, and coarser ones are better still",
             HOLDS if max(two) < means[0.25] < means[0.5] and means[0.03125] == min(two) else PARTLY if max(two) < means[0.25] < means[0.5] else HOLDS_NOT,
             f"{listed(means)} ns; 0.5 is six levels, 0.25 three, the others two")
 
@@ -162,15 +162,15 @@ def gains(rows, figure, name):
 
 def best_intersection(rows):
     gain = against_nothing(rows, "11", "quadric 0.03125")
-    return ("J11", "hierarchies do well for intersection", verdict(gain["10°"] > 1.2 and gain["random"] > 1.2),
+    return ("Fig. 11", "hierarchies do well for intersection", verdict(gain["10°"] > 1.2 and gain["random"] > 1.2),
             f"times faster than nothing, quadric 0.03125: {gains(rows, '11', 'quadric 0.03125')}; DK 100: "
-            f"{gains(rows, '11', 'DK 100 Double-Double')}. Nothing tries the separating axis of the last query first, which the "
-            "paper did not have; without that levels were 2.0 times faster than nothing at 10° and 3.0 times at random")
+            f"{gains(rows, '11', 'DK 100 Double-Double')}. All of these march; automatic, as every query of the interface, first "
+            "tries bounding spheres and the separating axis of the last verdict")
 
 
 def best_distance(rows):
     here = {f: mean(rows, figure=f, series="nothing") / mean(rows, figure=f, series="quadric 0.03125") for f in ("11", "12")}
-    return ("J12", "for exact distance hierarchies do less well than for intersection", verdict(here["12"] < here["11"]),
+    return ("Fig. 12", "for exact distance hierarchies do less well than for intersection", verdict(here["12"] < here["11"]),
             f"times faster than nothing, quadric 0.03125: {gains(rows, '12', 'quadric 0.03125')}; over all motions {here['12']:.2f}, for "
             f"intersection {here['11']:.2f}. Every query that is answered coherently in one step by the body itself has to come down the levels")
 
@@ -178,7 +178,7 @@ def best_distance(rows):
 def quadric_beats_removal(rows):
     here = [times(cell) for figure in ("11", "12") for cell in cells(rows, figure).values()]
     faster = [cell for cell in here if cell["quadric 0.03125"] < cell["DK 100 Double-Double"]]
-    return ("J-a", "quadric levels always outperform Dobkin-Kirkpatrick's", HOLDS if len(faster) == len(here) else PARTLY,
+    return ("Conclusion 1", "quadric levels always outperform Dobkin-Kirkpatrick's", HOLDS if len(faster) == len(here) else PARTLY,
             f"in {len(faster)} of {len(here)} cells of figures 11 and 12; on the whole "
             + ", ".join(f"{mean(rows, figure=f, series='DK 100 Double-Double') / mean(rows, figure=f, series='quadric 0.03125'):.2f} times "
                         f"faster for {q}" for f, q in (("11", "intersection"), ("12", "exact distance"))))
@@ -192,14 +192,14 @@ def speed_ups(rows):
         found = {n: nothing / mean(here, series=n, step=LOW_COHERENCE) for n in ("LUT 2 5.625", "quadric 0.03125", "DK 100 Double-Double", "automatic")}
         good &= max(v for n, v in found.items() if n != "automatic") > 1.2
         parts.append(f"{query}: " + ", ".join(f"{n} {v:.2f}" for n, v in found.items()))
-    return ("J-b", "speed-ups over simple marching for each query, chiefly at low coherence", verdict(good),
+    return ("Conclusion 2", "speed-ups over simple marching for each query, chiefly at low coherence", verdict(good),
             "times faster than nothing, 20° to random: " + "; ".join(parts))
 
 
 def flatness(rows):
     here = [r for r in rows if r["figure"] == "12"]
     slope = {n: mean(here, series=n, step="random") / mean(here, series=n, step="0.1") for n in in_order(r["series"] for r in here)}
-    return ("J-c", "levels keep the impact of motion under control, and a simple table suffices to do the same",
+    return ("Conclusion 3", "levels keep the impact of motion under control, and a simple table suffices to do the same",
             verdict(slope["quadric 0.03125"] < 0.3 * slope["nothing"] and slope["LUT 2 5.625"] < 0.3 * slope["nothing"]),
             "exact distance, random over 0.1°: " + ", ".join(f"{n} {v:.1f}" for n, v in slope.items()))
 
@@ -221,7 +221,7 @@ def approximate_between(rows):
         inside = [1 for cell, t in errors if 0.9 * min(cell["intersection"], cell["distance"]) <= t <= 1.1 * max(cell["intersection"], cell["distance"])]
         good &= len(inside) >= 0.9 * len(errors)
         parts.append(f"{series} {100 * len(inside) / len(errors):.0f} %")
-    return ("J-d", "approximate distance costs between intersection and exact distance, usually close to intersection",
+    return ("Conclusion 4", "approximate distance costs between intersection and exact distance, usually close to intersection",
             verdict(good) if good else PARTLY, "answers between the two (to 10 %): " + ", ".join(parts) + "; the curves are below")
 
 
@@ -235,7 +235,7 @@ def larger(rows):
             wins.append((n, query, more < means["2 levels"] and more < means["LUT 2 5.625"]))
             parts.append(f"{2 * n - 4:,} triangles, {query}: " + listed(means))
     big = [won for n, _, won in wins if n > 1002]
-    return ("J-e", "with 10,000 to 100,000 triangles three or four levels may beat tables and two levels",
+    return ("Conclusion 5", "with 10,000 to 100,000 triangles three or four levels may beat tables and two levels",
             HOLDS if all(big) else PARTLY if any(big) else HOLDS_NOT, ";<br>".join(parts) + " ns")
 
 

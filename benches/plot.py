@@ -10,6 +10,8 @@ Writes into the directory (docs/charts), for each number of vertices N in a file
   accuracy-N.svg   time a query over error, one panel a scene, one point a method
 and of benches/worst_case.rs
   steps.svg        the most steps and the longest query over the number of vertices, one panel a motion, one line a body
+of compare --crowd, for each kind of bodies,
+  scenes-KIND.svg  time a step over the number of bodies, a row a question, a panel a motion, one line a method
 With --again each of these in docs/charts is drawn anew from the CSV file that it names. With --check nothing is drawn, and the
 program fails where one is not the drawing of the file that it names.
 """
@@ -31,6 +33,13 @@ METHODS = {
     "parry-hc-steepest": Style("parry3d-f64, steepest climb", charts.PINK, DOTTED, "^"),
     "fcl-1e-6": Style("FCL (libccd), 1e-6", charts.FOREST, marker="P"),
     "fcl-1e-10": Style("FCL (libccd), 1e-10", charts.OLIVE, DASHED, "X"),
+}
+CROWDS = {
+    "swiftprox": Style("swiftprox", charts.BLUE),
+    "parry": Style("parry3d-f64, refitted", charts.RED, marker="s"),
+    "parry-rebuilt": Style("parry3d-f64, rebuilt", charts.ORANGE, DASHED, "v"),
+    "fcl": Style("FCL, dynamic tree", charts.FOREST, marker="P"),
+    "sweep-and-prune": Style("three-axis sweep and prune, our pairs", charts.GREY, DOTTED, "^"),
 }
 OTHERS = [(charts.INDIGO, "o"), (charts.WINE, "s"), (charts.GREY, "^"), (charts.GREEN, "D")]
 BODIES = [  # in the order of the CSV file
@@ -148,12 +157,43 @@ def steps(machine, rows):
     return Panels("Worst queries over the number of vertices", machine, x, legend, made)
 
 
+def crowds(machine, bodies, rows):
+    """Means over the steps; a thin line reaches up to the worst one."""
+    counts = sorted({int(r["count"]) for r in rows})
+    x = Axis("bodies in the scene", counts[0] / 1.3, counts[-1] * 1.3, [(n, charts.count(n)) for n in counts])
+    legend = {method: CROWDS[method] for method in CROWDS if method in {r["method"] for r in rows}}
+    questions, motions = in_order(r["query"] for r in rows), in_order(r["motion"] for r in rows)
+    found = {(r["query"], r["motion"], r["method"], int(r["count"])): (1e6 * r["mean_ms"], 1e6 * r["worst_ms"]) for r in rows}
+
+    def curves(question, motion, method):
+        here = {n: found[question, motion, method, n] for n in counts if (question, motion, method, n) in found}
+        worst = [Curve(method, [(n, mean), (n, most)], Kind.LINE) for n, (mean, most) in here.items()]
+        return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
+
+    names = {"all": "all move a little", "5%": "one in 20 moves", "rest": "a pile at rest", "teleport": "all jump anywhere"}
+    asked = {"intersection": "intersection", "distance": "distance within 0.25"}
+
+    def row(question):
+        values = [t for key, times in found.items() if key[0] == question for t in times]
+        panels = [Panel(f"{asked[question]}, {names[m]}", [c for method in legend for c in curves(question, m, method)])
+                  for m in motions]
+        return Row(panels, charts.value_axis("time a step", values, charts.duration), 210)
+
+    return Panels(f"Scenes of many bodies ({bodies} vertices): time a step, poses set and query answered", machine, x, legend,
+                  [row(question) for question in questions],
+                  "Points: means over the steps. Lines up from them: to the worst step. One thread.")
+
+
 def made_of(path):
     """The charts of a CSV file by name."""
     head, rows = read(path)
     where = machine(head[0])
     if "body" in rows[0]:
         return {"steps": steps(where, with_numbers(rows, ("worst_steps", "worst_ns")))}
+    if "bodies" in rows[0]:
+        with_numbers(rows, ("mean_ms", "worst_ms"))
+        kinds = in_order(r["bodies"] for r in rows)
+        return {f"scenes-{kind.split()[0]}": crowds(where, kind, [r for r in rows if r["bodies"] == kind]) for kind in kinds}
     with_numbers(rows, ("best_ns", "worst_error", "worst_width"))
     made = {}
     for n in in_order(r["n"] for r in rows):
@@ -164,7 +204,7 @@ def made_of(path):
 
 def committed():
     """The charts in docs/charts that are made here: where each is, what it should be, and its CSV file."""
-    for kind in ("speed-*", "accuracy-*", "steps"):
+    for kind in ("speed-*", "accuracy-*", "steps", "scenes-*"):
         for path in sorted(glob.glob(os.path.join(charts.FOLDER, kind + ".svg"))):
             name, named = os.path.basename(path)[:-4], charts.source(path)
             csv = os.path.join(RESULTS, *named[:1])

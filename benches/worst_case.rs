@@ -2,20 +2,17 @@
 //! how long they and building take, for bodies that are hard for marching: many vertices, many neighbours of one vertex, many sides
 //! of one face, flat and long bodies. Prints a CSV, one line for each body, number of vertices and motion; `make steps` draws it.
 
-#[path = "common/mod.rs"]
-mod common;
-
 use std::fmt;
 use std::process::ExitCode;
 use std::time::Instant;
 
-use common::models;
-use common::random::Random;
 use swiftprox::error::{Error, Result};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig, Status};
+use swiftprox::pair::{self, DecidedBy, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
+use testkit::models;
+use testkit::random::Random;
 
 const USAGE: &str =
     "usage: cargo bench --bench worst_case -- [--n N]... [--body NAME]... [--queries COUNT] [--csv PATH]";
@@ -219,8 +216,8 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
 impl Row {
     fn add(&mut self, answer: &PairAnswer, nanoseconds: f64) {
         let statistics = answer.statistics;
-        self.fallback += u32::from(answer.status == Status::Fallback);
-        self.exact += u32::from(answer.status == Status::Exact);
+        self.fallback += u32::from(answer.decided_by == DecidedBy::Fallback);
+        self.exact += u32::from(answer.decided_by == DecidedBy::Integers);
         self.steps += u64::from(statistics.marching_steps);
         self.worst_steps = self.worst_steps.max(statistics.marching_steps);
         self.worst_fallback_iterations = self.worst_fallback_iterations.max(statistics.fallback_iterations);

@@ -52,10 +52,10 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
 }
 
 /* A shape of 200 vertices on a ball. */
-static swiftprox_shape *make_ball(void)
+static const swiftprox_shape *make_ball(void)
 {
     double points[600];
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     int i;
     for (i = 0; i < 200; ++i) {
         const double z = (2 * i + 1) / 200.0 - 1.0, r = sqrt(1.0 - z * z);
@@ -85,7 +85,7 @@ static void test_everything_comes_from_the_program(void)
 {
     static account own; /* good until the process ends, as is demanded */
     swiftprox_shape_info info;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     const swiftprox_shape *piece;
     swiftprox_scene *scene = NULL;
     swiftprox_object_id id;
@@ -118,7 +118,7 @@ static void test_everything_comes_from_the_program(void)
 static void test_blocks_go_back_where_they_came_from(void)
 {
     static account first, second;
-    swiftprox_shape *shapes[3];
+    const swiftprox_shape *shapes[3];
     double distances[3];
     int i;
     CHECK_OK(swiftprox_library_set_allocator(take, give_back, &first));

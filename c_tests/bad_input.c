@@ -12,17 +12,24 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox_tuning.h"
 
 static const double CORNERS[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 static const double HERE[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static const double THERE[12] = {1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0};
 
+/* Writes a number where an enumerator stands, as a program may that reads it from a file. */
+static void any_number(void *enumerator, int32_t number)
+{
+    memcpy(enumerator, &number, sizeof number);
+}
+
 static swiftprox_status mesh(const double *vertices, size_t vertex_count, const uint32_t *indices, const uint32_t *valences,
                              size_t face_count, const swiftprox_shape_options *options)
 {
     /* Not null before: a failure must make it so. */
-    swiftprox_shape *shape = (swiftprox_shape *)(void *)vertices;
+    const swiftprox_shape *shape = (const swiftprox_shape *)(void *)vertices;
     const swiftprox_status status =
         swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
     CHECK((status == SWIFTPROX_OK) == (shape != NULL));
@@ -38,7 +45,7 @@ static void meshes(void)
     static const uint32_t vast[4] = {UINT32_MAX, UINT32_MAX, UINT32_MAX, UINT32_MAX};
     static const uint32_t uneven[4] = {3, 3, 6, 0};
     static const double bad[] = {NAN, INFINITY, -INFINITY};
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     size_t i;
 
     CHECK_OK(mesh(CORNERS, 4, FACES, NULL, 4, NULL));
@@ -77,24 +84,29 @@ static void meshes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "interior", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "SWIFTPROX_INPUT_FLAT", swiftprox_shape_create_from_points(CORNERS, 3, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "SWIFTPROX_INPUT_HULL", swiftprox_shape_create_from_points(CORNERS, 2, NULL, &shape));
-    CHECK_OK(swiftprox_shape_release(NULL));
+    swiftprox_shape_release(NULL);
     CHECK(swiftprox_shape_prepare(NULL, NULL, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK_OK(swiftprox_shape_retain(NULL));
+    CHECK(swiftprox_shape_retain(NULL) == NULL);
 }
 
 static void shape_options(void)
 {
     swiftprox_shape_options options;
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "options", swiftprox_shape_options_init(NULL));
+    /* Ignored, but not without a word. */
+    swiftprox_shape_options_init_sized(NULL, sizeof options);
+    CHECK(strstr(swiftprox_library_last_error_message(), "`swiftprox_shape_options` is null") != NULL);
+    memset(&options, 7, sizeof options);
+    swiftprox_shape_options_init_sized(&options, 8);
+    CHECK(strstr(swiftprox_library_last_error_message(), "struct_size is 8") != NULL && ((char *)&options)[0] == 7);
     memset(&options, 0, sizeof options);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     memset(&options, 0xff, sizeof options);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 
-    CHECK_OK(swiftprox_shape_options_init(&options));
-    options.input = INT32_MIN;
+    swiftprox_shape_options_init(&options);
+    any_number(&options.input, INT32_MIN);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swiftprox_shape_options_init(&options));
+    swiftprox_shape_options_init(&options);
     options.scale = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options.scale = NAN;
@@ -102,10 +114,10 @@ static void shape_options(void)
     options.scale = 1e308;
     options.translation[1] = 1.7e308;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "range", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swiftprox_shape_options_init(&options));
+    swiftprox_shape_options_init(&options);
     options.rotation[4] = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "transform", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    CHECK_OK(swiftprox_shape_options_init(&options));
+    swiftprox_shape_options_init(&options);
     options.convexity_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
@@ -114,7 +126,7 @@ static void shape_options(void)
 static void refused_file(const char *folder, const char *name, const char *content, size_t size, swiftprox_status expected)
 {
     char path[1024];
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     FILE *file;
     snprintf(path, sizeof path, "%s/%s", folder, name);
     file = fopen(path, "wb");
@@ -135,7 +147,7 @@ static void files(const char *folder)
     static const char open_off[] = "OFF\n4 3 6\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n";
     static const char nan_off[] = "OFF\n4 4 6\n0 0 nan\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n";
     char garbage[4096], stl[134];
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     uint32_t state = 1, count = UINT32_MAX;
     size_t i, length;
 
@@ -175,9 +187,10 @@ static const double *with(int entry, double value)
 static void pairs(void)
 {
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300};
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_config config;
+    swiftprox_pair_tuning tuning;
     swiftprox_pair_answer answer;
     size_t i;
     int entry;
@@ -193,7 +206,6 @@ static void pairs(void)
                 swiftprox_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_distance(shape, HERE, shape, THERE, NULL, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "config", swiftprox_pair_config_init(NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_verify(shape, HERE, shape, THERE, NULL));
 
     for (entry = 0; entry < 12; ++entry) {
@@ -218,7 +230,7 @@ static void pairs(void)
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
     CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
     CHECK_OK(swiftprox_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
-    CHECK_OK(swiftprox_pair_config_init(&config));
+    swiftprox_pair_config_init(&config);
     config.rotation_limit = 1e-9;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
                 swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
@@ -230,16 +242,21 @@ static void pairs(void)
     config.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
-    CHECK_OK(swiftprox_pair_config_init(&config));
+    swiftprox_pair_config_init(&config);
     config.distance_tolerance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
-    CHECK_OK(swiftprox_pair_config_init(&config));
-    config.bounds = 17;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "bounds",
+    swiftprox_pair_config_init(&config);
+    swiftprox_pair_tuning_init(&tuning);
+    any_number(&tuning.levels, 17);
+    config.tuning = &tuning;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->levels is 17",
+                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    memset(&tuning, 0, sizeof tuning);
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_tuning_init",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
 
     /* After all that the pair is answered as ever. */
@@ -262,8 +279,8 @@ static void pairs(void)
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {
         swiftprox_shape_options options;
-        swiftprox_shape *extreme = NULL;
-        CHECK_OK(swiftprox_shape_options_init(&options));
+        const swiftprox_shape *extreme = NULL;
+        swiftprox_shape_options_init(&options);
         options.scale = i == 0 ? 1e-300 : 1e300;
         CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
         CHECK_OK(swiftprox_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
@@ -292,15 +309,16 @@ static void scenes(void)
     swiftprox_scene_answer answer;
     swiftprox_object_options object_options;
     swiftprox_object_info info;
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     const swiftprox_shape *pieces[2] = {NULL, NULL};
+    swiftprox_pair_tuning tuning;
     const swiftprox_shape *piece = NULL;
-    swiftprox_object_id here, there, stale, foreign, id = 7;
-    int32_t active = 7;
+    swiftprox_object_id here, there, stale, foreign, id = {7};
+    int32_t active = 7, valid = 7;
     size_t i;
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_create(NULL, NULL));
-    CHECK_OK(swiftprox_scene_options_init(&options));
+    swiftprox_scene_options_init(&options);
     options.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_scene_create(&options, &scene));
@@ -309,7 +327,7 @@ static void scenes(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK_OK(swiftprox_scene_create(NULL, &other));
 
-    CHECK_OK(swiftprox_object_options_init(&object_options));
+    swiftprox_object_options_init(&object_options);
     memcpy(object_options.pose, THERE, sizeof THERE);
     CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &here));
     CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, &object_options, &there));
@@ -320,12 +338,14 @@ static void scenes(void)
 
     /* Ids: null, stale, another scene's, made up. */
     {
-        const swiftprox_object_id wrong[] = {SWIFTPROX_OBJECT_ID_NULL, stale, foreign, here + 7, UINT64_MAX};
+        const swiftprox_object_id wrong[] = {{0}, stale, foreign, {here.bits + 7}, {UINT64_MAX}};
         for (i = 0; i < sizeof wrong / sizeof wrong[0]; ++i) {
             CHECK(swiftprox_scene_set_pose(scene, wrong[i], HERE) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_remove_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
-            id = 7;
-            CHECK(swiftprox_scene_copy_object(scene, wrong[i], &id) == SWIFTPROX_ERROR_HANDLE && id == 0);
+            id.bits = 7;
+            CHECK(swiftprox_scene_copy_object(scene, wrong[i], &id) == SWIFTPROX_ERROR_HANDLE && id.bits == 0);
+            CHECK_OK(swiftprox_scene_is_object_valid(scene, wrong[i], &valid));
+            CHECK(valid == 0);
             CHECK(swiftprox_scene_activate_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_deactivate_pair(scene, here, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_set_user_data(scene, wrong[i], 1) == SWIFTPROX_ERROR_HANDLE);
@@ -335,6 +355,11 @@ static void scenes(void)
             CHECK(swiftprox_scene_get_piece(scene, wrong[i], 0, &piece) == SWIFTPROX_ERROR_HANDLE && piece == NULL);
         }
     }
+    CHECK_OK(swiftprox_scene_is_object_valid(scene, here, &valid));
+    CHECK(valid == 1);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_is_object_valid(NULL, here, &valid));
+    CHECK(valid == 0);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "valid", swiftprox_scene_is_object_valid(scene, here, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_deactivate_pair(scene, here, here));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece 1", swiftprox_scene_get_piece(scene, here, 1, &piece));
     still_usable(scene, __LINE__);
@@ -348,6 +373,7 @@ static void scenes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file", swiftprox_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
     pieces[0] = shape;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_scene_add_shape(scene, NULL, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1]", swiftprox_scene_add_object(scene, pieces, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces", swiftprox_scene_add_object(scene, NULL, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece", swiftprox_scene_add_object(scene, pieces, 0, NULL, &id));
@@ -357,7 +383,7 @@ static void scenes(void)
     object_options.struct_size = 3;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_object_options",
                 swiftprox_scene_add_object(scene, pieces, 1, &object_options, &id));
-    CHECK(id == 0);
+    CHECK(id.bits == 0);
     swiftprox_shape_release(shape);
     still_usable(scene, __LINE__);
 
@@ -381,21 +407,24 @@ static void scenes(void)
     still_usable(scene, __LINE__);
 
     /* Asking. */
-    CHECK_OK(swiftprox_scene_query_init(&query));
-    query.distance_tolerance = -1;
+    swiftprox_scene_query_init(&query);
+    query.distance_tolerance = -2;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_tolerance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
     query.distance_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_exact_distance(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_query_init(&query));
+    swiftprox_scene_query_init(&query);
     query.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_query_init(&query));
-    query.bounds = -3;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "bounds", swiftprox_scene_query_contacts(scene, &query, &answer));
+    swiftprox_scene_query_init(&query);
+    swiftprox_pair_tuning_init(&tuning);
+    any_number(&tuning.refinement, -3);
+    query.tuning = &tuning;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3", swiftprox_scene_query_contacts(scene, &query, &answer));
     query.struct_size = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contacts(scene, &query, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_query_intersection(scene, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_shrink(NULL));
     still_usable(scene, __LINE__);
 
     /* No scene. */
@@ -416,13 +445,15 @@ static void scenes(void)
 static void words(void)
 {
     CHECK(strcmp(swiftprox_library_status_string(SWIFTPROX_ERROR_POSE), "a pose is refused") == 0);
-    CHECK(strcmp(swiftprox_library_status_string(-1), "not a status") == 0);
+    CHECK(strcmp(swiftprox_library_status_string((swiftprox_status)-1), "not a status") == 0);
     CHECK(strcmp(swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_INTERSECTING), "intersecting") == 0);
-    CHECK(strcmp(swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_UNDECIDED + 1), "not an outcome") == 0);
-    CHECK(strcmp(swiftprox_library_outcome_string(INT32_MIN), "not an outcome") == 0);
+    CHECK(strcmp(swiftprox_library_outcome_string((swiftprox_outcome)(SWIFTPROX_OUTCOME_UNDECIDED + 1)), "not an outcome") == 0);
+    CHECK(strcmp(swiftprox_library_outcome_string((swiftprox_outcome)INT32_MIN), "not an outcome") == 0);
     CHECK(strcmp(swiftprox_library_feature_kind_string(SWIFTPROX_FEATURE_KIND_EDGE), "edge") == 0);
-    CHECK(strcmp(swiftprox_library_feature_kind_string(SWIFTPROX_FEATURE_KIND_FACE + 1), "not a feature kind") == 0);
-    CHECK(strcmp(swiftprox_library_feature_kind_string(INT32_MIN), "not a feature kind") == 0);
+    CHECK(strcmp(swiftprox_library_feature_kind_string((swiftprox_feature_kind)(SWIFTPROX_FEATURE_KIND_FACE + 1)), "not a feature kind") == 0);
+    CHECK(strcmp(swiftprox_library_feature_kind_string((swiftprox_feature_kind)INT32_MIN), "not a feature kind") == 0);
+    CHECK(strcmp(swiftprox_library_decided_by_string(SWIFTPROX_DECIDED_BY_INTEGERS), "integer arithmetic") == 0);
+    CHECK(strcmp(swiftprox_library_decided_by_string((swiftprox_decided_by)-1), "not what decides") == 0);
 }
 
 int main(int argc, char **argv)

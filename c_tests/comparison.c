@@ -199,7 +199,7 @@ static size_t choose_poses(const struct scene *scene, const swiftprox_pair_answe
 static void check_answer(const struct scene *scene, size_t pose, const swiftprox_pair_answer *answer,
                          const struct truth *truth)
 {
-    int expected = truth->intersecting ? SWIFTPROX_OUTCOME_INTERSECTING : SWIFTPROX_OUTCOME_SEPARATED;
+    const swiftprox_outcome expected = truth->intersecting ? SWIFTPROX_OUTCOME_INTERSECTING : SWIFTPROX_OUTCOME_SEPARATED;
     /* The bounds are doubles: lower <= distance exactly when it is at most the largest double below; upper alike. */
     int holds = answer->outcome == expected &&
                 (truth->intersecting || (0 < answer->lower && answer->lower <= truth->lower &&

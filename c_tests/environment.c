@@ -11,6 +11,7 @@
 #include <stdlib.h>
 
 #include "check.h"
+#include "swiftprox_tuning.h"
 
 /* ---- environments ---- */
 
@@ -157,21 +158,21 @@ static const uint32_t TETRAHEDRON_FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 
 
 static int32_t read_mesh(void *user, const char *data, size_t size, swiftprox_mesh_sink *sink)
 {
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     (void)user, (void)data, (void)size;
     CHECK(control() == expected);
     ++reader_calls;
     CALL_OK(swiftprox_mesh_sink_add_vertices(sink, TETRAHEDRON, 4));
     /* The library, called from a function that it called. */
     CALL_OK(swiftprox_shape_create_from_points(TETRAHEDRON, 4, NULL, &shape));
-    CALL_OK(swiftprox_shape_release(shape));
+    swiftprox_shape_release(shape);
     CALL_OK(swiftprox_mesh_sink_add_faces(sink, TETRAHEDRON_FACES, NULL, 4));
     /* What it changes ends with it. */
     fesetround(FE_UPWARD);
     return 0;
 }
 
-static void hear(int32_t status, const char *message, void *user)
+static void hear(swiftprox_status status, const char *message, void *user)
 {
     (void)status, (void)user;
     CHECK(control() == expected && message[0] != '\0');
@@ -277,16 +278,16 @@ static void ask_once(const swiftprox_shape *shape1, const swiftprox_shape *shape
 static void tell_shape(const swiftprox_shape *shape)
 {
     double *const vertices = malloc(3 * POINTS * sizeof *vertices);
-    swiftprox_shape_info info;
+    swiftprox_shape_info info = {sizeof info};
+    swiftprox_shape_tuning_info tuning = {sizeof tuning};
     swiftprox_level_info level;
-    memset(&info, 0, sizeof info);
-    info.struct_size = sizeof info;
     CALL_OK(swiftprox_shape_get_info(shape, &info));
+    CALL_OK(swiftprox_shape_get_tuning_info(shape, &tuning));
     tell(&info.dimension, sizeof info.dimension);
-    tell(&info.vertex_count, offsetof(swiftprox_shape_info, hierarchy) - offsetof(swiftprox_shape_info, vertex_count));
-    tell(&info.hierarchy, sizeof info.hierarchy);
-    tell(&info.level_count, sizeof info - offsetof(swiftprox_shape_info, level_count));
-    for (size_t i = 0; i <= info.level_count; ++i) {
+    tell(&info.vertex_count, sizeof info - offsetof(swiftprox_shape_info, vertex_count));
+    tell(&tuning.hierarchy, offsetof(swiftprox_shape_tuning_info, lookup_resolution) - sizeof tuning.struct_size);
+    tell(&tuning.lookup_resolution, sizeof tuning.lookup_resolution);
+    for (size_t i = 0; i <= tuning.level_count; ++i) {
         memset(&level, 0, sizeof level);
         level.struct_size = sizeof level;
         CALL_OK(swiftprox_shape_get_level_info(shape, i, &level));
@@ -297,9 +298,9 @@ static void tell_shape(const swiftprox_shape *shape)
     free(vertices);
 }
 
-static swiftprox_shape *shape_of(const double *points, size_t count, const swiftprox_shape_options *options)
+static const swiftprox_shape *shape_of(const double *points, size_t count, const swiftprox_shape_options *options)
 {
-    swiftprox_shape *shape = NULL;
+    const swiftprox_shape *shape = NULL;
     CALL_OK(swiftprox_shape_create_from_points(points, count, options, &shape));
     tell_shape(shape);
     return shape;
@@ -307,20 +308,26 @@ static swiftprox_shape *shape_of(const double *points, size_t count, const swift
 
 static void build_and_ask(void)
 {
-    static const int32_t hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC,
+    static const swiftprox_hierarchy hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC,
                                           SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFTPROX_HIERARCHY_OUTER_CUTS};
     swiftprox_shape_options options;
     swiftprox_pair_config config;
-    CALL_OK(swiftprox_shape_options_init(&options));
-    CALL_OK(swiftprox_pair_config_init(&config));
+    swiftprox_shape_tuning making;
+    swiftprox_pair_tuning asking;
+    swiftprox_shape_tuning_init(&making);
+    swiftprox_pair_tuning_init(&asking);
+    swiftprox_shape_options_init(&options);
+    swiftprox_pair_config_init(&config);
     options.progress = progress;
     options.scale = 0.7;
     config.relative_error = 0.01;
-    config.levels = SWIFTPROX_LEVELS_ALL;
+    asking.levels = SWIFTPROX_LEVELS_ALL;
+    options.tuning = &making;
+    config.tuning = &asking;
     for (size_t k = 0; k < sizeof hierarchies / sizeof hierarchies[0]; ++k) {
-        swiftprox_shape *shape, *loaded = NULL;
+        const swiftprox_shape *shape, *loaded = NULL;
         swiftprox_pair_cache caches[QUERY_COUNT];
-        options.hierarchy = hierarchies[k];
+        making.hierarchy = hierarchies[k];
         shape = shape_of(sphere, POINTS, &options);
         CALL_OK(swiftprox_shape_prepare(shape, progress, NULL));
         CALL_OK(swiftprox_shape_save(shape, shape_path));
@@ -329,23 +336,23 @@ static void build_and_ask(void)
         memset(caches, 0, sizeof caches);
         for (int i = 0; i < POSES; ++i)
             ask(shape, poses[0], loaded, poses[i], caches, k == 0 ? NULL : &config);
-        CALL_OK(swiftprox_shape_release(shape));
-        CALL_OK(swiftprox_shape_release(loaded));
+        swiftprox_shape_release(shape);
+        swiftprox_shape_release(loaded);
     }
 }
 
 static void read_files(void)
 {
     swiftprox_shape_options options;
-    swiftprox_shape *shape = NULL;
-    CALL_OK(swiftprox_shape_options_init(&options));
+    const swiftprox_shape *shape = NULL;
+    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     CALL_OK(swiftprox_shape_create_from_file(mesh_path, &options, &shape));
     tell_shape(shape);
-    CALL_OK(swiftprox_shape_release(shape));
+    swiftprox_shape_release(shape);
     CALL_OK(swiftprox_shape_create_from_file(reader_path, &options, &shape));
     tell_shape(shape);
-    CALL_OK(swiftprox_shape_release(shape));
+    swiftprox_shape_release(shape);
 }
 
 /* Contact and gaps below the normal numbers, bodies across the range of doubles, bodies in each other, and what is refused. */
@@ -353,12 +360,12 @@ static void ask_hard_questions(void)
 {
     static const double shifts[] = {-1e-310, 0, 1e-310, 0.5, -0.5, 1, 1e-300, 3, 1e10};
     const double not_a_number[12] = {NAN};
-    swiftprox_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
-    swiftprox_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
+    const swiftprox_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
+    const swiftprox_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
     swiftprox_shape_options options;
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
-    swiftprox_shape *none = NULL;
+    const swiftprox_shape *none = NULL;
     const int heard = log_calls;
     for (size_t i = 0; i < sizeof shifts / sizeof shifts[0]; ++i) {
         ask_once(unit, low, shifts[i]);
@@ -370,15 +377,15 @@ static void ask_hard_questions(void)
     ask_once(huge, huge, 1e300);
     ask_once(huge, huge, 2e300);
     CHECK(CALL(swiftprox_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFTPROX_ERROR_POSE);
-    CALL_OK(swiftprox_shape_options_init(&options));
+    swiftprox_shape_options_init(&options);
     options.convexity_tolerance = NAN;
     CHECK(CALL(swiftprox_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(CALL(swiftprox_shape_create_from_file("no such file", NULL, &none)) == SWIFTPROX_ERROR_FILE);
     CHECK(log_calls == heard + 3);
-    CALL_OK(swiftprox_shape_release(unit));
-    CALL_OK(swiftprox_shape_release(low));
-    CALL_OK(swiftprox_shape_release(huge));
-    CALL_OK(swiftprox_shape_release(tiny));
+    swiftprox_shape_release(unit);
+    swiftprox_shape_release(low);
+    swiftprox_shape_release(huge);
+    swiftprox_shape_release(tiny);
 }
 
 typedef swiftprox_status scene_query(swiftprox_scene *, const swiftprox_scene_query *, swiftprox_scene_answer *);
@@ -400,19 +407,19 @@ static void ask_a_scene(void)
     scene_query *const queries[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_tolerance,
                                     swiftprox_scene_query_exact_distance, swiftprox_scene_query_contacts,
                                     swiftprox_scene_query_approximate_distance};
-    swiftprox_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
+    const swiftprox_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
     swiftprox_scene_statistics statistics;
     swiftprox_scene_query query;
     swiftprox_scene *scene = NULL;
     swiftprox_object_id ids[5];
     CALL_OK(swiftprox_scene_create(NULL, &scene));
-    CALL_OK(swiftprox_scene_query_init(&query));
+    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 2;
     query.relative_error = 0.05;
     for (int i = 0; i < 4; ++i) {
         const swiftprox_shape *const piece = shapes[i % 2];
         swiftprox_object_options options;
-        CALL_OK(swiftprox_object_options_init(&options));
+        swiftprox_object_options_init(&options);
         memcpy(options.pose, poses[5 * i], sizeof poses[0]);
         options.user_data = (uint64_t)i;
         CALL_OK(swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]));
@@ -430,8 +437,8 @@ static void ask_a_scene(void)
     CALL_OK(swiftprox_scene_get_statistics(scene, &statistics));
     tell(&statistics, sizeof statistics);
     CALL_OK(swiftprox_scene_destroy(scene));
-    CALL_OK(swiftprox_shape_release(shapes[0]));
-    CALL_OK(swiftprox_shape_release(shapes[1]));
+    swiftprox_shape_release(shapes[0]);
+    swiftprox_shape_release(shapes[1]);
 }
 
 static void raise_underflow(void)
@@ -484,7 +491,7 @@ int main(int argument_count, char **arguments)
     CHECK(progress_calls > 100 && reader_calls == 17 && log_calls > 17 && (memory_calls > 0) == (set == SWIFTPROX_OK));
     CHECK_OK(swiftprox_library_register_mesh_reader("ENVIRONMENT", NULL, NULL));
     swiftprox_library_set_log(NULL, NULL);
-    swiftprox_library_set_allocator(NULL, NULL, NULL);
+    CHECK(swiftprox_library_set_allocator(NULL, NULL, NULL) == set);
     remove(mesh_path);
     remove(reader_path);
     remove(shape_path);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox_tuning.h"
 
 /* No block that must not be refused is as large, one pointer behind its end included. */
 enum { SMALL = 2048 + 64, VERTICES = 2200, OBJECTS = 400 };
@@ -46,20 +47,23 @@ static double points[3 * VERTICES], rotations[9 * OBJECTS], translations[3 * OBJ
 static double vertices[3 * VERTICES];
 static uint32_t corners[6 * VERTICES];
 static size_t triangle_count;
-static swiftprox_shape *ball;
+static const swiftprox_shape *ball;
 static swiftprox_scene *scene;
 static swiftprox_object_id id;
 static char mesh_path[4096], shape_path[4096];
-static int32_t kind;
+static swiftprox_hierarchy kind;
 
 /* What a call made, to be given back where it succeeds. */
-static swiftprox_shape *made;
+static const swiftprox_shape *made;
 
 static swiftprox_status from_points(void)
 {
     swiftprox_shape_options options;
-    CHECK_OK(swiftprox_shape_options_init(&options));
-    options.hierarchy = kind;
+    swiftprox_shape_tuning tuning;
+    swiftprox_shape_options_init(&options);
+    swiftprox_shape_tuning_init(&tuning);
+    tuning.hierarchy = kind;
+    options.tuning = &tuning;
     return swiftprox_shape_create_from_points(points, VERTICES, &options, &made);
 }
 
@@ -91,13 +95,13 @@ static swiftprox_status save(void)
 
 static swiftprox_status add_mesh(void)
 {
-    id = 7;
+    id.bits = 7;
     return swiftprox_scene_add_mesh(scene, vertices, VERTICES, corners, NULL, triangle_count, NULL, NULL, &id);
 }
 
 static swiftprox_status add_file(void)
 {
-    id = 7;
+    id.bits = 7;
     return swiftprox_scene_add_file(scene, mesh_path, NULL, NULL, &id);
 }
 
@@ -108,8 +112,13 @@ static swiftprox_status add_object(void)
     for (i = 0; i < OBJECTS; ++i) {
         pieces[i] = ball;
     }
-    id = 7;
+    id.bits = 7;
     return swiftprox_scene_add_object(scene, pieces, OBJECTS, NULL, &id);
+}
+
+static swiftprox_status shrink(void)
+{
+    return swiftprox_scene_shrink(scene);
 }
 
 static swiftprox_status move_all(void)
@@ -159,7 +168,7 @@ static void refuse_each_of_shape(const char *what, swiftprox_status (*call)(void
 {
     refuse_each(what, call);
     CHECK(made != NULL);
-    CHECK_OK(swiftprox_shape_release(made));
+    swiftprox_shape_release(made);
     made = NULL;
 }
 
@@ -182,7 +191,7 @@ static void write_mesh(void)
 
 static void test_shapes(void)
 {
-    static const int32_t kinds[4] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_QUADRIC,
+    static const swiftprox_hierarchy kinds[4] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_QUADRIC,
                                      SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFTPROX_HIERARCHY_OUTER_CUTS};
     int i;
     for (i = 0; i < 4; ++i) {
@@ -205,7 +214,7 @@ static void test_first_queries(void)
     for (number = 1;; ++number) {
         swiftprox_pair_cache cache;
         swiftprox_pair_answer answer;
-        swiftprox_shape *shape = NULL;
+        const swiftprox_shape *shape = NULL;
         CHECK_OK(swiftprox_shape_create_from_points(points, VERTICES, NULL, &shape));
         memset(&cache, 0, sizeof cache);
         for_good = 0;
@@ -216,7 +225,7 @@ static void test_first_queries(void)
         CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.upper - answer.lower < 1e-12);
         CHECK_OK(swiftprox_pair_verify(shape, here, shape, there, &answer));
         if (asked < number) {
-            CHECK_OK(swiftprox_shape_release(shape));
+            swiftprox_shape_release(shape);
             break;
         }
         asked = 0;
@@ -225,7 +234,7 @@ static void test_first_queries(void)
         refused = 0;
         CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
         CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
-        CHECK_OK(swiftprox_shape_release(shape));
+        swiftprox_shape_release(shape);
     }
     CHECK(number > 3);
 }
@@ -252,16 +261,16 @@ static void test_scenes(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < OBJECTS; ++i) {
         const swiftprox_shape *piece = ball;
-        id = 7;
+        id.bits = 7;
         asked = 0;
         refused = 1;
         status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
         refused = 0;
         if (status == SWIFTPROX_ERROR_MEMORY) {
-            CHECK(id == 0);
+            CHECK(id.bits == 0);
             status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
         }
-        CHECK(status == SWIFTPROX_OK && id != 0);
+        CHECK(status == SWIFTPROX_OK && id.bits != 0);
     }
     refuse_each("move_all", move_all);
     memset(&info, 0, sizeof info);
@@ -283,6 +292,10 @@ static void test_scenes(void)
     CHECK(number > 2);
     CHECK_OK(status);
     CHECK(answer.count == OBJECTS - 1 && answer.pairs != NULL);
+    CHECK_OK(swiftprox_scene_remove_object(scene, id));
+    refuse_each("shrink", shrink);
+    CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
+    CHECK(answer.count == OBJECTS - 2);
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
@@ -338,7 +351,7 @@ int main(int argc, char **argv)
     test_first_queries();
     test_scenes();
     test_readers();
-    CHECK_OK(swiftprox_shape_release(ball));
+    swiftprox_shape_release(ball);
     remove(mesh_path);
     remove(shape_path);
     return check_report("memory");

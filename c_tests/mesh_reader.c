@@ -32,7 +32,7 @@ static const char *write_file(const char *name, const char *content)
 /* Reads a file and says how many vertices, triangles and what radius its shape has; removes the file. */
 static swiftprox_status read_file(const char *path, swiftprox_shape_info *info)
 {
-    swiftprox_shape *shape = (swiftprox_shape *)(void *)info; /* not null: a failure must make it so */
+    const swiftprox_shape *shape = (const swiftprox_shape *)(void *)info; /* not null: a failure must make it so */
     const swiftprox_status status = swiftprox_shape_create_from_file(path, NULL, &shape);
     CHECK((status == SWIFTPROX_OK) == (shape != NULL));
     memset(info, 0, sizeof *info);
@@ -113,12 +113,12 @@ static void a_format(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     path = write_file("pyramid.stl", PYRAMID);
     CHECK_OK(swiftprox_scene_add_file(scene, path, NULL, NULL, &id));
-    CHECK(id != 0 && calls == 4);
+    CHECK(id.bits != 0 && calls == 4);
     remove(path);
     path = write_file("bad.stl", "LINES\nv 0 0\n");
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "bad.stl: the reader registered for \"LINES\": line 2: a coordinate is missing",
                 swiftprox_scene_add_file(scene, path, NULL, NULL, &id));
-    CHECK(id == 0 && calls == 5);
+    CHECK(id.bits == 0 && calls == 5);
     remove(path);
     CHECK_OK(swiftprox_scene_destroy(scene));
 
@@ -291,7 +291,7 @@ static int32_t read_tetrahedron(void *user, const char *data, size_t size, swift
 static double size_in(const char *content)
 {
     swiftprox_shape_info info;
-    return read_file(write_file("registry.mesh", content), &info) == SWIFTPROX_OK ? info.upper[0] : 0;
+    return read_file(write_file("registry.mesh", content), &info) == SWIFTPROX_OK ? info.upper_corner[0] : 0;
 }
 
 static void registry(void)

@@ -8,6 +8,7 @@
 #include <stddef.h>
 
 #include "check.h"
+#include "swiftprox_tuning.h"
 
 enum { COUNT = 30001 };
 
@@ -34,6 +35,13 @@ static swiftprox_shape_info info_of(const swiftprox_shape *shape)
     return info;
 }
 
+static swiftprox_shape_tuning_info tuning_of(const swiftprox_shape *shape)
+{
+    swiftprox_shape_tuning_info info = {sizeof info};
+    CHECK_OK(swiftprox_shape_get_tuning_info(shape, &info));
+    return info;
+}
+
 /* The distance of two such bodies, two radii apart. */
 static void check_distance(const swiftprox_shape *shape)
 {
@@ -49,7 +57,7 @@ static void check_distance(const swiftprox_shape *shape)
 static void check_loading(const swiftprox_shape *shape, const char *folder)
 {
     char path[1024];
-    swiftprox_shape *loaded = (swiftprox_shape *)(void *)path; /* not null: a failure must make it so */
+    const swiftprox_shape *loaded = (const swiftprox_shape *)(void *)path; /* not null: a failure must make it so */
     told told = {0, 0, 2};
     snprintf(path, sizeof path, "%s/progress.shape", folder);
     CHECK_OK(swiftprox_shape_save(shape, path));
@@ -65,9 +73,9 @@ static void check_loading(const swiftprox_shape *shape, const char *folder)
     CHECK_OK(swiftprox_shape_load(path, tell, &told, &loaded));
     CHECK(told.count > 5 && told.last == 1);
     check_distance(loaded);
-    CHECK_OK(swiftprox_shape_release(loaded));
+    swiftprox_shape_release(loaded);
     CHECK_OK(swiftprox_shape_load(path, NULL, NULL, &loaded));
-    CHECK_OK(swiftprox_shape_release(loaded));
+    swiftprox_shape_release(loaded);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "path", swiftprox_shape_load(NULL, tell, &told, &loaded));
     remove(path);
     CHECK_FAILS(SWIFTPROX_ERROR_FILE, "progress.shape: cannot be read: ", swiftprox_shape_load(path, tell, &told, &loaded));
@@ -78,7 +86,7 @@ int main(int argument_count, char **arguments)
 {
     static double points[3 * COUNT];
     static const double stops[] = {0, 0.25, 0.5, 0.75, 1};
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_shape_info info;
     told told = {0, 0, 2};
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
@@ -90,7 +98,7 @@ int main(int argument_count, char **arguments)
     CHECK(swiftprox_shape_prepare(NULL, tell, &told) == SWIFTPROX_ERROR_NULL_POINTER && told.count == 0);
     if (!CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, NULL, &shape)))
         return check_report("progress");
-    CHECK(info_of(shape).level_count == 0 && info_of(shape).hierarchy == SWIFTPROX_HIERARCHY_AUTOMATIC);
+    CHECK(tuning_of(shape).level_count == 0 && tuning_of(shape).hierarchy == SWIFTPROX_HIERARCHY_AUTOMATIC);
 
     for (size_t i = 0; i < sizeof stops / sizeof stops[0]; ++i) {
         told.count = 0;
@@ -98,7 +106,7 @@ int main(int argument_count, char **arguments)
         told.stop_at = stops[i];
         CHECK_FAILS(SWIFTPROX_ERROR_CANCELLED, "progress callback", swiftprox_shape_prepare(shape, tell, &told));
         CHECK(told.count > 0 && told.last >= stops[i]);
-        CHECK(info_of(shape).level_count == 0);
+        CHECK(tuning_of(shape).level_count == 0);
         check_distance(shape);
     }
 
@@ -108,7 +116,7 @@ int main(int argument_count, char **arguments)
     CHECK_OK(swiftprox_shape_prepare(shape, tell, &told));
     CHECK(told.count > 10 && told.last == 1);
     info = info_of(shape);
-    CHECK(info.level_count > 0 && info.lookup_bytes > 0);
+    CHECK(tuning_of(shape).level_count > 0 && tuning_of(shape).lookup_bytes > 0);
     check_distance(shape);
 
     /* What is made is not made again; without a callback, too. */
@@ -119,11 +127,11 @@ int main(int argument_count, char **arguments)
     CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
     check_loading(shape, argument_count > 1 ? arguments[1] : ".");
-    CHECK_OK(swiftprox_shape_release(shape));
+    swiftprox_shape_release(shape);
 
     CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, NULL, &shape));
     CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
     CHECK(info_of(shape).bytes == info.bytes);
-    CHECK_OK(swiftprox_shape_release(shape));
+    swiftprox_shape_release(shape);
     return check_report("progress");
 }

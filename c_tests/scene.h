@@ -17,7 +17,7 @@ extern "C" {
 struct body {
     double *points; /* 3 * point_count coordinates */
     size_t point_count;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     void *of_peer; /* what another library makes of it */
 };
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox_tuning.h"
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
@@ -19,12 +20,18 @@ static void set_pose_at(double pose[12], double x)
     pose[3] = x;
 }
 
+/* Whether two ids are one. */
+static int is(swiftprox_object_id id, swiftprox_object_id other)
+{
+    return id.bits == other.bits;
+}
+
 /* Adds a cube whose lower corner is at x, its user data ten times x. */
 static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 {
     swiftprox_object_options options;
     swiftprox_object_id id;
-    CHECK_OK(swiftprox_object_options_init(&options));
+    swiftprox_object_options_init(&options);
     options.user_data = (uint64_t)(10 * x);
     set_pose_at(options.pose, x);
     CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
@@ -53,13 +60,13 @@ static void queries(void)
 
     CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 1);
-    CHECK(answer.pairs[0].object1 == a && answer.pairs[0].object2 == b);
+    CHECK(is(answer.pairs[0].object1, a) && is(answer.pairs[0].object2, b));
     CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
 
-    CHECK_OK(swiftprox_scene_query_init(&query));
+    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
     CHECK_OK(swiftprox_scene_query_tolerance(scene, &query, &answer));
-    CHECK(answer.count == 2 && answer.pairs[1].object1 == b && answer.pairs[1].object2 == c);
+    CHECK(answer.count == 2 && is(answer.pairs[1].object1, b) && is(answer.pairs[1].object2, c));
     CHECK(answer.pairs[0].answer.proof_count > 0 && isnan(answer.pairs[0].answer.world1[0]));
     CHECK(fabs(answer.pairs[1].answer.world1[0] - 1.5) < 1e-13 && answer.pairs[1].answer.normal[0] == -1);
 
@@ -75,7 +82,7 @@ static void queries(void)
     query.early_exit = 1;
     CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 0 && answer.pairs == NULL);
-    CHECK(answer.found != NULL && answer.found->object1 == a && answer.found->object2 == b);
+    CHECK(answer.found != NULL && is(answer.found->object1, a) && is(answer.found->object2, b));
     CHECK(answer.found->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING && answer.found->user_data2 == 5);
 
     swiftprox_scene_statistics statistics;
@@ -161,10 +168,16 @@ static void levels(void)
     enum { COUNT = 500 };
     double points[3 * COUNT], pose[12];
     swiftprox_shape_options options;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_shape_info info = {sizeof info};
-    CHECK_OK(swiftprox_shape_options_init(&options));
-    options.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
+    swiftprox_shape_tuning_info has = {sizeof has};
+    swiftprox_shape_tuning making;
+    swiftprox_pair_tuning asking;
+    swiftprox_shape_tuning_init(&making);
+    swiftprox_pair_tuning_init(&asking);
+    swiftprox_shape_options_init(&options);
+    making.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
+    options.tuning = &making;
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
         const double z = 1 - (2 * i + 1.0) / COUNT, r = sqrt(1 - z * z);
         points[3 * i] = r * cos(2.4 * i);
@@ -174,16 +187,18 @@ static void levels(void)
     if (!CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, &options, &shape)))
         return;
     CHECK_OK(swiftprox_shape_get_info(shape, &info));
-    CHECK(info.hierarchy == SWIFTPROX_HIERARCHY_QUADRIC && info.level_count > 0 && info.lookup == SWIFTPROX_LOOKUP_SHELLS);
-    CHECK(info.level_bytes > 0 && info.level_bytes + info.lookup_bytes < info.bytes);
-    const size_t level_bytes = info.level_bytes, without_tables = info.bytes - info.lookup_bytes - level_bytes;
+    CHECK_OK(swiftprox_shape_get_tuning_info(shape, &has));
+    CHECK(has.hierarchy == SWIFTPROX_HIERARCHY_QUADRIC && has.level_count > 0 && has.lookup == SWIFTPROX_LOOKUP_SHELLS);
+    CHECK(has.level_bytes > 0 && has.level_bytes + has.lookup_bytes < info.bytes);
+    const size_t level_bytes = has.level_bytes, without_tables = info.bytes - has.lookup_bytes - level_bytes;
 
-    swiftprox_shape *prepared;
+    const swiftprox_shape *prepared;
     CHECK_OK(swiftprox_shape_create_from_points(points, COUNT, &options, &prepared));
     CHECK_OK(swiftprox_shape_prepare(prepared, NULL, NULL));
     CHECK_OK(swiftprox_shape_get_info(prepared, &info));
-    CHECK(info.lookup_bytes > 0 && info.level_bytes > level_bytes); /* levels have tables, too */
-    CHECK(info.bytes == without_tables + info.lookup_bytes + info.level_bytes);
+    CHECK_OK(swiftprox_shape_get_tuning_info(prepared, &has));
+    CHECK(has.lookup_bytes > 0 && has.level_bytes > level_bytes); /* levels have tables, too */
+    CHECK(info.bytes == without_tables + has.lookup_bytes + has.level_bytes);
     swiftprox_shape_release(prepared);
 
     swiftprox_scene *scene;
@@ -193,24 +208,26 @@ static void levels(void)
     swiftprox_object_options where;
     swiftprox_object_id id;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    CHECK_OK(swiftprox_object_options_init(&where));
+    swiftprox_object_options_init(&where);
     for (int i = 0; i < 3; ++i) {
         set_pose_at(pose, 4.0 * i);
         memcpy(where.pose, pose, sizeof pose);
-        CHECK_OK(swiftprox_scene_add_object(scene, (const swiftprox_shape *const *)&shape, 1, &where, &id));
+        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &where, &id));
     }
-    CHECK_OK(swiftprox_scene_query_init(&query));
-    query.levels = SWIFTPROX_LEVELS_ALL;
+    swiftprox_scene_query_init(&query);
+    asking.levels = SWIFTPROX_LEVELS_ALL;
+    query.tuning = &asking;
     query.error_budget = 3;
     CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
     CHECK(answer.count == 3);
     CHECK_OK(swiftprox_shape_get_info(shape, &info));
-    CHECK(info.level_bytes > level_bytes); /* the levels' own tables said where to start, and levels answered */
-    CHECK(info.bytes == without_tables + info.lookup_bytes + info.level_bytes);
+    CHECK_OK(swiftprox_shape_get_tuning_info(shape, &has));
+    CHECK(has.level_bytes > level_bytes); /* the levels' own tables said where to start, and levels answered */
+    CHECK(info.bytes == without_tables + has.lookup_bytes + has.level_bytes);
     swiftprox_shape_release(shape);
     for (size_t i = 0; i < answer.count; ++i) {
         const swiftprox_pair_answer *pair = &answer.pairs[i].answer;
-        CHECK(pair->status == SWIFTPROX_PAIR_STATUS_WITHIN_TOLERANCE && pair->upper - pair->lower <= 1);
+        CHECK(pair->decided_by == SWIFTPROX_DECIDED_BY_TOLERANCE && pair->upper - pair->lower <= 1);
         CHECK(pair->statistics.levels[0] > 0 && pair->statistics.levels[1] > 0);
     }
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
@@ -225,12 +242,162 @@ static void levels(void)
     CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.within_tolerance == 0 && statistics.by_level[0] == 3 && statistics.error_spent < 1e-12);
-    swiftprox_scene_destroy(scene);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
+/* Refuses pairs of which one has the user's id, and counts its calls. */
+struct refusal {
+    swiftprox_object_id id;
+    int calls;
+};
+
+static int32_t refuse(swiftprox_object_id object1, swiftprox_object_id object2, void *user)
+{
+    struct refusal *refusal = user;
+    ++refusal->calls;
+    return !is(object1, refusal->id) && !is(object2, refusal->id);
+}
+
+/* What decides which pairs are tested, beside activation: groups, fixed objects, a filter and pairs of the program's own. */
+static void filters(void)
+{
+    swiftprox_scene *scene;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, a, &info));
+    CHECK(info.groups == 1 && info.mask == UINT32_MAX);
+
+    CHECK_OK(swiftprox_scene_set_filter(scene, a, 2, 1));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+    CHECK_OK(swiftprox_scene_set_filter(scene, b, 1, 4));
+    CHECK(lists(scene, 1, (const double[]){2}));
+    CHECK_OK(swiftprox_scene_set_filter(scene, b, 0, 0));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+
+    CHECK_OK(swiftprox_scene_set_fixed(scene, a, 1));
+    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 1));
+    CHECK(lists(scene, 2, (const double[]){2, 1.5}));
+    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 0));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+
+    struct refusal refusal = {b, 0};
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, refuse, &refusal));
+    CHECK(lists(scene, 1, (const double[]){2}) && lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
+    refusal.id = c;
+    CHECK(lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
+    CHECK_OK(swiftprox_scene_filter_again(scene));
+    CHECK(lists(scene, 1, (const double[]){0}) && refusal.calls == 6);
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, NULL, NULL));
+
+    const swiftprox_object_id pairs[] = {c, a, a, b, b, a}, twice[] = {a, b, c, c};
+    CHECK_OK(swiftprox_scene_set_pairs(scene, pairs, 3));
+    CHECK(lists(scene, 2, (const double[]){0, 2}));
+    CHECK(swiftprox_scene_set_pairs(scene, twice, 2) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(strstr(swiftprox_library_last_error_message(), "pair 1") != NULL);
+    CHECK(lists(scene, 2, (const double[]){0, 2}));
+    CHECK_OK(swiftprox_scene_set_pairs(scene, NULL, 0));
+    CHECK(lists(scene, 0, NULL));
+    CHECK_OK(swiftprox_scene_find_pairs(scene));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
+/* Several objects moved by their ids, pieces moved in their object, and the objects in order. */
+static void pieces(void)
+{
+    swiftprox_scene *scene;
+    swiftprox_shape *shape;
+    swiftprox_object_id id, ids[4];
+    size_t count;
+    double poses[24], pose[12];
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 3);
+    set_pose_at(poses, 1);
+    set_pose_at(poses + 12, 5);
+    const swiftprox_object_id moved[] = {b, a};
+    CHECK_OK(swiftprox_scene_set_poses(scene, moved, poses, 2));
+    CHECK(lists(scene, 1, (const double[]){3}));
+    poses[12] = NAN;
+    CHECK(swiftprox_scene_set_poses(scene, moved, poses, 2) == SWIFTPROX_ERROR_POSE);
+    CHECK(strstr(swiftprox_library_last_error_message(), "pose 1") != NULL);
+
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    const swiftprox_shape *two[] = {shape, shape};
+    CHECK_OK(swiftprox_scene_add_object(scene, two, 2, NULL, &id));
+    swiftprox_shape_release(shape);
+    set_pose_at(pose, 10);
+    CHECK_OK(swiftprox_scene_set_piece_pose(scene, id, 1, pose));
+    /* At 1 (b), 5 (a), and the pieces at 0 and 10: a with b, a with both pieces, b with both. */
+    CHECK(lists(scene, 5, (const double[]){3, 4, 4, 0, 8}));
+    CHECK_OK(swiftprox_scene_get_piece_pose(scene, id, 1, pose));
+    CHECK(pose[3] == 10);
+    CHECK(swiftprox_scene_set_piece_pose(scene, id, 2, pose) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_scene_get_piece_pose(scene, id, 2, pose) == SWIFTPROX_ERROR_INVALID_ARGUMENT && isnan(pose[3]));
+
+    CHECK_OK(swiftprox_scene_copy_object_ids(scene, NULL, 0, &count));
+    CHECK(count == 3);
+    CHECK_OK(swiftprox_scene_copy_object_ids(scene, ids, 4, &count));
+    CHECK(count == 3 && is(ids[0], a) && is(ids[1], b) && is(ids[2], id));
+    CHECK(swiftprox_scene_copy_object_ids(scene, ids, 2, &count) == SWIFTPROX_ERROR_INVALID_ARGUMENT && count == 0);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
+/* What is near one object, or a shape that is in no scene, and what has changed. */
+static void near_objects(void)
+{
+    swiftprox_scene *scene;
+    swiftprox_shape *shape;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_events events;
+    double pose[12];
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    swiftprox_scene_query_init(&query);
+    query.distance_tolerance = 1.75;
+    CHECK_OK(swiftprox_scene_query_object(scene, c, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object1, b) && is(answer.pairs[0].object2, c));
+    CHECK(fabs(answer.pairs[0].answer.distance - 1.5) < 1e-13 && !answer.intersecting);
+    CHECK_OK(swiftprox_scene_query_object(scene, a, SWIFTPROX_QUERY_KIND_INTERSECTION, NULL, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object2, b) && answer.intersecting);
+    CHECK(swiftprox_scene_query_object(scene, a, (swiftprox_query_kind)9, NULL, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    set_pose_at(pose, 3.5);
+    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object1, c) && answer.pairs[0].object2.bits == 0);
+    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_DISTANCE, NULL, &answer));
+    CHECK(answer.count == 3 && answer.pairs[2].user_data1 == 30);
+    pose[0] = NAN;
+    CHECK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer) ==
+          SWIFTPROX_ERROR_POSE);
+    swiftprox_shape_release(shape);
+
+    CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
+    CHECK(events.began_count == 1 && events.ended_count == 0 && events.ended == NULL);
+    CHECK(is(events.began[0].object1, a) && is(events.began[0].object2, b) && events.began[0].user_data2 == 5);
+    set_pose_at(pose, 2);
+    CHECK_OK(swiftprox_scene_set_pose(scene, b, pose));
+    CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
+    CHECK(events.began_count == 1 && is(events.began[0].object2, c));
+    CHECK(events.ended_count == 1 && is(events.ended[0].object1, a));
+    CHECK_OK(swiftprox_scene_remove_object(scene, c));
+    CHECK_OK(swiftprox_scene_query_events(scene, 0.5, &events));
+    CHECK(events.began_count == 0 && events.ended_count == 1 && is(events.ended[0].object2, c));
+    CHECK_OK(swiftprox_scene_query_events(scene, 1, &events));
+    CHECK(events.began_count == 1 && events.ended_count == 0);
+    CHECK(swiftprox_scene_query_events(scene, -1, &events) == SWIFTPROX_ERROR_INVALID_ARGUMENT && events.began == NULL);
+    CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
 int main(void)
 {
     queries();
+    filters();
+    pieces();
+    near_objects();
     motion();
     activation();
     levels();

@@ -37,7 +37,7 @@ static const double PI = 3.14159265358979323846;
 
 struct flight {
     const char *names[2];
-    swiftprox_shape *shapes[2];
+    const swiftprox_shape *shapes[2];
     double poses[POSES][2][12];
     swiftprox_pair_answer answers[POSES];
     double distances[POSES];
@@ -260,7 +260,7 @@ static const char *base_name(const char *path)
 }
 
 /* The model in a file, or the convex hull of one that is not convex; says so. */
-static bool load_shape(const char *path, swiftprox_shape **shape)
+static bool load_shape(const char *path, const swiftprox_shape **shape)
 {
     const swiftprox_status status = swiftprox_shape_create_from_file(path, NULL, shape);
     if (status == SWIFTPROX_ERROR_MESH) {
@@ -280,8 +280,7 @@ static bool load(struct flight *flight, double orbit)
         return false;
     }
     if (strcmp(flight->names[0], flight->names[1]) == 0) { /* any number of bodies may share a shape */
-        swiftprox_shape_retain(flight->shapes[0]);
-        flight->shapes[1] = flight->shapes[0];
+        flight->shapes[1] = swiftprox_shape_retain(flight->shapes[0]);
     } else if (!load_shape(flight->names[1], &flight->shapes[1])) {
         return false;
     }

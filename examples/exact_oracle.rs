@@ -6,7 +6,7 @@
 //! `intersecting 0 0` or `separated LOWER UPPER`, the largest double that is not above the distance and the smallest that is
 //! not below. The bodies are the hulls of R·v + T, exactly as the doubles say; touching is intersecting.
 //!
-//! The method is told in `tests/oracle/any_size/nearest.rs`.
+//! The method is told in `testkit/src/any_size/nearest.rs`.
 
 use std::io::Read;
 use std::process::ExitCode;
@@ -14,11 +14,8 @@ use std::process::ExitCode;
 use dashu_int::{UBig, ops::SquareRoot};
 use dashu_ratio::RBig;
 
-#[path = "../tests/oracle/any_size/mod.rs"]
-mod any_size;
-
-use any_size::integers::place;
-use any_size::nearest::nearest;
+use testkit::any_size::integers::place;
+use testkit::any_size::nearest::nearest;
 
 fn main() -> ExitCode {
     let mut text = String::new();

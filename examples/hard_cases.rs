@@ -13,7 +13,7 @@
 //! means touching. Moving B by depth·n separates; a and b are a deepest pair, a − b = depth·n, or a common point when touching,
 //! or `nan` where the bodies have too many vertices for the depth to be followed to the end. The bodies are the hulls of R·v +
 //! T exactly as the doubles say. Every verdict and distance is computed in integers and rationals with nothing of the library
-//! (`tests/oracle/any_size`): the nearest points prove one bound, a supporting plane over all vertices the other.
+//! (`testkit/src/any_size`): the nearest points prove one bound, a supporting plane over all vertices the other.
 //!
 //! DIR/counts.csv tells what became of the poses when the library was asked for their distances, in order and with the cache
 //! carried on: verdicts and intervals against that truth, the ways of deciding, and the most steps of each.
@@ -29,24 +29,16 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 
-#[path = "../tests/oracle/any_size/mod.rs"]
-mod any_size;
-#[path = "../benches/common/mod.rs"]
-mod common;
-#[path = "../tests/oracle/mod.rs"]
-#[allow(dead_code)] // how a truth is compared, not how that oracle finds it
-mod oracle;
-
-use any_size::decimal::{direction, root_enclosure, rounded};
-use any_size::depth::depth;
-use any_size::integers::{Placed, place};
-use any_size::nearest::nearest;
-use common::PosePair;
-use common::hard::flight::{Table, Tally, fly, shapes};
-use common::hard::{Family, Sequence, families, triangles};
-use oracle::Truth;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::Outcome;
+use testkit::PosePair;
+use testkit::any_size::decimal::{direction, root_enclosure, rounded};
+use testkit::any_size::depth::depth;
+use testkit::any_size::integers::{Placed, place};
+use testkit::any_size::nearest::nearest;
+use testkit::hard::flight::{Table, Tally, fly, shapes};
+use testkit::hard::{Family, Sequence, families, triangles};
+use testkit::oracle::Truth;
 
 /// Vertices of the difference body that are looked for to bound a depth, when the bodies are large.
 const DEPTH_LIMIT: usize = 150;
@@ -111,7 +103,7 @@ fn write_family(family: &Family, folder: &Path, arguments: &Arguments) -> Result
     fs::create_dir_all(folder)?;
     let sources = family.sources.join(", ");
     let (seed, count) = (arguments.seed, arguments.count.unwrap_or(family.sweep));
-    let truth = "truth: exact integers and rationals, without the library (tests/oracle/any_size)";
+    let truth = "truth: exact integers and rationals, without the library (testkit/src/any_size)";
     fs::write(
         folder.join("README"),
         format!("{}: {}\nsources: {sources}\nseed {seed}, {count} sequences\n{truth}\n", family.name, family.why),
@@ -192,7 +184,7 @@ fn truth(placed: &Placed) -> (String, Truth) {
         let normal = direction(&integers(&towards_b)).join(" ");
         return (format!("{lo} {hi} {} {} 0 0 {normal}\n", written(&a), written(&b)), truth);
     }
-    let limit = if placed.a.len() + placed.b.len() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
+    let limit = if placed.a.count() + placed.b.count() <= SMALL { usize::MAX } else { DEPTH_LIMIT };
     let depth = depth(placed, limit);
     let [[lo, _], [_, hi]] = [&depth.lower_square, &depth.upper_square].map(|square| root_enclosure(square, e));
     let points = if hi == "0" {

@@ -7,7 +7,7 @@ int main(void)
     const uint32_t faces[] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}; /* four triangles, counter-clockwise seen from outside */
     const double pose1[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
     const double pose2[12] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1};
-    swiftprox_shape *tetrahedron;
+    const swiftprox_shape *tetrahedron;
     swiftprox_pair_cache cache = {{0}}; /* all zero is cold; keep one for each pair */
     swiftprox_pair_answer answer;
     if (swiftprox_shape_create_from_mesh(corners, 4, faces, NULL, 4, NULL, &tetrahedron) != SWIFTPROX_OK ||

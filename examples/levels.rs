@@ -3,16 +3,13 @@
 //! `cargo run --release --example levels -- [--paper] [VERTICES ...]`; docs/levels.md has its output. With `--paper` the
 //! settings of the figures of Ehmann & Lin 2000 rather than the default ones.
 
-#[path = "../benches/common/mod.rs"]
-mod common;
-
 use std::time::Instant;
 
-use common::models::{ELLIPSOIDS, ellipsoid};
 use swiftprox::build::assembly::build;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
+use testkit::models::{ELLIPSOIDS, ellipsoid};
 
 const KINDS: [(HierarchyKind, &str); 3] = [
     (HierarchyKind::Quadric, "quadric"),

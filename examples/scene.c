@@ -25,7 +25,7 @@ static swiftprox_object_id add(swiftprox_scene *scene, const char *folder, const
     swiftprox_object_options options;
     swiftprox_object_id id;
     snprintf(path, sizeof path, "%s/%s", folder, model);
-    demand(swiftprox_object_options_init(&options));
+    swiftprox_object_options_init(&options);
     options.user_data = name;
     options.fixed = fixed;
     demand(swiftprox_scene_add_file(scene, path, NULL, &options, &id));
@@ -57,7 +57,7 @@ int main(int argc, char **argv)
     demand(swiftprox_scene_set_pose(scene, ball, at_the_side));
 
     swiftprox_scene_query query;
-    demand(swiftprox_scene_query_init(&query));
+    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.0; /* who is farther apart is not listed */
 
     for (int step = 0; step < STEPS; step++) {
@@ -65,7 +65,7 @@ int main(int argc, char **argv)
         const double place[3] = {0, 0, 3.0 - 0.5 * step};
         demand(swiftprox_scene_set_transform(scene, prism, upright, place));
 
-        swiftprox_scene_answer answer; /* its list is the scene's, valid until the next change or query */
+        swiftprox_scene_answer answer; /* its list is the scene's, valid until its next query */
         demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
         printf("prism at height %g: %zu near\n", place[2], answer.count);
         for (size_t i = 0; i < answer.count; i++) {

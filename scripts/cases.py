@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds swiftprox-query against exact truth: every verdict, every interval, in exact decimals and without any tolerance.
 
-  cases.py TOOL DIR [--query contact|distance|intersection|approximate] [--bounds tight|verdict] [--error E] [--levels ...]
+  cases.py TOOL DIR [--query contact|distance|intersection|approximate] [--error E] [--levels ...]
            [--start ...] [--answers OUT] [--timeout SECONDS]
 
 DIR holds folders of one of two forms; both may occur:
@@ -22,8 +22,8 @@ The tool runs with --input hull. What is counted, a family a row:
   wide    disjoint pairs with upper - lower above the promise: 2e-14 max(r1 + r2, distance), r the largest distance of a
           vertex from the local centre; in families of cases, which are hard, also 1e-13 (L + 2e-3 W) where that is more, L the
           larger bounding-box diagonal and W the largest world coordinate. `width` is the largest as a fraction of that promise,
-          less what printing added; of --query approximate E (r1 + r2) where that is more. Not looked at with --bounds verdict
-          and --query intersection
+          less what printing added; of --query approximate E (r1 + r2) where that is more. Not looked at with
+          --query intersection
   refused, failed, hung: poses left without an answer by an exit status of 2, another end, or no end in time
 
 Exit status 0 when all of these are 0. With --answers, OUT/FAMILY/CASE.ans is written for judges that read 11 numbers a
@@ -155,7 +155,7 @@ class Row:
 def run_tool(arguments, case, promise):
     """The answers as lists of words, and what cut them short: None, or one of `refused`, `failed`, `hung`."""
     command = [arguments.tool, case.first, case.second, case.poses, "--input", "hull", "--query", arguments.query,
-               "--bounds", arguments.bounds, "--levels", arguments.levels, "--start", arguments.start]
+               "--levels", arguments.levels, "--start", arguments.start]
     if arguments.query == "approximate":
         command += ["--error", repr(promise.error)]
     try:
@@ -205,7 +205,7 @@ def judge_case(arguments, case):
     poses, truths = read_numbers(case.poses), read_numbers(case.truth)
     if len(poses) != len(truths):
         sys.exit("%s: %d lines of truth for %d poses" % (case.truth, len(truths), len(poses)))
-    tight = arguments.bounds == "tight" and arguments.query != "intersection"
+    tight = arguments.query != "intersection"
     promise = Promise(case, arguments.error if arguments.query == "approximate" else 0.0)
     answers, cut, message = run_tool(arguments, case, promise)
     if cut is None and len(answers) != len(poses):
@@ -257,7 +257,6 @@ def main():
     parser.add_argument("tool", help="the swiftprox-query to run")
     parser.add_argument("directory", metavar="DIR")
     parser.add_argument("--query", default="contact", choices=("contact", "distance", "intersection", "approximate"))
-    parser.add_argument("--bounds", default="tight", choices=("tight", "verdict"))
     parser.add_argument("--error", metavar="E", type=float, default=0.01, help="of --query approximate, over r1 + r2 (0.01)")
     parser.add_argument("--levels", default="auto", choices=("auto", "none", "quadric", "dk", "outer"))
     parser.add_argument("--start", default="auto", choices=("auto", "cache", "table", "cold"))

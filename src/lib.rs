@@ -50,9 +50,11 @@ pub use pair::verify;
 pub use scene::object;
 pub use shape::file as shape_file;
 
-// Unit tests draw from the generator of the benchmarks, which knows this crate by its name.
+// Unit tests draw from the generator of the testkit, which knows this crate by its name. They cannot link the testkit: it would
+// bring another copy of this crate, with the same C functions.
 #[cfg(test)]
 extern crate self as swiftprox;
 #[cfg(test)]
-#[path = "../benches/common/random.rs"]
+#[allow(dead_code, reason = "unit tests use a part of it")]
+#[path = "../testkit/src/random.rs"]
 mod random;

@@ -3,15 +3,11 @@
 
 #![allow(unsafe_code, reason = "the C functions are unsafe to call")]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-
 use std::ffi::{CStr, c_char, c_void};
 use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 use std::sync::Mutex;
 
-use random::Random;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::allocator::swiftprox_library_set_allocator;
 use swiftprox::ffi::level::*;
@@ -22,12 +18,14 @@ use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::*;
 use swiftprox::ffi::shape_options::*;
+use swiftprox::ffi::tuning::*;
 use swiftprox::hierarchy::HierarchyKind;
 use swiftprox::math::Vector;
 use swiftprox::object::ObjectId;
-use swiftprox::pair::{FeatureKind, Outcome, PairAnswer, PairConfig};
+use swiftprox::pair::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use swiftprox::scene::SceneStatistics;
 use swiftprox::shape::Shape;
+use testkit::random::Random;
 
 const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
 const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];
@@ -38,8 +36,8 @@ fn last_message() -> String {
 }
 
 /// A tetrahedron with one share, the caller's.
-fn tetrahedron() -> *mut Shape {
-    let mut shape = null_mut();
+fn tetrahedron() -> *const Shape {
+    let mut shape = null();
     // SAFETY: arrays of the sizes that are given, and room for the shape.
     let status =
         unsafe { swiftprox_shape_create_from_mesh(CORNERS.as_ptr(), 4, FACES.as_ptr(), null(), 4, null(), &mut shape) };
@@ -47,9 +45,31 @@ fn tetrahedron() -> *mut Shape {
     shape
 }
 
+/// A struct as its `_init` macro fills it: with the size that the program knows.
+fn initialised<T>(init: unsafe extern "C" fn(*mut T, usize)) -> T {
+    let mut value = MaybeUninit::<T>::uninit();
+    // SAFETY: room for the struct; any bytes are a valid one.
+    unsafe {
+        init(value.as_mut_ptr(), size_of::<T>());
+        value.assume_init()
+    }
+}
+
+fn pair_config() -> CPairConfig {
+    initialised(swiftprox_pair_config_init_sized)
+}
+
+fn shape_options() -> CShapeOptions {
+    initialised(swiftprox_shape_options_init_sized)
+}
+
+fn shape_tuning() -> CShapeTuning {
+    initialised(swiftprox_shape_tuning_init_sized)
+}
+
 fn release(shape: *const Shape) {
     // SAFETY: a living shape whose share is given up.
-    assert_eq!(unsafe { swiftprox_shape_release(shape) }, StatusCode::Ok);
+    unsafe { swiftprox_shape_release(shape) };
 }
 
 /// The identity moved along x.
@@ -58,7 +78,7 @@ fn moved(x: f64) -> [f64; 12] {
 }
 
 /// The distance of a tetrahedron and its copy moved by 3 along x, which is 2.
-fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const PairConfig) -> (StatusCode, PairAnswer) {
+fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const CPairConfig) -> (StatusCode, PairAnswer) {
     // Bytes that no answer has, as C leaves them.
     let mut answer = MaybeUninit::<PairAnswer>::uninit();
     // SAFETY: every pointer is valid; what the answer holds is not looked at before it is written.
@@ -96,17 +116,25 @@ fn a_pair_is_answered_whatever_is_in_the_cache_and_the_answer() {
     release(shape);
 }
 
+/// A config of this library with what a newer header has behind it.
+#[repr(C)]
+struct Newer {
+    known: CPairConfig,
+    unknown: [u8; 16],
+}
+
 #[test]
 fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
-    #[repr(C)]
-    struct Newer {
-        config: PairConfig,
-        unknown: [u8; 16],
-    }
     let shape = tetrahedron();
-    let mut newer = Newer { config: PairConfig::default(), unknown: [0; 16] };
-    newer.config.struct_size = size_of::<Newer>();
-    newer.config.distance_tolerance = 1.0;
+    let mut newer = MaybeUninit::<Newer>::uninit();
+    // SAFETY: room for the struct; all of it is written.
+    let mut newer = unsafe {
+        newer.as_mut_ptr().cast::<u8>().write_bytes(7, size_of::<Newer>());
+        swiftprox_pair_config_init_sized(newer.as_mut_ptr().cast(), size_of::<Newer>());
+        newer.assume_init()
+    };
+    assert_eq!((newer.known.struct_size, newer.unknown), (size_of::<Newer>(), [0; 16]));
+    newer.known.distance_tolerance = 1.0;
     let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
     assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{}", last_message());
 
@@ -115,44 +143,128 @@ fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
     assert_eq!((status, answer.outcome), (StatusCode::ErrorStructSize, Outcome::None));
     assert!(last_message().contains("swiftprox_pair_config"), "{}", last_message());
 
-    for size in [0, 8, size_of::<PairConfig>() - 1, 1 << 20, usize::MAX] {
-        let config = PairConfig { struct_size: size, ..PairConfig::default() };
+    for size in [0, 8, 15, 1 << 20, usize::MAX] {
+        let config = CPairConfig { struct_size: size, ..pair_config() };
         let (status, _) = distance(shape, &mut CPairCache::default(), &config);
         assert_eq!(status, StatusCode::ErrorStructSize, "{size}");
     }
     release(shape);
 }
 
+/// Structs of an older header end earlier. Behind them stands what is the program's own.
+#[test]
+fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
+    #[repr(C)]
+    struct Older {
+        struct_size: usize,
+        distance_tolerance: f64,
+        own: [u64; 16],
+    }
+    const OWN: [u64; 16] = [0xa5a5_a5a5_a5a5_a5a5; 16];
+    const SIZE: usize = std::mem::offset_of!(Older, own);
+    let shape = tetrahedron();
+    let mut older = Older { struct_size: 0, distance_tolerance: 0.0, own: OWN };
+    // SAFETY: as much room as is said.
+    unsafe { swiftprox_pair_config_init_sized((&raw mut older).cast(), SIZE) };
+    assert_eq!((older.struct_size, older.distance_tolerance, older.own), (SIZE, f64::INFINITY, OWN));
+    let ask = |older: &Older| distance(shape, &mut CPairCache::default(), (&raw const *older).cast());
+    assert_eq!(ask(&older).1.outcome, Outcome::Separated, "{}", last_message());
+    older.distance_tolerance = 1.0;
+    assert_eq!(ask(&older).1.outcome, Outcome::Beyond, "{}", last_message());
+
+    #[repr(C)]
+    struct OlderInfo {
+        struct_size: usize,
+        dimension: i32,
+        vertex_count: usize,
+        own: [u64; 32],
+    }
+    let mut info =
+        OlderInfo { struct_size: std::mem::offset_of!(OlderInfo, own), dimension: 7, vertex_count: 7, own: [9; 32] };
+    // SAFETY: as much room as is said.
+    let status = unsafe { swiftprox_shape_get_info(shape, (&raw mut info).cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
+    assert_eq!((info.dimension, info.vertex_count, info.own), (3, 4, [9; 32]));
+
+    // A newer info: what this library does not know is 0, whatever was there.
+    let mut newer = [u64::MAX; 64];
+    newer[0] = 8 * 40;
+    // SAFETY: as above.
+    let status = unsafe { swiftprox_shape_get_info(shape, newer.as_mut_ptr().cast()) };
+    assert_eq!(status, StatusCode::Ok, "{}", last_message());
+    let known = size_of::<ShapeInfo>() / 8;
+    assert_eq!(newer[2], 4);
+    assert!(newer[known..40].iter().all(|&word| word == 0) && newer[40..].iter().all(|&word| word == u64::MAX));
+    release(shape);
+}
+
 #[test]
 fn unknown_enumerators_are_refused() {
     let shape = tetrahedron();
-    // SAFETY: every pointer is valid; the structs are written as bytes and never read here.
+    let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
+    let config = |tuning: &CPairTuning| CPairConfig { tuning, ..pair_config() };
+    assert_eq!(distance(shape, &mut CPairCache::default(), &config(&tuning)).0, StatusCode::Ok, "{}", last_message());
+    tuning.levels = 3;
+    assert_eq!(distance(shape, &mut CPairCache::default(), &config(&tuning)).0, StatusCode::ErrorInvalidArgument);
+    assert!(last_message().contains("tuning->levels is 3"), "{}", last_message());
+    // SAFETY: every pointer is valid; the answer is written as bytes and never read here.
     unsafe {
-        let mut config = MaybeUninit::<PairConfig>::uninit();
-        assert_eq!(swiftprox_pair_config_init(config.as_mut_ptr()), StatusCode::Ok);
-        (&raw mut (*config.as_mut_ptr()).bounds).cast::<i32>().write(2);
-        assert_eq!(distance(shape, &mut CPairCache::default(), config.as_ptr()).0, StatusCode::ErrorInvalidArgument);
-        assert!(last_message().contains("bounds is 2"), "{}", last_message());
-
         let (_, answer) = distance(shape, &mut CPairCache::default(), null());
         let poses = [moved(0.0), moved(3.0)];
         let verify = |answer| swiftprox_pair_verify(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), answer);
         assert_eq!(verify(&answer), StatusCode::Ok, "{}", last_message());
-        let mut changed = MaybeUninit::new(answer);
-        (&raw mut (*changed.as_mut_ptr()).outcome).cast::<i32>().write(-1);
-        assert_eq!(verify(changed.as_ptr()), StatusCode::ErrorInvalidArgument);
+        for member in [std::mem::offset_of!(PairAnswer, outcome), std::mem::offset_of!(PairAnswer, decided_by)] {
+            let mut changed = MaybeUninit::new(answer);
+            changed.as_mut_ptr().cast::<u8>().add(member).cast::<i32>().write(-1);
+            assert_eq!(verify(changed.as_ptr()), StatusCode::ErrorInvalidArgument);
+        }
         let wrong = PairAnswer { lower: 2.5, distance: 2.5, upper: 2.5, ..answer };
         assert_eq!(verify(&wrong), StatusCode::ErrorUnverified);
 
-        let mut shape_options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swiftprox_shape_options_init(shape_options.as_mut_ptr()), StatusCode::Ok);
-        let mut shape_options = shape_options.assume_init();
-        shape_options.input = 3;
+        let options = CShapeOptions { input: 3, ..shape_options() };
         let mut made = shape;
-        let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &shape_options, &mut made);
+        let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &options, &mut made);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
         assert!(made.is_null());
     }
+    release(shape);
+}
+
+/// Of objects beyond the tolerance every query says the same things, and what it says holds.
+#[test]
+fn an_answer_beyond_the_tolerance_says_what_is_documented() {
+    let shape = tetrahedron();
+    let queries =
+        [swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate];
+    let mut deciders = Vec::new();
+    for (x, tolerance) in
+        [(3.0, 1.0), (3.0, 1.999_999), (1.3, 0.1), (1.3, 0.3_f64.next_down()), (50.0, 0.0), (1.001, 0.0)]
+    {
+        let config = CPairConfig { distance_tolerance: tolerance, ..pair_config() };
+        let (here, there) = (moved(0.0), moved(x));
+        for query in queries {
+            let mut cache = CPairCache::default();
+            for _warm in 0..2 {
+                let mut answer = PairAnswer::default();
+                // SAFETY: every pointer is valid.
+                unsafe {
+                    let status = query(shape, here.as_ptr(), shape, there.as_ptr(), &mut cache, &config, &mut answer);
+                    assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{x}: {}", last_message());
+                    let status = swiftprox_pair_verify(shape, here.as_ptr(), shape, there.as_ptr(), &answer);
+                    assert_eq!(status, StatusCode::Ok, "{}", last_message());
+                }
+                assert!(answer.lower >= tolerance && answer.lower <= x - 1.0, "{answer:?}");
+                assert_eq!((answer.distance, answer.upper), (answer.lower, f64::INFINITY));
+                let length: f64 = answer.normal.iter().map(|c| c * c).sum();
+                assert!((length - 1.0).abs() < 1e-15, "{answer:?}");
+                let points = [answer.local1, answer.local2, answer.world1, answer.world2];
+                assert!(points.as_flattened().iter().all(|c| c.is_nan()) && answer.proof_count == 0, "{answer:?}");
+                assert_eq!([answer.feature1.kind, answer.feature2.kind], [FeatureKind::None; 2]);
+                deciders.push(answer.decided_by);
+            }
+        }
+    }
+    assert!(deciders.contains(&DecidedBy::Marching) && deciders.contains(&DecidedBy::BoundingSpheres), "{deciders:?}");
     release(shape);
 }
 
@@ -168,7 +280,7 @@ fn info_is_cut_to_the_size_that_the_caller_has() {
         assert_eq!((info.dimension, info.vertex_count, info.edge_count), (3, 4, 6));
         assert_eq!((info.face_count, info.triangle_count), (4, 4));
         assert!((info.volume - 1.0 / 6.0).abs() < 1e-15 && info.bytes > 1000, "{info:?}");
-        assert_eq!((info.lower, info.upper), ([0.0; 3], [1.0; 3]));
+        assert_eq!((info.lower_corner, info.upper_corner), ([0.0; 3], [1.0; 3]));
 
         let (mut vertices, mut labels, mut corners) = ([f64::NAN; 12], [9; 4], [9; 12]);
         let status = swiftprox_shape_copy_vertices(shape, vertices.as_mut_ptr(), labels.as_mut_ptr(), 4);
@@ -214,14 +326,12 @@ fn levels_are_built_counted_and_read_back() {
     let points = many_points();
     // SAFETY: every pointer is valid; the options are initialised, the infos all zero first.
     unsafe {
-        let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
-        let mut options = options.assume_init();
+        let tuning = CShapeTuning { hierarchy: HierarchyKind::Quadric as i32, ..shape_tuning() };
+        let mut options = CShapeOptions { tuning: &tuning, ..shape_options() };
         let mut told = Told { reports: 0, last: 0.0, stop_after: usize::MAX };
-        options.hierarchy = HierarchyKind::Quadric as i32;
         options.progress = Some(tell);
         options.progress_user = (&raw mut told).cast();
-        let mut shape = null_mut();
+        let mut shape = null();
         let status = swiftprox_shape_create_from_points(points.as_ptr(), 400, &options, &mut shape);
         assert_eq!(status, StatusCode::Ok, "{}", last_message());
         assert!(told.reports > 4 && told.last == 1.0, "{}", told.reports);
@@ -229,7 +339,10 @@ fn levels_are_built_counted_and_read_back() {
         let mut info = MaybeUninit::<ShapeInfo>::zeroed().assume_init();
         info.struct_size = size_of::<ShapeInfo>();
         assert_eq!(swiftprox_shape_get_info(shape, &mut info), StatusCode::Ok);
-        assert_eq!((info.hierarchy, info.level_count), (HierarchyKind::Quadric as i32, 1));
+        let mut has = MaybeUninit::<TuningInfo>::zeroed().assume_init();
+        has.struct_size = size_of::<TuningInfo>();
+        assert_eq!(swiftprox_shape_get_tuning_info(shape, &mut has), StatusCode::Ok);
+        assert_eq!((has.hierarchy, has.level_count), (HierarchyKind::Quadric as i32, 1));
         let mut level = MaybeUninit::<LevelInfo>::zeroed().assume_init();
         assert_eq!(swiftprox_shape_get_level_info(shape, 0, &mut level), StatusCode::ErrorStructSize);
         level.struct_size = size_of::<LevelInfo>();
@@ -237,8 +350,8 @@ fn levels_are_built_counted_and_read_back() {
         assert_eq!((level.vertex_count, level.triangle_count, level.deviation), (400, 796, 0.0));
         assert_eq!(swiftprox_shape_get_level_info(shape, 1, &mut level), StatusCode::Ok);
         assert!((50..200).contains(&level.triangle_count) && level.deviation > 0.0 && level.deviation < 0.3);
-        assert_eq!(level.bytes, info.level_bytes);
-        assert!(info.bytes > info.level_bytes);
+        assert_eq!(level.bytes, has.level_bytes);
+        assert!(info.bytes > has.level_bytes);
         let mut none = level;
         assert_eq!(swiftprox_shape_get_level_info(shape, 2, &mut none), StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("no level 2"), "{}", last_message());
@@ -276,7 +389,7 @@ fn levels_are_built_counted_and_read_back() {
             face_count: faces.len() / 3,
         };
         let levels = [mesh(&fine, &faces), mesh(&vertices, &[])];
-        let mut given = null_mut();
+        let mut given = null();
         assert_eq!(
             swiftprox_shape_create_from_levels(levels.as_ptr(), 2, null(), &mut given),
             StatusCode::Ok,
@@ -291,7 +404,7 @@ fn levels_are_built_counted_and_read_back() {
         // Through a file.
         let path = std::path::Path::new(env!("CARGO_TARGET_TMPDIR")).join("c_interface.shape");
         let path = std::ffi::CString::new(path.to_str().unwrap()).unwrap();
-        let mut loaded = null_mut();
+        let mut loaded = null();
         assert_eq!(swiftprox_shape_save(given, path.as_ptr()), StatusCode::Ok, "{}", last_message());
         assert_eq!(
             swiftprox_shape_load(path.as_ptr(), None, null_mut(), &mut loaded),
@@ -321,9 +434,8 @@ fn levels_are_built_counted_and_read_back() {
         assert!(last_message().contains("levels[1]"), "{}", last_message());
         assert_eq!(swiftprox_shape_create_from_levels(null(), 2, null(), &mut given), StatusCode::ErrorNullPointer);
         assert_eq!(swiftprox_shape_create_from_levels(null(), 0, null(), &mut given), StatusCode::ErrorInvalidArgument);
-        let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
-        let options = CShapeOptions { hierarchy: HierarchyKind::Given as i32, ..options.assume_init() };
+        let tuning = CShapeTuning { hierarchy: HierarchyKind::Given as i32, ..shape_tuning() };
+        let options = CShapeOptions { tuning: &tuning, ..shape_options() };
         let status = swiftprox_shape_create_from_levels(levels.as_ptr(), 2, &options, &mut given);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
         assert!(last_message().contains("SWIFTPROX_HIERARCHY_NONE"), "{}", last_message());
@@ -340,7 +452,7 @@ fn a_path_may_be_any_bytes_and_messages_are_utf8() {
     path.extend(b"\xff\xc3(.shape");
     let path = std::ffi::CString::new(path).unwrap();
     let shape = tetrahedron();
-    let mut loaded = null_mut();
+    let mut loaded = null();
     // SAFETY: strings, a living shape, and room for another.
     unsafe {
         assert_eq!(swiftprox_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());
@@ -366,14 +478,12 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
     let points = many_points();
     // SAFETY: every pointer is valid; the options are initialised.
     unsafe {
-        let mut options = MaybeUninit::<CShapeOptions>::uninit();
-        assert_eq!(swiftprox_shape_options_init(options.as_mut_ptr()), StatusCode::Ok);
-        let mut options = options.assume_init();
+        let tuning = CShapeTuning { hierarchy: HierarchyKind::DobkinKirkpatrick as i32, ..shape_tuning() };
+        let mut options = CShapeOptions { tuning: &tuning, ..shape_options() };
         let mut told = Told { reports: 0, last: 0.0, stop_after: 2 };
-        options.hierarchy = HierarchyKind::DobkinKirkpatrick as i32;
         options.progress = Some(tell);
         options.progress_user = (&raw mut told).cast();
-        let mut shape = null_mut();
+        let mut shape = null();
         let mut make = |options: &CShapeOptions| {
             let status = swiftprox_shape_create_from_points(points.as_ptr(), 400, options, &mut shape);
             assert!(status == StatusCode::Ok || shape.is_null());
@@ -383,17 +493,19 @@ fn a_build_can_be_cancelled_and_its_options_are_checked() {
         assert_eq!(told.reports, 3);
         // Without levels, too.
         told = Told { reports: 0, last: 0.0, stop_after: 2 };
-        assert_eq!(make(&CShapeOptions { hierarchy: 0, ..options }), StatusCode::ErrorCancelled);
+        assert_eq!(make(&CShapeOptions { tuning: null(), ..options }), StatusCode::ErrorCancelled);
         assert_eq!(told.reports, 3);
         options.progress = None;
         for hierarchy in [HierarchyKind::Given as i32, 99, -1] {
-            assert_eq!(make(&CShapeOptions { hierarchy, ..options }), StatusCode::ErrorInvalidArgument);
+            let tuning = CShapeTuning { hierarchy, ..tuning };
+            assert_eq!(make(&CShapeOptions { tuning: &tuning, ..options }), StatusCode::ErrorInvalidArgument);
             // Who gives levels is told where they go.
             let is_told = last_message().contains("swiftprox_shape_create_from_levels");
             assert_eq!(is_told, hierarchy == HierarchyKind::Given as i32, "{}", last_message());
         }
         for (decimation, shown) in [(0.0, "0.0"), (1.0, "1.0"), (f64::NAN, "NaN")] {
-            assert_eq!(make(&CShapeOptions { decimation, ..options }), StatusCode::ErrorInvalidArgument);
+            let tuning = CShapeTuning { decimation, ..tuning };
+            assert_eq!(make(&CShapeOptions { tuning: &tuning, ..options }), StatusCode::ErrorInvalidArgument);
             let expected = format!("decimation is {shown}, it must be between 0 and 1, both exclusive");
             assert_eq!(last_message(), expected);
         }
@@ -407,14 +519,12 @@ fn a_scene_holds_shares_of_its_own() {
     unsafe {
         let mut scene = null_mut();
         assert_eq!(swiftprox_scene_create(null(), &mut scene), StatusCode::Ok);
-        let mut options = MaybeUninit::<CObjectOptions>::uninit();
-        assert_eq!(swiftprox_object_options_init(options.as_mut_ptr()), StatusCode::Ok);
-        let mut options = options.assume_init();
+        let mut options: CObjectOptions = initialised(swiftprox_object_options_init_sized);
         let mut ids = [ObjectId::NULL; 2];
         for (i, id) in ids.iter_mut().enumerate() {
             options.user_data = 10 + i as u64;
             options.pose = moved(3.0 * i as f64);
-            let pieces = [shape.cast_const(); 2];
+            let pieces = [shape; 2];
             assert_eq!(swiftprox_scene_add_object(scene, pieces.as_ptr(), 2, &options, id), StatusCode::Ok);
         }
         // The scene's shares outlive the caller's.
@@ -432,8 +542,8 @@ fn a_scene_holds_shares_of_its_own() {
 
         let mut piece = null();
         assert_eq!(swiftprox_scene_get_piece(scene, ids[0], 1, &mut piece), StatusCode::Ok);
-        assert_eq!(piece, shape.cast_const());
-        assert_eq!(swiftprox_shape_retain(piece), StatusCode::Ok);
+        assert_eq!(piece, shape);
+        assert_eq!(swiftprox_shape_retain(piece), piece);
         assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
         // And the caller's share outlives the scene.
         assert_eq!(distance(piece, &mut CPairCache::default(), null()).0, StatusCode::Ok);
@@ -495,6 +605,7 @@ fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
     for (in_words, last, unknown) in [
         (swiftprox_library_status_string as InWords, StatusCode::ErrorBusy as i32, "not a status"),
         (swiftprox_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
+        (swiftprox_library_decided_by_string, DecidedBy::InscribedSpheres as i32, "not what decides"),
         (swiftprox_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
     ] {
         let words = |number: i32| {
@@ -518,12 +629,12 @@ fn what_a_failed_call_does_not_say_is_nan() {
     let bad_pose = [f64::NAN; 12];
     let (here, there) = (moved(0.0), moved(3.0));
     let (here, there) = (here.as_ptr(), there.as_ptr());
-    let config = PairConfig { distance_tolerance: -1.0, ..PairConfig::default() };
-    let small = PairConfig { struct_size: 8, ..PairConfig::default() };
+    let config = CPairConfig { distance_tolerance: -1.0, ..pair_config() };
+    let small = CPairConfig { struct_size: 8, ..pair_config() };
     let queries =
         [swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate];
     let arguments = [
-        (null(), here, shape as *const Shape, there, null()),
+        (null(), here, shape, there, null()),
         (shape, null(), shape, there, null()),
         (shape, here, null(), there, null()),
         (shape, here, shape, null(), null()),
@@ -564,10 +675,10 @@ fn what_a_failed_call_does_not_say_is_nan() {
         (*shape_info.as_mut_ptr()).struct_size = size_of::<ShapeInfo>();
         assert_eq!(swiftprox_shape_get_info(null(), shape_info.as_mut_ptr()), StatusCode::ErrorNullPointer);
         let info = shape_info.assume_init();
-        let vectors = [info.centre_of_mass, info.lower, info.upper];
+        let vectors = [info.centre_of_mass, info.lower_corner, info.upper_corner];
         assert!(vectors.iter().flatten().chain(&[info.volume, info.radius]).all(|x| x.is_nan()), "{info:?}");
 
-        for (of, level) in [(null(), 0), (shape.cast_const(), 1), (shape, usize::MAX)] {
+        for (of, level) in [(null(), 0), (shape, 1), (shape, usize::MAX)] {
             level_info.as_mut_ptr().write_bytes(0, 1);
             (*level_info.as_mut_ptr()).struct_size = size_of::<LevelInfo>();
             assert_ne!(swiftprox_shape_get_level_info(of, level, level_info.as_mut_ptr()), StatusCode::Ok);

@@ -3,28 +3,24 @@
 //!
 //! The scene is made of sums, products, quotients and square roots, which are rounded alike everywhere; sines are not.
 
-#[path = "../benches/common/random.rs"]
-mod random;
-mod shapes;
-
 use std::sync::Arc;
 
-use random::Random;
-use shapes::cuboid;
 use swiftprox::base::simd::{self, Features};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
+use swiftprox::pair::{self, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
 use swiftprox::scene::{Scene, SceneAnswer, SceneOptions, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
+use testkit::random::Random;
+use testkit::shapes::cuboid;
 
 /// Of the verdicts and the order of results, on every machine. It stays as long as the flight does.
 const VERDICTS: u64 = 0x5733_1957_f757_a2bb;
 
 /// Of every bit of every answer, on the baseline of x86-64. It changes with how answers are found, and is recorded anew then;
 /// verdicts do not change.
-const BITS: u64 = 0x5916_8d53_c4ca_f5c6;
+const BITS: u64 = 0xcfd2_52df_05e6_38bf;
 
 const STEPS: usize = 150;
 
@@ -54,7 +50,7 @@ impl Hash {
         answer.proof.iter().flatten().for_each(|vertex| self.add((*vertex).into()));
         let steps = [statistics.marching_steps, statistics.fallback_iterations, statistics.exact_iterations];
         let levels = statistics.levels.map(u32::from);
-        let others = [answer.outcome as u32, answer.status as u32, answer.proof_count];
+        let others = [answer.outcome as u32, answer.decided_by as u32, answer.proof_count];
         steps.iter().chain(&levels).chain(&others).for_each(|number| self.add((*number).into()));
     }
 }
@@ -210,7 +206,7 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
         flight.add_list(scene.query_intersection(&SceneQuery { early_exit: true, ..all }).unwrap(), true);
         flight.add_list(scene.query_tolerance(&near).unwrap(), true);
         flight.add_list(scene.query_exact_distance(&all).unwrap(), true);
-        flight.add_list(scene.query_exact_distance(&SceneQuery { bounds: Bounds::Verdict, ..near }).unwrap(), true);
+        flight.add_list(scene.query_exact_distance(&near).unwrap(), true);
         flight.add_list(scene.query_contacts(&near).unwrap(), true);
         let coarse = SceneQuery { absolute_error: 0.05, levels: Levels::All, ..all };
         flight.add_list(scene.query_approximate_distance(&coarse).unwrap(), true);

@@ -1,17 +1,10 @@
 //! Whatever floating-point environment a program has set, the library builds the same shapes and gives the same answers bit for
 //! bit, calls the program's own functions in the program's environment, and leaves that as it was.
 
-#[path = "../benches/common/mod.rs"]
-mod common;
-mod shapes;
-
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use common::hard::flight::{poses, shapes};
-use common::hard::{Sequence, families};
-use shapes::{at, cuboid};
 use swiftprox::base::simd::environment::{Environment, Rounding, is_invalid};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Pose, Vector};
@@ -25,6 +18,9 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file;
 use swiftprox::solve::exact;
 use swiftprox::verify::verify;
+use testkit::hard::flight::{poses, shapes};
+use testkit::hard::{Sequence, families};
+use testkit::shapes::{at, cuboid};
 
 const DEFAULT: Environment = Environment { rounding: Rounding::Nearest, flushes: false, traps: false };
 

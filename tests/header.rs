@@ -1,74 +1,217 @@
-//! The committed header is what cbindgen makes of the source today, and it compiles in every standard of C and C++ that it
-//! promises. `BLESS=1 cargo test --test header` rewrites it.
+//! The committed headers are what cbindgen makes of the source today, in the order of include/contents.txt. They compile in every
+//! standard of C and C++ that they promise, where compilers warn of what they should. `BLESS=1 cargo test --test header` rewrites
+//! them.
 
 use std::collections::{HashMap, HashSet};
 use std::fs;
 use std::path::{Path, PathBuf};
-use std::process::Command;
+use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 10] = [
+const SOURCES: [&str; 11] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
-    "src/pair/descent.rs",
     "src/pair/answer.rs",
-    "src/pair/cache.rs",
     "src/pair/config.rs",
+    "src/pair/descent.rs",
+    "src/pair/query.rs",
     "src/scene/object.rs",
-    "src/scene/mod.rs",
-    "src/ffi/mod.rs",
+    "src/scene/query.rs",
+    "src/scene/statistics.rs",
+    "src/scene/events.rs",
 ];
+
+/// What stands before the declarations of swiftprox.h.
+const BEFORE: &str = "\
+#include <stddef.h>
+#include <stdint.h>
+
+/** Stands before functions whose status is not to be ignored: compilers warn. */
+#ifndef SWIFTPROX_NODISCARD
+#if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SWIFTPROX_NODISCARD [[nodiscard]]
+#elif defined(__GNUC__)
+#define SWIFTPROX_NODISCARD __attribute__((warn_unused_result))
+#else
+#define SWIFTPROX_NODISCARD
+#endif
+#endif
+
+/** What enums are made of: an int32_t, where the language lets them say so, else an int. Any number is safe to hand over. */
+#ifndef SWIFTPROX_INT32
+#if (defined(__cplusplus) && __cplusplus >= 201103L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SWIFTPROX_INT32 : int32_t
+#else
+#define SWIFTPROX_INT32
+#endif
+#endif
+";
+
+/// The head of swiftprox_tuning.h.
+const TUNING_HEAD: &str = "\
+/*
+ * swiftprox: levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
+ * a query take, and what they take of memory. It never changes a verdict. The conventions are those of swiftprox.h.
+ */
+
+/* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
+";
+
+/// Enums that a compiler makes shorter (-fshort-enums) would not be what the library takes.
+const BEHIND_STATUS: &str = "\
+/** Does not compile where enums are not as large as an int32_t, as with -fshort-enums. */
+typedef char swiftprox_enums_are_32_bits[sizeof(swiftprox_status) == 4 ? 1 : -1];
+";
 
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
 
-fn header_path() -> PathBuf {
-    root().join("include/swiftprox.h")
-}
-
-/// The header as it should be.
-fn generate() -> String {
-    let config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml parses");
+/// The headers as they should be, by name.
+fn generate() -> Vec<(String, String)> {
+    let mut config = cbindgen::Config::from_file(root().join("cbindgen.toml")).expect("cbindgen.toml parses");
+    let head = config.header.take().expect("a head");
     let names = config.export.rename.clone();
-    let builder = cbindgen::Builder::new().with_config(config);
+    let builder = cbindgen::Builder::new().with_config(config).with_src(root().join("src/ffi/mod.rs"));
     let builder = SOURCES.iter().fold(builder, |builder, source| builder.with_src(root().join(source)));
     let mut bytes = Vec::new();
     builder.generate().expect("cbindgen reads the source").write(&mut bytes);
     let text = String::from_utf8(bytes).expect("cbindgen writes UTF-8");
-    let text = old_standards(&text);
-    let text =
-        text.replace("SWIFTPROX_STATUS_", "SWIFTPROX_").replace("swiftprox_object_id_NULL", "SWIFTPROX_OBJECT_ID_NULL");
-    ascii(&links(&short_comments(&text), &names))
+    let text = links(&short_comments(&text), &names).replace("SWIFTPROX_STATUS_", "SWIFTPROX_");
+    let mut declared: HashMap<String, String> = HashMap::new();
+    for declaration in declarations(&text) {
+        declared.insert(name_of(&declaration), old_standards(&declaration));
+    }
+    let headers = laid_out(head.trim_start(), &mut declared);
+    let forgotten: Vec<&String> = declared.keys().collect();
+    assert!(forgotten.is_empty(), "include/contents.txt says no place for {forgotten:?}");
+    headers.into_iter().map(|(name, text)| (name, ascii(&text))).collect()
 }
 
-/// What C89 and C++98 want otherwise: enumerators in anonymous enums beside an `int32_t` of the enum's name, no comma behind
-/// the last of them, `extern "C"` without C++11, no `//`.
-fn old_standards(text: &str) -> String {
+/// The declarations with their comments.
+fn declarations(text: &str) -> Vec<String> {
+    let mut all = vec![String::new()];
+    let mut depth = 0;
+    for line in text.lines() {
+        // An enum's brace opens behind what only C23 sees.
+        if line.is_empty() && depth == 0 {
+            all.push(String::new());
+            continue;
+        }
+        let is_comment = line.trim_start().starts_with(['*', '/']);
+        // A constant of C99's beside a struct, which C++ does not know.
+        if !is_comment && !line.starts_with("#define swiftprox_") {
+            depth += line.matches('{').count() as i32 - line.matches('}').count() as i32;
+        }
+        if !line.starts_with("#define swiftprox_") {
+            let last = all.last_mut().expect("the first is there");
+            *last += line;
+            last.push('\n');
+        }
+    }
+    all.retain(|declaration| !declaration.is_empty());
+    all
+}
+
+/// The name that a declaration declares.
+fn name_of(declaration: &str) -> String {
+    let line = declaration.lines().find(|line| !line.trim_start().starts_with(['*', '/'])).unwrap_or_default();
+    let before = line.split_once("(*").map_or(line, |(_, name)| name.split(')').next().unwrap_or_default());
+    let before = before.split('(').next().unwrap_or_default();
+    let words: Vec<&str> = before.split_whitespace().collect();
+    let name = match words[..] {
+        ["typedef", "struct" | "enum", name, ..] | ["#define" | "enum", name, ..] | [.., name] => name,
+        [] => panic!("no declaration: {declaration}"),
+    };
+    name.trim_start_matches('*').trim_end_matches(';').to_string()
+}
+
+/// The headers that the list of contents asks for.
+fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, String)> {
+    let contents = fs::read_to_string(root().join("include/contents.txt")).expect("the list of contents is there");
+    let mut headers: Vec<(String, String)> = Vec::new();
+    let mut is_open = false;
+    for line in contents.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
+        let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
+        match word {
+            "header" => {
+                close(headers.last_mut(), &mut is_open);
+                let guard = rest.to_uppercase().replace('.', "_");
+                let (head, before) =
+                    if headers.is_empty() { (head, BEFORE) } else { (TUNING_HEAD, "#include \"swiftprox.h\"\n") };
+                let opening = format!("{head}\n#ifndef {guard}\n#define {guard}\n\n{before}\n{}", external("{"));
+                headers.push((rest.to_string(), opening));
+            }
+            "group" => {
+                let (_, text) = headers.last_mut().expect("a header before its groups");
+                *text += if is_open { "/** @} */\n\n" } else { "" };
+                let (name, title) = rest.split_once(' ').expect("a name and a title");
+                *text += &format!("/**\n * @defgroup swiftprox_{name} {title}\n * @{{\n */\n\n");
+                is_open = true;
+            }
+            _ => {
+                let (_, text) = headers.last_mut().expect("a header before its declarations");
+                let declaration = declared.remove(line).unwrap_or_else(|| panic!("{line} is not declared"));
+                *text += &declaration;
+                text.push('\n');
+                if line == "swiftprox_status" {
+                    *text += &format!("{BEHIND_STATUS}\n");
+                }
+            }
+        }
+    }
+    close(headers.last_mut(), &mut is_open);
+    headers
+}
+
+/// Ends a header.
+fn close(header: Option<&mut (String, String)>, is_open: &mut bool) {
+    if let Some((_, text)) = header {
+        *text += &format!("/** @}} */\n\n{}#endif\n", external("}"));
+        *is_open = false;
+    }
+}
+
+/// Opens or closes what C++ is told of as C's.
+fn external(brace: &str) -> String {
+    let line = if brace == "{" { "extern \"C\" {" } else { "}" };
+    format!("#ifdef __cplusplus\n{line}\n#endif\n\n")
+}
+
+/// What C89 and C++98 want otherwise: enums without a comma behind the last enumerator, their size by a macro; no literal that
+/// begins with a minus in a macro. Before a status the attribute, behind an `_init_sized` the macro that hands over the size.
+fn old_standards(declaration: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut skipping = false;
-    for line in text.lines() {
+    let mut enum_name = "";
+    for line in declaration.lines() {
         match line {
-            // Of its two forms of an enum's type cbindgen's last one is C99's.
+            // cbindgen's own ways to an enum's type are C23's, and an alias of an integer.
             _ if line.starts_with("#if __STDC_VERSION__") => skipping = true,
-            _ if line == "#else" || line.starts_with("#endif // __STDC_VERSION__") => skipping = false,
+            _ if line.starts_with("#endif") => skipping = false,
             _ if skipping => {}
-            _ if line.starts_with("enum ") => lines.push("enum {".into()),
+            _ if line.starts_with("enum ") => {
+                enum_name = line.trim_start_matches("enum ");
+                lines.push(format!("typedef enum {enum_name} SWIFTPROX_INT32 {{"));
+            }
             " {" => {}
             "};" => {
                 let last = lines.last_mut().expect("an enumerator");
                 *last = last.trim_end_matches(',').to_string();
-                lines.push(line.into());
+                lines.push(format!("}} {enum_name};"));
             }
-            "#include <stdint.h>" => {
-                lines.extend([line, "", "#ifdef __cplusplus", "extern \"C\" {", "#endif"].map(String::from));
+            // What a sink refuses it remembers itself.
+            _ if line.starts_with("swiftprox_status ") && !line.contains(" swiftprox_mesh_sink_") => {
+                lines.extend(["SWIFTPROX_NODISCARD".to_string(), line.into()]);
             }
-            _ if line.starts_with("#endif  /*") => {
-                lines.extend(["#ifdef __cplusplus", "}", "#endif", "", "#endif"].map(String::from));
-            }
+            _ if line.starts_with("#define ") && line.contains(" -") => lines.push(line.replace(" -", " (-") + ")"),
             _ => lines.push(line.into()),
         }
+    }
+    let name = name_of(declaration);
+    if let Some(macro_name) = name.strip_suffix("_sized") {
+        lines.push(format!("#define {macro_name}(pointer) {name}((pointer), sizeof *(pointer))"));
     }
     lines.join("\n") + "\n"
 }
@@ -146,89 +289,185 @@ fn ascii(text: &str) -> String {
     text
 }
 
+/// One of the headers.
+fn header(name: &str) -> String {
+    let (_, text) = generate().into_iter().find(|(other, _)| other == name).expect("a header of that name");
+    text
+}
+
 #[test]
-fn committed_header_is_current() {
-    let expected = generate();
-    if std::env::var_os("BLESS").is_some() {
-        fs::write(header_path(), &expected).expect("the header can be written");
+fn committed_headers_are_current() {
+    for (name, expected) in generate() {
+        let path = root().join("include").join(&name);
+        if std::env::var_os("BLESS").is_some() {
+            fs::write(&path, &expected).expect("the header can be written");
+        }
+        let committed = fs::read_to_string(&path).unwrap_or_default();
+        let different = expected.lines().zip(committed.lines()).find(|(new, old)| new != old);
+        assert!(
+            expected == committed,
+            "include/{name} is not what the source says (first difference: {different:?}); BLESS=1 cargo test --test header"
+        );
     }
-    let committed = fs::read_to_string(header_path()).unwrap_or_default();
-    let different = expected.lines().zip(committed.lines()).find(|(new, old)| new != old);
-    assert!(
-        expected == committed,
-        "include/swiftprox.h is not what the source says (first difference: {different:?}); BLESS=1 cargo test --test header"
-    );
 }
 
 #[test]
 fn version_macros_are_those_of_the_crate() {
+    let header = header("swiftprox.h");
     for (name, value) in [
         ("MAJOR", env!("CARGO_PKG_VERSION_MAJOR")),
         ("MINOR", env!("CARGO_PKG_VERSION_MINOR")),
         ("PATCH", env!("CARGO_PKG_VERSION_PATCH")),
     ] {
         let line = format!("#define SWIFTPROX_VERSION_{name} {value}");
-        assert!(generate().lines().any(|l| l == line), "no line `{line}`");
+        assert!(header.lines().any(|l| l == line), "no line `{line}`");
     }
 }
 
 /// All libraries share the names of C.
 #[test]
 fn every_name_begins_with_swiftprox() {
-    let header = generate();
     let is_name = |c: char| c.is_ascii_alphanumeric() || c == '_';
     let mut count = 0;
-    for line in header.lines() {
-        let declared = match line.split_whitespace().collect::<Vec<_>>()[..] {
-            ["#define" | "struct" | "enum", name, ..] => Some(name),
-            ["typedef", .., name] | ["}", name] => Some(name),
-            // Enumerators stand at two blanks with a value.
-            [name, "=", ..] if line.starts_with("  ") => Some(name),
-            _ => None,
-        };
-        let Some(name) = declared.map(|name| name.trim_end_matches(|c| !is_name(c))) else { continue };
-        // The last word of a function type is an argument, that of an opening brace nothing.
-        if !name.is_empty() && !line.contains('(') {
-            assert!(name.to_lowercase().starts_with("swiftprox"), "{line}");
-            count += 1;
+    for (_, header) in generate() {
+        for line in header.lines() {
+            let declared = match line.split_whitespace().collect::<Vec<_>>()[..] {
+                ["#define" | "struct" | "enum", name, ..] => Some(name),
+                ["typedef", "struct" | "enum", name, ..] | ["typedef", .., name] | ["}", name] => Some(name),
+                // Enumerators stand at two blanks with a value.
+                [name, "=", ..] if line.starts_with("  ") => Some(name),
+                _ => None,
+            };
+            let Some(name) = declared.map(|name| name.trim_end_matches(|c| !is_name(c))) else { continue };
+            // The last word of a function type is an argument, that of an opening brace nothing.
+            if !name.is_empty() && !line.contains('(') {
+                assert!(name.to_lowercase().starts_with("swiftprox"), "{line}");
+                count += 1;
+            }
         }
     }
     assert!(count > 100, "{count} names");
 }
 
-/// Included twice, so that its guard is seen to work. There must be a C and a C++ compiler, which `make test` installs; of the
-/// others those that are here.
-#[test]
-fn header_compiles_in_every_standard() {
-    let source = "#include \"swiftprox.h\"\n#include \"swiftprox.h\"\nint unit(void);\n\
-                  int unit(void) { swiftprox_pair_cache cache = {{0}}; return (int)cache.words[0] + SWIFTPROX_OK; }\n";
-    let scratch = Path::new(env!("CARGO_TARGET_TMPDIR"));
-    fs::write(scratch.join("swiftprox.h"), generate()).expect("the scratch folder can be written");
+// --- Compilers -----------------------------------------------------------------------------------------------------------
+
+const COMPILERS: [(&str, &str, &[&str]); 4] = [
+    ("gcc", "c", &["c89", "c99", "c11", "c17"]),
+    ("clang", "c", &["c89", "c99", "c11"]),
+    ("g++", "cpp", &["c++98", "c++11", "c++17", "c++20"]),
+    ("clang++", "cpp", &["c++98", "c++17"]),
+];
+
+/// Calls `check` with each compiler, extension and standard. There must be a C and a C++ compiler, which `make test` installs; of
+/// the others those that are here.
+fn with_compilers(mut check: impl FnMut(&str, &str, &str)) {
     let mut tested = HashSet::new();
-    for (compiler, extension, standards) in [
-        ("gcc", "c", &["c89", "c99", "c11", "c17"][..]),
-        ("clang", "c", &["c89", "c99", "c11"]),
-        ("g++", "cpp", &["c++98", "c++11", "c++17", "c++20"]),
-        ("clang++", "cpp", &["c++98", "c++17"]),
-    ] {
+    for (compiler, extension, standards) in COMPILERS {
         if Command::new(compiler).arg("--version").output().is_err() {
             println!("{compiler} is not here: not tested");
             continue;
         }
         tested.insert(extension);
         for standard in standards {
-            let unit = scratch.join(format!("header-{compiler}-{standard}.{extension}"));
-            fs::write(&unit, source).expect("as above");
-            let output = Command::new(compiler)
-                .arg(format!("-std={standard}"))
-                .args(["-pedantic-errors", "-Wall", "-Wextra", "-Werror", "-fsyntax-only", "-I"])
-                .arg(scratch)
-                .arg(&unit)
-                .output()
-                .expect("the compiler runs");
-            let messages = String::from_utf8_lossy(&output.stderr);
-            assert!(output.status.success(), "{compiler} -std={standard}:\n{messages}");
+            check(compiler, extension, standard);
         }
     }
     assert_eq!(tested.len(), 2, "no compiler for one of C and C++ is here");
+}
+
+/// A folder of a test's own, with the headers.
+fn scratch(test: &str) -> PathBuf {
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
+    fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    for (name, text) in generate() {
+        fs::write(folder.join(name), text).expect("the scratch folder can be written");
+    }
+    folder
+}
+
+fn compile(folder: &Path, compiler: &str, extension: &str, standard: &str, source: &str) -> Output {
+    let unit = folder.join(format!("{compiler}-{standard}.{extension}"));
+    fs::write(&unit, source).expect("the scratch folder can be written");
+    let mut command = Command::new(compiler);
+    command.arg(format!("-std={standard}")).args(["-pedantic-errors", "-Wall", "-Wextra", "-Werror", "-c", "-I"]);
+    // Not the syntax alone: gcc sees a status ignored only when it makes code.
+    command.arg(folder).arg(&unit).arg("-o").arg(unit.with_extension("o")).output().expect("the compiler runs")
+}
+
+/// Included twice, so that guards are seen to work. What `create` gives goes to every call as it is, and sizes are the program's.
+#[test]
+fn headers_compile_in_every_standard() {
+    let folder = scratch("every-standard");
+    let source = r#"
+#include "swiftprox_tuning.h"
+#include "swiftprox.h"
+#include "swiftprox.h"
+#include "swiftprox_tuning.h"
+swiftprox_status unit(swiftprox_scene *scene, const double *points);
+swiftprox_status unit(swiftprox_scene *scene, const double *points)
+{
+    swiftprox_pair_cache cache = {{0}};
+    swiftprox_object_id id = {0};
+    swiftprox_shape_options options;
+    swiftprox_shape_tuning tuning;
+    swiftprox_pair_config config;
+    swiftprox_pair_answer answer;
+    const swiftprox_shape *shape;
+    swiftprox_status status;
+    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_options_init(&options);
+    swiftprox_pair_config_init(&config);
+    options.tuning = &tuning;
+    status = swiftprox_shape_create_from_points(points, 4, &options, &shape);
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_scene_add_shape(scene, shape, NULL, &id);
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_scene_add_object(scene, &shape, 1, NULL, &id);
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_scene_get_piece(scene, id, 0, &shape);
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_pair_distance(shape, points, swiftprox_shape_retain(shape), points, &cache, &config, &answer);
+    }
+    swiftprox_shape_release(shape);
+    return status;
+}
+"#;
+    with_compilers(|compiler, extension, standard| {
+        let output = compile(&folder, compiler, extension, standard, source);
+        assert!(output.status.success(), "{compiler} -std={standard}:\n{}", String::from_utf8_lossy(&output.stderr));
+    });
+}
+
+/// Each of these compiles no more, under usual warnings that are errors here.
+#[test]
+fn compilers_see_what_is_mixed_up_or_ignored() {
+    let folder = scratch("mixed-up");
+    for (what, line) in [
+        ("a status ignored", "swiftprox_scene_activate_all(scene);"),
+        ("what decided, compared with a status", "return answer->decided_by == swiftprox_scene_activate_all(scene);"),
+        ("what decided, compared with a status's name", "return answer->decided_by == SWIFTPROX_OK;"),
+        ("an outcome, compared with what decided", "return answer->outcome == answer->decided_by;"),
+        ("an id for a number", "return id == 0;"),
+        ("a scene for a shape", "swiftprox_shape_release(scene);"),
+    ] {
+        let source = |line: &str| {
+            format!(
+                "#include \"swiftprox.h\"\n\
+                 int unit(swiftprox_scene *scene, const swiftprox_pair_answer *answer, swiftprox_object_id id);\n\
+                 int unit(swiftprox_scene *scene, const swiftprox_pair_answer *answer, swiftprox_object_id id)\n\
+                 {{\n    {line}\n    return scene && answer && id.bits;\n}}\n"
+            )
+        };
+        with_compilers(|compiler, extension, standard| {
+            let sound = compile(&folder, compiler, extension, standard, &source(""));
+            assert!(sound.status.success(), "{}", String::from_utf8_lossy(&sound.stderr));
+            let output = compile(&folder, compiler, extension, standard, &source(line));
+            // To clang's C an enumerator is an int and no more.
+            let is_unseen = compiler == "clang" && line.ends_with("SWIFTPROX_OK;");
+            assert!(is_unseen || !output.status.success(), "{compiler} -std={standard} takes {what}");
+        });
+    }
 }

@@ -4,15 +4,11 @@
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::fmt::Write;
 use std::sync::Arc;
 
-use random::Random;
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
@@ -24,6 +20,7 @@ use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
+use testkit::random::Random;
 
 /// No block that ends the program when it is refused is as large (`docs/conventions.md`, Memory).
 const SMALL: usize = 2048;

@@ -4,23 +4,18 @@
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
 
-#[path = "../benches/common/random.rs"]
-mod random;
-mod random_scene;
-mod shapes;
-
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::Arc;
 
-use random_scene::{Random, cuboid, ellipsoid, random_pose};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Bounds, Levels, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::Shape;
+use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 
 struct Counting;
 
@@ -87,9 +82,7 @@ fn pair_queries_allocate_nothing() {
         let shape1 = &shapes[random.below(shapes.len())];
         let shape2 = &shapes[random.below(shapes.len())];
         let (pose1, pose2) = (random_pose(&mut random, 0.5), random_pose(&mut random, 0.5));
-        let bounds = if k % 2 == 0 { Bounds::Tight } else { Bounds::Verdict };
         let config = PairConfig {
-            bounds,
             absolute_error: [0.0, 0.1, 0.01][k % 3],
             levels: [Levels::Automatic, Levels::All, Levels::None, Levels::All][k / 2 % 4],
             step_budget: if k % 7 == 0 { 3 } else { u32::MAX },
@@ -131,7 +124,6 @@ fn fly(scene: &mut Scene, ids: &[ObjectId]) -> [usize; 2] {
         let query = SceneQuery {
             early_exit: step % 7 == 0,
             distance_tolerance: if step % 5 == 0 { 0.2 } else { f64::INFINITY },
-            bounds: if step % 2 == 0 { Bounds::Tight } else { Bounds::Verdict },
             absolute_error: if step % 3 == 0 { 0.05 } else { 0.0 },
             error_budget: if step % 11 == 0 { 1.0 } else { f64::INFINITY },
             levels: if step % 4 < 2 { Levels::All } else { Levels::Automatic },

@@ -1,5 +1,5 @@
 /* swiftprox-query: two meshes and a file of poses in, one certified answer a line out. It is a user of the C interface like
- * any other, and knows nothing that swiftprox.h does not say. */
+ * any other, and knows nothing that its headers do not say. */
 #include <errno.h>
 #include <fenv.h>
 #include <math.h>
@@ -7,19 +7,18 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
-#include <unistd.h>
 
 #include <swiftprox.h>
+#include <swiftprox_tuning.h>
 
 #include "poses.h"
+#include "progress.h"
 
 enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
 static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
                             "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
-                            "                       [--input strict|flat|hull] [--bounds tight|verdict] [--count N]\n"
-                            "                       [--bench PASSES]\n";
+                            "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
@@ -50,8 +49,6 @@ static const char HELP[] =
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
-    "  --bounds tight        the tightest interval that double precision allows (the default)\n"
-    "  --bounds verdict      the cheapest interval that still proves the verdict\n"
     "  --count N             answer the first N queries only\n"
     "  --bench PASSES        print times instead of answers, see below\n"
     "  --help, --version     print this text, the version\n"
@@ -86,7 +83,6 @@ struct arguments {
     const char *files[3]; /* A, B, POSES */
     pair_query *query;
     swiftprox_input input;
-    swiftprox_bounds bounds;
     swiftprox_start start;
     swiftprox_hierarchy hierarchy;
     swiftprox_levels levels;
@@ -144,8 +140,6 @@ static bool parse_option(const char *name, const char *value, struct arguments *
                                                   swiftprox_pair_approximate};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
     static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
-    static const char *const BOUNDS[] = {"tight", "verdict"};
-    static const swiftprox_bounds BOUNDS_VALUES[] = {SWIFTPROX_BOUNDS_TIGHT, SWIFTPROX_BOUNDS_VERDICT};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
     static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
                                                    SWIFTPROX_START_COLD};
@@ -165,11 +159,6 @@ static bool parse_option(const char *name, const char *value, struct arguments *
             return wrong_usage("--input does not know ", value);
         }
         arguments->input = INPUT_VALUES[choice];
-    } else if (strcmp(name, "--bounds") == 0) {
-        if ((choice = choose(value, BOUNDS, 2)) < 0) {
-            return wrong_usage("--bounds does not know ", value);
-        }
-        arguments->bounds = BOUNDS_VALUES[choice];
     } else if (strcmp(name, "--start") == 0) {
         if ((choice = choose(value, STARTS, 4)) < 0) {
             return wrong_usage("--start does not know ", value);
@@ -193,11 +182,9 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
-    static const char *const WITH_VALUE[] = {"--query", "--input", "--bounds", "--count",
-                                             "--bench", "--error", "--start",  "--levels"};
+    static const char *const WITH_VALUE[] = {"--query", "--input", "--count", "--bench", "--error", "--start", "--levels"};
     *arguments = (struct arguments){.query = swiftprox_pair_contact,
                                     .input = SWIFTPROX_INPUT_STRICT,
-                                    .bounds = SWIFTPROX_BOUNDS_TIGHT,
                                     .start = SWIFTPROX_START_AUTOMATIC,
                                     .hierarchy = SWIFTPROX_HIERARCHY_AUTOMATIC,
                                     .levels = SWIFTPROX_LEVELS_AUTOMATIC,
@@ -209,7 +196,7 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                 return wrong_usage("one file too many: ", argv[i]);
             }
             arguments->files[files++] = argv[i];
-        } else if (choose(argv[i], WITH_VALUE, 8) < 0) {
+        } else if (choose(argv[i], WITH_VALUE, 7) < 0) {
             return wrong_usage("unknown option ", argv[i]);
         } else if (i + 1 == argc) {
             return wrong_usage(argv[i], " wants a value");
@@ -222,64 +209,8 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
     return files == 3 || wrong_usage("two meshes and a pose file are needed", "");
 }
 
-/* ---- progress ---- */
-
 /* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
 enum { QUERIES_A_LOOK = 64, OUTPUT_BUFFER = 1 << 16 };
-
-struct progress {
-    bool shown;           /* only to a person at a terminal */
-    bool shares_terminal; /* with the answers */
-    double next;          /* when to draw again */
-};
-
-static double seconds(void)
-{
-    struct timespec now;
-    clock_gettime(CLOCK_MONOTONIC, &now);
-    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
-}
-
-static struct progress progress_start(void)
-{
-    return (struct progress){.shown = isatty(STDERR_FILENO), .shares_terminal = isatty(STDOUT_FILENO), .next = seconds() + 0.5};
-}
-
-static void progress_erase(const struct progress *progress)
-{
-    if (progress->shown) {
-        fputs("\r\033[K", stderr);
-    }
-}
-
-/* Draws the bar if it is time to; what stands behind it is for the caller to print. */
-static bool progress_draw(struct progress *progress, double fraction)
-{
-    enum { WIDTH = 40 };
-    if (!progress->shown) {
-        return false;
-    }
-    const double now = seconds();
-    const bool due = now >= progress->next;
-    if (progress->shares_terminal) { /* the answers so far go above the bar, never into it */
-        progress_erase(progress);
-        fflush(stdout);
-    }
-    if (due) {
-        const int filled = (int)((double)WIDTH * fraction);
-        fprintf(stderr, "\r[%.*s%*s] ", filled, "########################################", WIDTH - filled, "");
-        progress->next = progress->shares_terminal ? now : now + 0.1;
-    }
-    return due;
-}
-
-static void progress_look(struct progress *progress, size_t done, size_t total)
-{
-    if (progress_draw(progress, (double)done / (double)total)) {
-        fprintf(stderr, "%zu of %zu", done, total);
-        fflush(stderr);
-    }
-}
 
 /* ---- queries ---- */
 
@@ -305,20 +236,20 @@ static int refused(const struct job *job, size_t index, swiftprox_status status)
     return status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
 }
 
-static const char *status_word(swiftprox_pair_status status)
+static const char *status_word(swiftprox_decided_by decided_by)
 {
-    switch (status) {
-    case SWIFTPROX_PAIR_STATUS_MARCHED:
+    switch (decided_by) {
+    case SWIFTPROX_DECIDED_BY_MARCHING:
         return "marched";
-    case SWIFTPROX_PAIR_STATUS_COHERENT:
+    case SWIFTPROX_DECIDED_BY_COHERENCE:
         return "coherent";
-    case SWIFTPROX_PAIR_STATUS_FALLBACK:
+    case SWIFTPROX_DECIDED_BY_FALLBACK:
         return "fallback";
-    case SWIFTPROX_PAIR_STATUS_EXACT:
+    case SWIFTPROX_DECIDED_BY_INTEGERS:
         return "exact";
-    case SWIFTPROX_PAIR_STATUS_WITHIN_TOLERANCE:
+    case SWIFTPROX_DECIDED_BY_TOLERANCE:
         return "tolerance";
-    case SWIFTPROX_PAIR_STATUS_BOUNDING_SPHERES:
+    case SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES:
         return "spheres";
     case SWIFTPROX_PAIR_STATUS_INSCRIBED_SPHERES:
         return "inner spheres";
@@ -366,7 +297,7 @@ static void print_answer(const struct job *job, const swiftprox_pair_answer *ans
     print_vector(verdict_only ? NOTHING : answer->normal);
     print_rounded(answer->lower, FE_DOWNWARD);
     print_rounded(answer->upper, FE_UPWARD);
-    printf("%s %llu\n", status_word(answer->status),
+    printf("%s %llu\n", status_word(answer->decided_by),
            (unsigned long long)statistics->marching_steps + statistics->fallback_iterations + statistics->exact_iterations);
 }
 
@@ -459,7 +390,7 @@ static int32_t building_look(void *user, double fraction)
     return 0;
 }
 
-static bool load_shape(const char *path, char name, swiftprox_shape_options options, swiftprox_shape **shape)
+static bool load_shape(const char *path, char name, swiftprox_shape_options options, const swiftprox_shape **shape)
 {
     struct building building = {progress_start(), name};
     options.progress = building_look;
@@ -476,18 +407,20 @@ static bool load_shape(const char *path, char name, swiftprox_shape_options opti
 }
 
 /* One shape for both objects when both are one file. */
-static bool load_shapes(const struct arguments *arguments, swiftprox_shape *shapes[2])
+static bool load_shapes(const struct arguments *arguments, const swiftprox_shape *shapes[2])
 {
     swiftprox_shape_options options;
+    swiftprox_shape_tuning tuning;
     swiftprox_shape_options_init(&options);
+    swiftprox_shape_tuning_init(&tuning);
     options.input = arguments->input;
-    options.hierarchy = arguments->hierarchy;
+    options.tuning = &tuning;
+    tuning.hierarchy = arguments->hierarchy;
     if (!load_shape(arguments->files[0], 'A', options, &shapes[0])) {
         return false;
     }
     if (strcmp(arguments->files[0], arguments->files[1]) == 0) {
-        swiftprox_shape_retain(shapes[0]);
-        shapes[1] = shapes[0];
+        shapes[1] = swiftprox_shape_retain(shapes[0]);
         return true;
     }
     return load_shape(arguments->files[1], 'B', options, &shapes[1]);
@@ -497,12 +430,14 @@ static int run(const struct arguments *arguments)
 {
     static char buffer[OUTPUT_BUFFER];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    swiftprox_shape *shapes[2] = {NULL, NULL};
+    const swiftprox_shape *shapes[2] = {NULL, NULL};
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
+    swiftprox_pair_tuning tuning;
+    swiftprox_pair_tuning_init(&tuning);
+    tuning.start = arguments->start;
+    tuning.levels = arguments->levels;
     swiftprox_pair_config_init(&job.config);
-    job.config.bounds = arguments->bounds;
-    job.config.start = arguments->start;
-    job.config.levels = arguments->levels;
+    job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
 
     int result = BAD_FILE;

@@ -7,19 +7,20 @@ fn main() {
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
     // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    link_shim("fcl", "libfcl-dev", "src/fcl.cpp", cc::Build::new().cpp(true).std("c++14"));
-    link_shim("ccd", "libccd-dev", "src/ccd.c", cc::Build::new().std("c99"));
+    let fcl = ["src/fcl.cpp", "src/crowd/fcl.cpp"];
+    link_shim("fcl", "libfcl-dev", &fcl, cc::Build::new().cpp(true).std("c++14"));
+    link_shim("ccd", "libccd-dev", &["src/ccd.c"], cc::Build::new().std("c99"));
 }
 
 /// Sets the condition `package` where there is such a library.
-fn link_shim(package: &str, debian: &str, source: &str, build: &mut cc::Build) {
-    println!("cargo:rerun-if-changed={source}");
+fn link_shim(package: &str, debian: &str, sources: &[&str], build: &mut cc::Build) {
+    sources.iter().for_each(|source| println!("cargo:rerun-if-changed={source}"));
     println!("cargo:rustc-check-cfg=cfg({package})");
     let Some(flags) = pkg_config("--cflags", package) else {
         println!("cargo:warning=pkg-config finds no {package} (Debian: {debian}): compared without it");
         return;
     };
-    build.opt_level(3).define("NDEBUG", None).warnings(false).file(source);
+    build.opt_level(3).define("NDEBUG", None).warnings(false).files(sources);
     for flag in flags.split_whitespace() {
         build.flag(flag);
     }

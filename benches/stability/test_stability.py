@@ -134,7 +134,7 @@ class Families(unittest.TestCase):
         subprocess.run([sys.executable, os.path.join(HERE, "report.py"), *made, "--check"], check=True)
 
     def test_the_committed_counts_are_of_all_families_and_this_library_failed_in_none(self):
-        sources = glob.glob(os.path.join(ROOT, "benches", "common", "hard", "*.rs"))
+        sources = glob.glob(os.path.join(ROOT, "testkit", "src", "hard", "*.rs"))
         families = {name for path in sources for name in re.findall(r'^ *name: "(\w+)",$', open(path).read(), re.M)}
         with open(os.path.join(ROOT, "benches", "results", "stability.csv")) as file:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))

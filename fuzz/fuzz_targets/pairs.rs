@@ -11,16 +11,16 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
 use swiftprox::pair::{
-    Bounds, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
     intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::verify::verify;
-use swiftprox_fuzz::bodies::Body;
-use swiftprox_fuzz::cases::{Case, Random};
+use testkit::bodies::Body;
+use testkit::cases::{Case, Random};
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
-use swiftprox_fuzz::properties::{Placed, Session, Work};
+use testkit::properties::{Placed, Session, Work};
 
 /// The oracle takes time in the fourth power of this.
 const FEW_POINTS: usize = 6;
@@ -150,8 +150,7 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
     let mut last = cold.distance;
     let distance_tolerance = any_number(u, &mut last)?;
-    let bounds = if u.arbitrary()? { Bounds::Tight } else { Bounds::Verdict };
-    let config = PairConfig { distance_tolerance, bounds, ..PairConfig::default() };
+    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
     let asked = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
     if !(distance_tolerance >= 0.0) {

@@ -45,10 +45,9 @@ pub struct LevelInfo {
     pub bytes: usize,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for LevelInfo {
     const NAME: &'static str = "swiftprox_level_info";
-    const FIRST_SIZE: usize = size_of::<LevelInfo>();
 }
 
 impl LevelInfo {
@@ -64,14 +63,14 @@ impl LevelInfo {
     };
 }
 
-/// Makes a shape with levels of detail that the caller gives, the finest first: `levels[0]` is the body itself, as
+/// Makes a shape with levels of detail that the caller gives; the caller owns it and gives it back with swiftprox_shape_release.
+/// The finest level comes first: `levels[0]` is the body itself, as
 /// swiftprox_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
 /// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
-/// bounds the body. The arrays are copied. options->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input transform
-/// goes for all levels.
+/// bounds the body. The arrays are copied. options->tuning->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input
+/// transform goes for all levels.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
-/// `options` may be null for the defaults.
+/// On failure `*shape` is null. `options` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
 /// names it. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit 32 bits.
@@ -82,7 +81,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     levels: *const CMesh,
     level_count: usize,
     options: *const CShapeOptions,
-    shape: *mut *mut Shape,
+    shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
@@ -102,8 +101,8 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     })
 }
 
-/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_info.level_count, the coarsest. Set
-/// info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
+/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
+/// Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
 /// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
@@ -135,7 +134,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_level_info(
 }
 
 /// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
-/// swiftprox_shape_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
+/// swiftprox_shape_tuning_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
 /// swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.

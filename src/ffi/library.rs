@@ -3,9 +3,12 @@
 use std::ffi::{CStr, c_char, c_void};
 use std::sync::{PoisonError, RwLock};
 
-use super::{Failure, LAST_ERROR, StatusCode, guard, must_return};
+use super::{
+    DecidedByNumber, Failure, FeatureKindNumber, LAST_ERROR, OutcomeNumber, StatusCode, StatusNumber, guard,
+    must_return,
+};
 use crate::base::enumerator::Enumerator;
-use crate::pair::{FeatureKind, Outcome};
+use crate::pair::{DecidedBy, FeatureKind, Outcome};
 
 /// Major version of this header: programs compiled with another one do not go with this library.
 pub const VERSION_MAJOR: i32 = 0;
@@ -45,7 +48,7 @@ pub extern "C" fn swiftprox_library_check_version(major: i32, minor: i32, patch:
 
 /// A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swiftprox_library_status_string(status: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_status_string(status: StatusNumber) -> *const c_char {
     const STRINGS: [(StatusCode, &CStr); 17] = [
         (StatusCode::Ok, c"ok"),
         (StatusCode::ErrorNullPointer, c"a pointer is null"),
@@ -69,10 +72,10 @@ pub extern "C" fn swiftprox_library_status_string(status: i32) -> *const c_char 
     known.map_or(c"not a status", |(_, string)| string).as_ptr()
 }
 
-/// An outcome of a pair query, a swiftprox_outcome, in words. Never null, valid for ever; a number that is no outcome gets a string
+/// An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
 /// that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swiftprox_library_outcome_string(outcome: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_outcome_string(outcome: OutcomeNumber) -> *const c_char {
     let string = match Outcome::from_number(outcome) {
         Some(Outcome::None) => c"nothing is said",
         Some(Outcome::Separated) => c"separated",
@@ -84,10 +87,28 @@ pub extern "C" fn swiftprox_library_outcome_string(outcome: i32) -> *const c_cha
     string.as_ptr()
 }
 
-/// A kind of features, a swiftprox_feature_kind, in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
+/// What decided a pair query, in words. Never null, valid for ever; a number that is none gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swiftprox_library_decided_by_string(decided_by: DecidedByNumber) -> *const c_char {
+    let string = match DecidedBy::from_number(decided_by) {
+        Some(DecidedBy::None) => c"nothing",
+        Some(DecidedBy::Marching) => c"Voronoi marching",
+        Some(DecidedBy::Coherence) => c"what proved the last verdict",
+        Some(DecidedBy::Fallback) => c"Gilbert-Johnson-Keerthi",
+        Some(DecidedBy::Integers) => c"integer arithmetic",
+        Some(DecidedBy::Tolerance) => c"the errors that were allowed",
+        Some(DecidedBy::Budget) => c"the step budget, which ran out",
+        Some(DecidedBy::BoundingSpheres) => c"the bounding spheres",
+        Some(DecidedBy::InscribedSpheres) => c"balls inside the objects",
+        None => c"not what decides",
+    };
+    string.as_ptr()
+}
+
+/// A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
 /// number that is no kind gets a string that says so.
 #[unsafe(no_mangle)]
-pub extern "C" fn swiftprox_library_feature_kind_string(kind: i32) -> *const c_char {
+pub extern "C" fn swiftprox_library_feature_kind_string(kind: FeatureKindNumber) -> *const c_char {
     let string = match FeatureKind::from_number(kind) {
         Some(FeatureKind::None) => c"none",
         Some(FeatureKind::Vertex) => c"vertex",
@@ -107,7 +128,8 @@ pub extern "C" fn swiftprox_library_last_error_message() -> *const c_char {
 
 /// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
 /// and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
-pub type LogCallback = Option<unsafe extern "C-unwind" fn(status: i32, message: *const c_char, user: *mut c_void)>;
+pub type LogCallback =
+    Option<unsafe extern "C-unwind" fn(status: StatusNumber, message: *const c_char, user: *mut c_void)>;
 
 #[derive(Clone, Copy)]
 struct Log {

@@ -13,13 +13,17 @@ pub mod library;
 pub mod allocator;
 mod arrays;
 pub mod mesh_reader;
+pub mod tuning;
 pub mod shape_options;
 pub mod shape;
 pub mod level;
 pub mod pair;
 pub mod scene;
 pub mod object;
+pub mod pose;
 pub mod query;
+pub mod filter;
+pub mod object_query;
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -31,7 +35,7 @@ use std::sync::Once;
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
-use crate::pair::{Bounds, FeatureKind, Levels, Outcome, Refinement, Start, Status};
+use crate::pair::{DecidedBy, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
@@ -44,8 +48,8 @@ pub enum StatusCode {
     ErrorNullPointer = 1,
     /// An argument is out of range, not finite or unknown: the message names it.
     ErrorInvalidArgument = 2,
-    /// A struct_size is not one that this library knows: the struct was not initialised by its _init function, or it comes
-    /// from a newer header and sets what this library does not know.
+    /// A struct_size is none: the struct was not initialised by its _init macro. Or the struct comes from a newer header and sets
+    /// what this library does not know.
     ErrorStructSize = 3,
     /// A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive.
     ErrorPose = 4,
@@ -291,23 +295,49 @@ fn unknown(number: i32, member: &str, kind: &str) -> Failure {
 }
 
 enumerator!(InputPolicy { Strict, Flat, Hull });
-enumerator!(Bounds { Tight, Verdict });
 enumerator!(Start { Automatic, Cache, Table, Cold });
 enumerator!(Levels { Automatic, None, All });
 enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });
+enumerator!(Query { Intersection, Distance, Contact, Approximate });
 enumerator!(Outcome { None, Separated, Beyond, Intersecting, Undecided });
-enumerator!(Status {
+enumerator!(DecidedBy {
     None,
-    Marched,
-    Coherent,
+    Marching,
+    Coherence,
     Fallback,
-    Exact,
-    WithinTolerance,
-    BudgetSpent,
+    Integers,
+    Tolerance,
+    Budget,
     BoundingSpheres,
     InscribedSpheres
 });
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
+
+// Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
+// up; here they are numbers, as a program may hand over any.
+
+/// A [`StatusCode`].
+pub type StatusNumber = i32;
+/// A [`Query`].
+pub type QueryNumber = i32;
+/// An [`Outcome`].
+pub type OutcomeNumber = i32;
+/// A [`DecidedBy`].
+pub type DecidedByNumber = i32;
+/// A [`FeatureKind`].
+pub type FeatureKindNumber = i32;
+/// An [`InputPolicy`].
+pub type InputNumber = i32;
+/// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).
+pub type HierarchyNumber = i32;
+/// A [`LookupKind`](crate::tables::LookupKind).
+pub type LookupNumber = i32;
+/// A [`Start`].
+pub type StartNumber = i32;
+/// A [`Levels`].
+pub type LevelsNumber = i32;
+/// A [`Refinement`].
+pub type RefinementNumber = i32;
 
 /// A string that must not be null.
 ///
@@ -323,84 +353,112 @@ unsafe fn string<'a>(pointer: *const c_char, name: &str) -> Checked<&'a CStr> {
 
 // --- Structs that know their size ----------------------------------------------------------------------------------------
 
-/// No struct of this interface will ever be larger: a larger struct_size was never initialised.
+/// No struct of this interface is smaller than struct_size and one member: such a struct_size was never initialised.
+const SMALLEST_STRUCT: usize = 16;
+
+/// No struct of this interface will ever be larger: as above.
 const LARGEST_STRUCT: usize = 4096;
 
-/// A C struct that begins with its own size, so that it can grow: new members go to its end, never into padding.
+/// A C struct that begins with its own size, as the caller's compiler knows it, so that it can grow. New members go to its end,
+/// never into padding, and by zero mean what was done before there were any.
 ///
 /// # Safety
-/// The type is `repr(C)` and its first member is the `usize` struct_size.
+/// The type is `repr(C)`, its first member is the `usize` struct_size, and any bytes make a valid one.
 unsafe trait Versioned: Copy {
     /// Its name in the header.
     const NAME: &'static str;
-    /// The size it had when it was first released: older programs pass that or more.
-    const FIRST_SIZE: usize;
 }
 
-/// Reads and checks the size of a caller's struct: at least `FIRST_SIZE`, and zero bytes beyond what this library knows.
+/// Refuses what is no size of a struct.
+fn check_struct_size<T: Versioned>(size: usize) -> Checked<()> {
+    if (SMALLEST_STRUCT..=LARGEST_STRUCT).contains(&size) {
+        return Ok(());
+    }
+    let name = T::NAME;
+    let cure = if name.ends_with("_info") { format!("set it to sizeof({name})") } else { format!("call {name}_init") };
+    Err(Failure::new(StatusCode::ErrorStructSize, format!("{name}: struct_size is {size}; {cure} first")))
+}
+
+/// Fills a caller's struct of `size` bytes with as much of the defaults as it has room for, and that size. What only a newer header
+/// knows becomes zero, which asks for nothing new.
 ///
 /// # Safety
-/// `pointer` points to as many readable bytes as its struct_size says.
-#[cold]
-unsafe fn struct_size<T: Versioned>(pointer: *const T) -> Checked<usize> {
-    // SAFETY: struct_size is the first member.
-    let size = unsafe { pointer.cast::<usize>().read() };
-    if size < T::FIRST_SIZE || size > LARGEST_STRUCT {
-        return Err(Failure::new(
-            StatusCode::ErrorStructSize,
-            format!(
-                "{}: struct_size is {size}; set it by the struct's _init function, or to its size if it has none",
-                T::NAME
-            ),
-        ));
-    }
-    for offset in size_of::<T>()..size {
-        // SAFETY: below struct_size, readable by the caller.
-        if unsafe { pointer.cast::<u8>().add(offset).read() } != 0 {
-            return Err(Failure::new(
-                StatusCode::ErrorStructSize,
-                format!("{}: the byte at offset {offset} is set, which this version does not know", T::NAME),
-            ));
+/// `pointer` is null or points to `size` writable bytes.
+unsafe fn init_struct<T: Versioned>(pointer: *mut T, size: usize, defaults: &T) {
+    // Null and a size that is none are the caller's mistakes, which the message and the log tell.
+    let _: StatusCode = guard(|| {
+        if pointer.is_null() {
+            return Err(Failure::null(T::NAME));
         }
-    }
-    Ok(size)
+        check_struct_size::<T>(size)?;
+        // SAFETY: not null, by the caller; struct_size is the first member.
+        unsafe { pointer.cast::<usize>().write(size) };
+        // SAFETY: by the caller.
+        unsafe { fill(pointer, size, defaults) };
+        Ok(())
+    });
 }
 
-/// Copies a caller's struct of any accepted size over `defaults`, which stay where an older struct ends, or wholly for null.
+/// Writes what follows struct_size, `size` bytes with it: as much of `value` as fits, and zeros behind it.
 ///
 /// # Safety
-/// `pointer` is null or as for [`struct_size`]; its bytes, laid over those of `defaults`, make a valid `T`.
+/// `pointer` points to `size` writable bytes, [`SMALLEST_STRUCT`] at least.
+unsafe fn fill<T: Versioned>(pointer: *mut T, size: usize, value: &T) {
+    let start = size_of::<usize>();
+    let end = size.min(size_of::<T>());
+    // SAFETY: both places have `end` bytes, and the caller's has `size`.
+    unsafe {
+        let source = (&raw const *value).cast::<u8>();
+        pointer.cast::<u8>().add(start).copy_from_nonoverlapping(source.add(start), end - start);
+        pointer.cast::<u8>().add(end).write_bytes(0, size - end);
+    }
+}
+
+/// Copies a caller's struct of any size over `defaults`, which stay where an older struct ends, or wholly for null. Refuses one of
+/// a newer header that sets what this library does not know.
+///
+/// # Safety
+/// `pointer` is null or points to as many readable bytes as its struct_size says.
 unsafe fn read_struct<T: Versioned>(pointer: *const T, defaults: T) -> Checked<T> {
     if pointer.is_null() {
         return Ok(defaults);
     }
-    // SAFETY: by the caller.
-    let size = unsafe { struct_size(pointer) }?.min(size_of::<T>());
+    // SAFETY: struct_size is the first member.
+    let size = unsafe { pointer.cast::<usize>().read() };
+    check_struct_size::<T>(size)?;
+    for offset in size_of::<T>()..size {
+        // SAFETY: below struct_size, readable by the caller.
+        if unsafe { pointer.cast::<u8>().add(offset).read() } != 0 {
+            let message = format!(
+                "{}: the program's header is newer than this library ({}), which does not know the member at offset {offset}; \
+                 leave it 0, or take a newer library",
+                T::NAME,
+                env!("CARGO_PKG_VERSION"),
+            );
+            return Err(Failure::new(StatusCode::ErrorStructSize, message));
+        }
+    }
     let mut value = MaybeUninit::new(defaults);
-    // SAFETY: `size` bytes are readable there and fit here; two different places. The result is valid by the caller.
+    // SAFETY: as many bytes are readable there and fit here; two different places. Any bytes make a valid struct.
     unsafe {
-        value.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(pointer.cast::<u8>(), size);
+        value.as_mut_ptr().cast::<u8>().copy_from_nonoverlapping(pointer.cast::<u8>(), size.min(size_of::<T>()));
         Ok(value.assume_init())
     }
 }
 
-/// Fills a caller's struct, as far as its struct_size says; members that only a newer header has must be
-/// zero and stay so.
+/// Fills a caller's info as far as its struct_size says; what only a newer header knows becomes zero.
 ///
 /// # Safety
-/// `pointer` is null or as for [`struct_size`], and the bytes are writable.
+/// `pointer` is null or points to as many writable bytes as its struct_size says.
 unsafe fn write_struct<T: Versioned>(pointer: *mut T, name: &str, value: &T) -> Checked<()> {
     if pointer.is_null() {
         return Err(Failure::null(name));
     }
-    let start = size_of::<usize>();
+    // SAFETY: struct_size is the first member.
+    let size = unsafe { pointer.cast::<usize>().read() };
+    check_struct_size::<T>(size)?;
     // SAFETY: by the caller.
-    let size = unsafe { struct_size(pointer) }?.min(size_of::<T>());
-    // SAFETY: both places have `size` bytes behind their struct_size, which the caller keeps.
-    unsafe {
-        let source = (&raw const *value).cast::<u8>().add(start);
-        pointer.cast::<u8>().add(start).copy_from_nonoverlapping(source, size - start);
-    }
+    unsafe { fill(pointer, size, value) };
     Ok(())
 }
 
@@ -409,7 +467,7 @@ mod tests {
     use super::*;
     use std::mem::offset_of;
 
-    /// A struct of which the first version ended before `newer`.
+    /// A struct to which `newer` was added.
     #[derive(Debug, Clone, Copy, PartialEq)]
     #[repr(C)]
     struct Grown {
@@ -418,39 +476,71 @@ mod tests {
         newer: f64,
     }
 
-    // SAFETY: repr(C), struct_size first.
+    // SAFETY: repr(C), struct_size first, any bytes are valid.
     unsafe impl Versioned for Grown {
         const NAME: &'static str = "swiftprox_grown";
-        const FIRST_SIZE: usize = offset_of!(Grown, newer);
     }
+
+    const OLDER_SIZE: usize = offset_of!(Grown, newer);
 
     const DEFAULTS: Grown = Grown { struct_size: size_of::<Grown>(), older: 1.0, newer: 2.0 };
 
+    /// What a newer header makes of it.
+    #[derive(Debug, Clone, Copy, PartialEq)]
+    #[repr(C)]
+    struct Newest {
+        known: Grown,
+        unknown: [f64; 2],
+    }
+
     #[test]
     fn a_struct_of_an_older_header_keeps_the_defaults_of_what_it_lacks() {
-        let given = Grown { struct_size: Grown::FIRST_SIZE, older: 3.0, newer: 4.0 };
+        let given = Grown { struct_size: OLDER_SIZE, older: 3.0, newer: 4.0 };
         // SAFETY: a live struct, larger than it says.
         let read = unsafe { read_struct(&given, DEFAULTS) }.unwrap();
         assert_eq!((read.older, read.newer), (3.0, 2.0));
         let whole = Grown { struct_size: size_of::<Grown>(), ..given };
         // SAFETY: a live struct, as large as it says; null; one that is too small to be any.
         let [whole, null, small] = unsafe {
-            let small = Grown { struct_size: Grown::FIRST_SIZE - 1, ..given };
+            let small = Grown { struct_size: SMALLEST_STRUCT - 1, ..given };
             [read_struct(&whole, DEFAULTS), read_struct(std::ptr::null(), DEFAULTS), read_struct(&small, DEFAULTS)]
         };
         assert_eq!(whole.unwrap().newer, 4.0);
         assert_eq!(null.unwrap(), DEFAULTS);
         let refused = small.unwrap_err();
         assert_eq!(refused.status, StatusCode::ErrorStructSize);
-        assert!(refused.message.contains("swiftprox_grown"), "{}", refused.message);
+        assert!(refused.message.contains("swiftprox_grown_init"), "{}", refused.message);
     }
 
     #[test]
     fn nothing_is_written_beyond_the_end_of_an_older_struct() {
-        let mut info = Grown { struct_size: Grown::FIRST_SIZE, older: 3.0, newer: 4.0 };
+        let mut given = Grown { struct_size: OLDER_SIZE, older: 3.0, newer: 4.0 };
         // SAFETY: a live struct, larger than it says.
-        unsafe { write_struct(&raw mut info, "info", &DEFAULTS) }.unwrap();
-        assert_eq!(info, Grown { struct_size: Grown::FIRST_SIZE, older: 1.0, newer: 4.0 });
+        unsafe { write_struct(&raw mut given, "info", &DEFAULTS) }.unwrap();
+        assert_eq!(given, Grown { struct_size: OLDER_SIZE, older: 1.0, newer: 4.0 });
+        given = Grown { struct_size: 77, older: 3.0, newer: 4.0 };
+        // SAFETY: as above.
+        unsafe { init_struct(&raw mut given, OLDER_SIZE, &DEFAULTS) };
+        assert_eq!(given, Grown { struct_size: OLDER_SIZE, older: 1.0, newer: 4.0 });
+    }
+
+    #[test]
+    fn what_a_newer_header_adds_is_zero_or_refused() {
+        let mut given = Newest { known: DEFAULTS, unknown: [7.0; 2] };
+        let pointer = (&raw mut given).cast::<Grown>();
+        // SAFETY: a live struct, as large as it says.
+        unsafe {
+            init_struct(pointer, size_of::<Newest>(), &DEFAULTS);
+            assert_eq!((pointer.cast::<Newest>().read()).known.struct_size, size_of::<Newest>());
+            assert_eq!((pointer.cast::<Newest>().read()).unknown, [0.0; 2]);
+            assert_eq!(read_struct(pointer, DEFAULTS).unwrap().newer, 2.0);
+            (&raw mut (*pointer.cast::<Newest>()).unknown).write([0.0, 7.0]);
+            let refused = read_struct(pointer, DEFAULTS).unwrap_err();
+            assert_eq!(refused.status, StatusCode::ErrorStructSize);
+            assert!(refused.message.contains("offset"), "{}", refused.message);
+            write_struct(pointer, "info", &DEFAULTS).unwrap();
+            assert_eq!((pointer.cast::<Newest>().read()).unknown, [0.0; 2]);
+        }
     }
 
     /// What the test below looks at: in a process of its own, since the hook is set once.

@@ -1,22 +1,55 @@
 //! Pair queries: thin doors to `pair`, in front of functions that take some tens of nanoseconds. Nothing is copied; poses
 //! and configuration are read where the caller has them.
 
+use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use super::{
-    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, input, output, read_enumerator, read_struct,
-    struct_size,
+    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, init_struct, input, read_enumerator, read_struct,
 };
 use crate::base::error::Result;
-use crate::base::math::Pose;
+use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify;
-use crate::pair::{
-    self, Bounds, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status,
-};
+use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::shape::Shape;
 
-// SAFETY: repr(C), struct_size first.
-unsafe impl Versioned for PairConfig {
+/// What a pair query is asked for. Fill it with swiftprox_pair_config_init, then change what should differ.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPairConfig {
+    /// Set by swiftprox_pair_config_init.
+    pub struct_size: usize,
+    /// Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is).
+    pub distance_tolerance: f64,
+    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
+    pub rotation_limit: f64,
+    /// Of swiftprox_pair_approximate: upper - lower may be as large as this ... Other queries do not look at this and the two that
+    /// follow, not even whether they are in range: from 0 to infinity, and 1 or more for the budget.
+    pub absolute_error: f64,
+    /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// Of swiftprox_pair_approximate: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
+    /// no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
+    /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
+    /// one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
+    pub step_budget: u32,
+    /// Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
+    pub tuning: *const CPairTuning,
+}
+
+// SAFETY: repr(C), struct_size first, any bytes are valid.
+unsafe impl Versioned for CPairConfig {
     const NAME: &'static str = "swiftprox_pair_config";
-    const FIRST_SIZE: usize = size_of::<PairConfig>();
+}
+
+impl CPairConfig {
+    const DEFAULT: CPairConfig = CPairConfig {
+        struct_size: size_of::<CPairConfig>(),
+        distance_tolerance: f64::INFINITY,
+        rotation_limit: ROTATION_LIMIT,
+        absolute_error: 0.0,
+        relative_error: 0.0,
+        step_budget: u32::MAX,
+        tuning: std::ptr::null(),
+    };
 }
 
 /// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
@@ -34,18 +67,18 @@ const _: () = {
     assert!(align_of::<PairCache>() <= align_of::<CPairCache>());
 };
 
-/// Fills `config` with the defaults, struct_size included.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: config is null.
+/// Fills `config` with the defaults. Call it as swiftprox_pair_config_init(&config), which hands over the size that the program was
+/// compiled with. Null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_pair_config_init(config: *mut PairConfig) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_pair_config_init_sized(config: *mut CPairConfig, struct_size: usize) {
     // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(config, "config", PairConfig::default()) })
+    unsafe { init_struct(config, struct_size, &CPairConfig::DEFAULT) }
 }
 
 /// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
-/// distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair beyond
-/// config->distance_tolerance only `lower` is said. What is not said is NaN, or SWIFTPROX_FEATURE_KIND_NONE.
+/// distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair farther
+/// apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What is not said is NaN, or
+/// SWIFTPROX_FEATURE_KIND_NONE.
 ///
 /// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
 /// the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
@@ -61,7 +94,7 @@ pub unsafe extern "C" fn swiftprox_pair_distance(
     shape2: *const Shape,
     pose2: *const f64,
     cache: *mut CPairCache,
-    config: *const PairConfig,
+    config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -78,7 +111,7 @@ pub unsafe extern "C" fn swiftprox_pair_intersection(
     shape2: *const Shape,
     pose2: *const f64,
     cache: *mut CPairCache,
-    config: *const PairConfig,
+    config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -97,7 +130,7 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
     shape2: *const Shape,
     pose2: *const f64,
     cache: *mut CPairCache,
-    config: *const PairConfig,
+    config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -107,9 +140,9 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
 /// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
 /// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
 /// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
-/// unless config->step_budget ran out: then the status is SWIFTPROX_PAIR_STATUS_BUDGET_SPENT, and the next call with the same cache
-/// goes on from there, unless config->start says that it begin anew. Points and features are not said of an answer that comes
-/// from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+/// unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
+/// goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that
+/// comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(
     shape1: *const Shape,
@@ -117,7 +150,7 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
     shape2: *const Shape,
     pose2: *const f64,
     cache: *mut CPairCache,
-    config: *const PairConfig,
+    config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -134,7 +167,7 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
 /// The other members are rounded, so they hold up to an allowance of 2^-47 (radius 1 + radius 2 + distance of the centres in the
 /// world and of each from its local origin). The normal is of unit length; along it separated objects are at least lower apart.
 /// The witness points are in their objects, and the same in both frames. Those of separated objects are on their features, at a
-/// distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. Status and statistics are
+/// distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. decided_by and statistics are
 /// not checked, nor is more of a contact's normal than its length.
 ///
 /// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
@@ -179,7 +212,7 @@ unsafe fn query(
     shape2: *const Shape,
     pose2: *const f64,
     cache: *mut CPairCache,
-    config: *const PairConfig,
+    config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the caller's; a pose is twelve doubles, row by row, as is `Pose`.
@@ -190,9 +223,8 @@ unsafe fn query(
         let shape2 = input(shape2, "shape2")?;
         let pose2 = input(pose2.cast::<Pose>(), "pose2")?;
         let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
-        let mut own_config = PairConfig::default();
-        let config = read_config(config, &mut own_config)?;
-        Ok(run(shape1, pose1, shape2, pose2, cache, config, answer)?)
+        let config = read_config(config)?;
+        Ok(run(shape1, pose1, shape2, pose2, cache, &config, answer)?)
     });
     if status != StatusCode::Ok {
         // SAFETY: the caller's.
@@ -218,40 +250,38 @@ unsafe fn reset(status: StatusCode, cache: *mut CPairCache, answer: *mut PairAns
     }
 }
 
-/// The caller's configuration where it is when it has today's size; an older or newer one, or the defaults for null, in `own`.
+/// The caller's configuration in Rust's terms, or the defaults for null.
 ///
 /// # Safety
-/// `config` meets the header's pointer rules.
+/// `config` and its tuning meet the header's pointer rules.
 #[inline(always)]
-unsafe fn read_config(config: *const PairConfig, own: &mut PairConfig) -> Checked<&PairConfig> {
+unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConfig> {
     if config.is_null() {
-        return Ok(own);
+        return Ok(PairConfig::default());
     }
+    let of_this_size;
     // SAFETY: not null; the struct begins with its size.
     let size = unsafe { config.cast::<usize>().read() };
-    if size != size_of::<PairConfig>() {
-        // SAFETY: as large as it says, by the caller.
-        unsafe { struct_size(config) }?;
-    }
-    // SAFETY: the enumerators have been members since the first version, so their bytes are there, whatever they hold.
-    let bounds = unsafe { (&raw const (*config).bounds).cast::<i32>().read() };
-    read_enumerator::<Bounds>(bounds, "config->bounds", "swiftprox_bounds")?;
-    // SAFETY: as above.
-    let start = unsafe { (&raw const (*config).start).cast::<i32>().read() };
-    read_enumerator::<Start>(start, "config->start", "swiftprox_start")?;
-    // SAFETY: as above.
-    let levels = unsafe { (&raw const (*config).levels).cast::<i32>().read() };
-    read_enumerator::<Levels>(levels, "config->levels", "swiftprox_levels")?;
-    // SAFETY: as above.
-    let refinement = unsafe { (&raw const (*config).refinement).cast::<i32>().read() };
-    read_enumerator::<Refinement>(refinement, "config->refinement", "swiftprox_refinement")?;
-    if size == size_of::<PairConfig>() {
-        // SAFETY: as large as today's struct, and its enumerators are valid.
-        return Ok(unsafe { &*config });
-    }
-    // SAFETY: laid over the defaults its bytes are valid, as its enumerators are.
-    *own = unsafe { read_struct(config, *own) }?;
-    Ok(own)
+    let config = if size == size_of::<CPairConfig>() {
+        // SAFETY: as large as today's struct, whose members are plain numbers and a pointer.
+        unsafe { &*config }
+    } else {
+        // SAFETY: by the caller.
+        of_this_size = unsafe { read_struct(config, CPairConfig::DEFAULT) }?;
+        &of_this_size
+    };
+    // SAFETY: by the caller.
+    let PairTuning { start, levels, refinement } = unsafe { read_pair_tuning(config.tuning) }?;
+    Ok(PairConfig {
+        distance_tolerance: config.distance_tolerance,
+        rotation_limit: config.rotation_limit,
+        start,
+        absolute_error: config.absolute_error,
+        relative_error: config.relative_error,
+        step_budget: config.step_budget,
+        levels,
+        refinement,
+    })
 }
 
 /// The caller's answer to write to. It may hold any bytes: those that Rust must never see are replaced first.
@@ -266,7 +296,7 @@ unsafe fn write_answer<'a>(answer: *mut PairAnswer) -> Checked<&'a mut PairAnswe
     // SAFETY: not null, writable by the caller; with valid enumerators any other bytes make a valid answer.
     unsafe {
         (&raw mut (*answer).outcome).write(Outcome::None);
-        (&raw mut (*answer).status).write(Status::None);
+        (&raw mut (*answer).decided_by).write(DecidedBy::None);
         (&raw mut (*answer).feature1.kind).write(FeatureKind::None);
         (&raw mut (*answer).feature2.kind).write(FeatureKind::None);
         Ok(&mut *answer)
@@ -282,16 +312,16 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
         return Err(Failure::null("answer"));
     }
     // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
-    let [outcome, status, kind1, kind2] = unsafe {
+    let [outcome, decided_by, kind1, kind2] = unsafe {
         [
             (&raw const (*answer).outcome).cast::<i32>().read(),
-            (&raw const (*answer).status).cast::<i32>().read(),
+            (&raw const (*answer).decided_by).cast::<i32>().read(),
             (&raw const (*answer).feature1.kind).cast::<i32>().read(),
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
     read_enumerator::<Outcome>(outcome, "answer->outcome", "swiftprox_outcome")?;
-    read_enumerator::<Status>(status, "answer->status", "swiftprox_pair_status")?;
+    read_enumerator::<DecidedBy>(decided_by, "answer->decided_by", "swiftprox_decided_by")?;
     read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swiftprox_feature_kind")?;
     read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swiftprox_feature_kind")?;
     // SAFETY: its enumerators are valid, and any other bytes are.

@@ -1,10 +1,12 @@
 //! Queries over a scene, whose results the scene owns, and their statistics.
 
 use super::scene::{SceneHandle, change, look};
-use super::{StatusCode, Versioned, guard, output, read_enumerator, read_struct};
-use crate::base::error::Result;
-use crate::pair::{Bounds, Levels, Refinement, Start};
+use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
+use super::{Checked, StatusCode, Versioned, guard, init_struct, output, read_struct};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
+
+/// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries.
+pub const DEFAULT_TOLERANCE: f64 = -1.0;
 
 /// What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ.
 #[derive(Debug, Clone, Copy)]
@@ -13,51 +15,42 @@ pub struct CSceneQuery {
     /// Set by swiftprox_scene_query_init.
     pub struct_size: usize,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to infinity (the default: all pairs). swiftprox_scene_query_intersection does without it, but refuses one out of range.
+    /// to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
+    /// swiftprox_scene_query_intersection does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
-    /// swiftprox_scene_answer.found is it. Default: 0.
-    pub early_exit: i32,
-    /// A swiftprox_bounds: which interval the answers carry. Default: the tight one.
-    pub bounds: i32,
     /// swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to, in
     /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-    /// Default: infinity.
+    /// Which pairs are listed is found out first, which takes a query of its own. Default: infinity.
     pub error_budget: f64,
     /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
     pub step_budget: u32,
-    /// A swiftprox_levels: which levels of detail queries go through. Default: the automatic choice.
-    pub levels: i32,
-    /// A swiftprox_refinement: how they go from level to level. Default: the adaptive one.
-    pub refinement: i32,
-    /// A swiftprox_start: where marching starts in each pair. Default: the automatic choice.
-    pub start: i32,
+    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
+    /// swiftprox_scene_answer.found is it. Default: 0.
+    pub early_exit: i32,
+    /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
+    pub tuning: *const CPairTuning,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for CSceneQuery {
     const NAME: &'static str = "swiftprox_scene_query";
-    const FIRST_SIZE: usize = size_of::<CSceneQuery>();
 }
 
 impl CSceneQuery {
     const DEFAULT: CSceneQuery = CSceneQuery {
         struct_size: size_of::<CSceneQuery>(),
-        distance_tolerance: f64::INFINITY,
-        early_exit: 0,
-        bounds: Bounds::Tight as i32,
+        distance_tolerance: DEFAULT_TOLERANCE,
         absolute_error: 0.0,
         relative_error: 0.0,
         error_budget: f64::INFINITY,
         step_budget: u32::MAX,
-        levels: Levels::Automatic as i32,
-        refinement: Refinement::Adaptive as i32,
-        start: Start::Automatic as i32,
+        early_exit: 0,
+        tuning: std::ptr::null(),
     };
 }
 
@@ -66,7 +59,8 @@ impl CSceneQuery {
 #[repr(C)]
 pub struct CSceneAnswer {
     /// The pairs that the query lists, by object 1, object 2, piece 1, piece 2, objects in order of creation. Owned by the
-    /// scene, valid until its next call that takes it by a pointer that is not const. Null when count is 0.
+    /// scene, valid until its next query, swiftprox_scene_shrink, or its end: objects may be moved, added and removed while they
+    /// are read. Null when count is 0.
     pub pairs: *const PairResult,
     /// How many pairs.
     pub count: usize,
@@ -83,17 +77,16 @@ impl CSceneAnswer {
         CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
 }
 
-/// Fills `query` with the defaults, struct_size included.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: query is null.
+/// Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
+/// compiled with. Null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_init(query: *mut CSceneQuery) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_query_init_sized(query: *mut CSceneQuery, struct_size: usize) {
     // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(query, "query", CSceneQuery::DEFAULT) })
+    unsafe { init_struct(query, struct_size, &CSceneQuery::DEFAULT) }
 }
 
-/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, status, proof, statistics
-/// and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
+/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
+/// statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
 /// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
@@ -106,7 +99,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_intersection, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_intersection(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
@@ -119,7 +112,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_tolerance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_tolerance, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_tolerance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
@@ -131,7 +124,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_exact_distance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_exact_distance, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_exact_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
@@ -144,11 +137,11 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_approximate_distance, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_approximate_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair. Errors as of
-/// swiftprox_scene_query_intersection.
+/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+/// says otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     scene: *mut SceneHandle,
@@ -156,7 +149,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_contacts, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_contacts(query)?), 0.0, scene, query, answer) }
 }
 
 /// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
@@ -195,12 +188,13 @@ pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandl
 
 // --- What the functions above share --------------------------------------------------------------------------------------
 
-/// Runs a query and shows its results where the scene has them.
+/// Runs a query and shows its results where the scene has them. `tolerance` is the query's own default.
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
-unsafe fn ask(
-    run: for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<SceneAnswer<'a>>,
+pub(super) unsafe fn ask(
+    run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery) -> Checked<SceneAnswer<'a>>,
+    tolerance: f64,
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -216,17 +210,18 @@ unsafe fn ask(
     let status = unsafe {
         change(scene, |scene| {
             let query = read_struct(query, CSceneQuery::DEFAULT)?;
+            let PairTuning { start, levels, refinement } = read_pair_tuning(query.tuning)?;
+            let is_default = query.distance_tolerance == DEFAULT_TOLERANCE;
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,
-                distance_tolerance: query.distance_tolerance,
-                bounds: read_enumerator(query.bounds, "query->bounds", "swiftprox_bounds")?,
+                distance_tolerance: if is_default { tolerance } else { query.distance_tolerance },
                 absolute_error: query.absolute_error,
                 relative_error: query.relative_error,
                 error_budget: query.error_budget,
                 step_budget: query.step_budget,
-                levels: read_enumerator(query.levels, "query->levels", "swiftprox_levels")?,
-                refinement: read_enumerator(query.refinement, "query->refinement", "swiftprox_refinement")?,
-                start: read_enumerator(query.start, "query->start", "swiftprox_start")?,
+                levels,
+                refinement,
+                start,
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {
@@ -306,12 +301,18 @@ mod tests {
             for scene in [broken, broken, sound, sound] {
                 assert_eq!(swiftprox_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
             }
-            let run = |scene: &mut Scene, query: &SceneQuery| -> Result<SceneAnswer<'static>> {
-                // Half of it is done.
-                let _ = scene.query_contacts(query);
-                panic!("injected")
-            };
-            assert_eq!(ask(run, broken, null(), &mut answer), StatusCode::ErrorBug);
+            let status = ask(
+                |scene, query| {
+                    // Half of it is done.
+                    let _ = scene.query_contacts(query);
+                    panic!("injected")
+                },
+                0.0,
+                broken,
+                null(),
+                &mut answer,
+            );
+            assert_eq!(status, StatusCode::ErrorBug);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
             assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);

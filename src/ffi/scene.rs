@@ -3,7 +3,9 @@
 use std::cell::UnsafeCell;
 use std::sync::atomic::{AtomicU32, Ordering};
 
-use super::{Checked, Failure, StatusCode, Versioned, guard, input, keep_panics_quiet, output, read_struct};
+use super::{
+    Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, output, read_struct,
+};
 use crate::base::math::ROTATION_LIMIT;
 use crate::scene::object::ObjectId;
 use crate::scene::{Scene, SceneOptions};
@@ -97,10 +99,9 @@ pub struct CSceneOptions {
     pub rotation_limit: f64,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for CSceneOptions {
     const NAME: &'static str = "swiftprox_scene_options";
-    const FIRST_SIZE: usize = size_of::<CSceneOptions>();
 }
 
 impl CSceneOptions {
@@ -110,17 +111,16 @@ impl CSceneOptions {
 
 // --- Scenes --------------------------------------------------------------------------------------------------------------
 
-/// Fills `options` with the defaults, struct_size included.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: options is null.
+/// Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
+/// was compiled with. Null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_options_init(options: *mut CSceneOptions) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_options_init_sized(options: *mut CSceneOptions, struct_size: usize) {
     // SAFETY: the header's pointer rules.
-    guard(|| unsafe { output(options, "options", CSceneOptions::DEFAULT) })
+    unsafe { init_struct(options, struct_size, &CSceneOptions::DEFAULT) }
 }
 
-/// Makes an empty scene; the caller gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options` may be null
-/// for the defaults.
+/// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
+/// may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
 /// the message names the argument.
@@ -142,7 +142,8 @@ pub unsafe extern "C" fn swiftprox_scene_create(
     })
 }
 
-/// Ends a scene, a poisoned one too; its shares of shapes are given back, its ids and results end with it. Null is ignored.
+/// Ends a scene, which the caller owns, a poisoned one too. Its shares of shapes are given back; its ids and results end with it.
+/// Null is ignored.
 ///
 /// SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
 /// of its memory.
@@ -158,6 +159,17 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
         }
         Ok(())
     })
+}
+
+/// Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
+/// more. What the others remember stays. The next query takes anew what it needs.
+///
+/// SWIFTPROX_ERROR_MEMORY: there is none for a smaller list of pairs; nothing has changed.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { change(scene, |scene| Ok(scene.shrink()?)) }
 }
 
 // --- Activation ----------------------------------------------------------------------------------------------------------

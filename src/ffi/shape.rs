@@ -6,10 +6,8 @@ use std::sync::Arc;
 use super::arrays::{copy_triangles, copy_vertices, read_arrays, read_path, read_vectors};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::{Checked, StatusCode, Versioned, guard, input, keep_panics_quiet, output, write_struct};
-use crate::polyhedron::lookup::Plan;
 use crate::shape::Shape;
 use crate::shape::file as shape_file;
-use crate::tables::LookupKind;
 
 /// What a shape is. Set struct_size to sizeof(swiftprox_shape_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
@@ -33,32 +31,17 @@ pub struct ShapeInfo {
     pub centre_of_mass: [f64; 3],
     /// Largest distance of a vertex from the centre of mass.
     pub radius: f64,
-    /// Lower corner of the bounding box in the local frame.
-    pub lower: [f64; 3],
-    /// Upper corner of the bounding box in the local frame.
-    pub upper: [f64; 3],
+    /// The corner of the bounding box where all coordinates are least, in the local frame.
+    pub lower_corner: [f64; 3],
+    /// The corner where they are greatest.
+    pub upper_corner: [f64; 3],
     /// Memory that the shape holds, in bytes, levels included, however many share it.
     pub bytes: usize,
-    /// A swiftprox_hierarchy: how the levels of detail are made.
-    pub hierarchy: i32,
-    /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
-    /// level 0. Automatic ones are made by the first query that goes through them: 0 until then.
-    pub level_count: usize,
-    /// Of bytes, what the levels take, with their look-up tables once queries have made these.
-    pub level_bytes: usize,
-    /// A swiftprox_lookup: the look-up table that the shape has, never SWIFTPROX_LOOKUP_AUTOMATIC.
-    pub lookup: i32,
-    /// Its resolution, as in swiftprox_shape_options; 0 without one.
-    pub lookup_resolution: u32,
-    /// Its share of `bytes`: 0 until a query, or the making of levels, looks into the table, which makes it. Those of levels are
-    /// the levels'.
-    pub lookup_bytes: usize,
 }
 
-// SAFETY: repr(C), struct_size first.
+// SAFETY: repr(C), struct_size first, any bytes are valid.
 unsafe impl Versioned for ShapeInfo {
     const NAME: &'static str = "swiftprox_shape_info";
-    const FIRST_SIZE: usize = size_of::<ShapeInfo>();
 }
 
 impl ShapeInfo {
@@ -73,27 +56,20 @@ impl ShapeInfo {
         volume: f64::NAN,
         centre_of_mass: [f64::NAN; 3],
         radius: f64::NAN,
-        lower: [f64::NAN; 3],
-        upper: [f64::NAN; 3],
+        lower_corner: [f64::NAN; 3],
+        upper_corner: [f64::NAN; 3],
         bytes: 0,
-        hierarchy: 0,
-        level_count: 0,
-        level_bytes: 0,
-        lookup: 0,
-        lookup_resolution: 0,
-        lookup_bytes: 0,
     };
 }
 
-/// Makes a shape from a polygon mesh. The arrays are copied.
+/// Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.
 ///
 /// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
 /// other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are
 /// triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
 /// unless the options say otherwise. Answers name features by these numbers.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
-/// `options` may be null for the defaults.
+/// On failure `*shape` is null. `options` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFTPROX_ERROR_LIMIT: a count does not fit
 /// 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER,
@@ -106,7 +82,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     valences: *const u32,
     face_count: usize,
     options: *const CShapeOptions,
-    shape: *mut *mut Shape,
+    shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
@@ -116,12 +92,11 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     })
 }
 
-/// Makes a shape from the convex hull of `point_count` points, 3 coordinates each. The array is copied. Features of answers
-/// name vertices by their place in `points` (the first of equal ones), faces by numbers of the hull's own, from 0 and below
-/// swiftprox_shape_info.face_count.
+/// Makes a shape from the convex hull of `point_count` points, 3 coordinates each; the caller owns it and gives it back with
+/// swiftprox_shape_release. The array is copied. Features of answers name vertices by their place in `points` (the first of equal
+/// ones), faces by numbers of the hull's own, from 0 and below swiftprox_shape_info.face_count.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
-/// `options` may be null for the defaults, which refuse a hull without interior.
+/// On failure `*shape` is null. `options` may be null for the defaults, which refuse a hull without interior.
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
@@ -133,7 +108,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     points: *const f64,
     point_count: usize,
     options: *const CShapeOptions,
-    shape: *mut *mut Shape,
+    shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
@@ -143,13 +118,14 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     })
 }
 
-/// Makes a shape from a mesh file: by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if
-/// there is one, else TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and
-/// faces from 0 in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first
-/// mentioned, and no triangles with two equal corners.
+/// Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
-/// `options` may be null for the defaults.
+/// The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,
+/// else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0
+/// in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first mentioned, and
+/// no triangles with two equal corners.
+///
+/// On failure `*shape` is null. `options` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
 /// than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
@@ -161,7 +137,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
 pub unsafe extern "C" fn swiftprox_shape_create_from_file(
     path: *const c_char,
     options: *const CShapeOptions,
-    shape: *mut *mut Shape,
+    shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
@@ -188,12 +164,13 @@ pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const 
     })
 }
 
-/// Loads a shape that swiftprox_shape_save has saved: the same hull, labels, levels and table, for the same answers. What answers
+/// Loads a shape that swiftprox_shape_save has saved; the caller owns it and gives it back with swiftprox_shape_release. It has the
+/// same hull, labels, levels and table, for the same answers. What answers
 /// rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
 /// levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
 /// handed to it.
 ///
-/// On success `*shape` is a new shape that the caller owns and gives back with swiftprox_shape_release; on failure it is null.
+/// On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
 /// of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
@@ -203,7 +180,7 @@ pub unsafe extern "C" fn swiftprox_shape_load(
     path: *const c_char,
     progress: ProgressCallback,
     progress_user: *mut c_void,
-    shape: *mut *mut Shape,
+    shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
@@ -212,33 +189,29 @@ pub unsafe extern "C" fn swiftprox_shape_load(
     })
 }
 
-/// Takes one more share of a shape; each needs its own swiftprox_shape_release. Safe from any thread. Null is ignored.
-///
-/// Always SWIFTPROX_OK.
+/// Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
+/// from any thread. Of null it returns null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> StatusCode {
-    guard(|| {
-        if !shape.is_null() {
-            // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
-            unsafe { Arc::increment_strong_count(shape) };
-        }
-        Ok(())
-    })
+pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> *const Shape {
+    if !shape.is_null() {
+        // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
+        unsafe { Arc::increment_strong_count(shape) };
+    }
+    shape
 }
 
-/// Gives back one share of a shape; the last one frees it (scenes hold shares of their own). Safe from any thread. Null is
-/// ignored.
-///
-/// Always SWIFTPROX_OK.
+/// Gives back one share of a shape that the caller owns, from a function that made the shape or from swiftprox_shape_retain. The
+/// last share frees the shape; scenes hold shares of their own. Safe from any thread. Null is ignored.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) -> StatusCode {
-    guard(|| {
+pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
+    // A bug in the freeing is told by the message and the log.
+    let _: StatusCode = guard(|| {
         if !shape.is_null() {
             // SAFETY: a live shape by the header's pointer rules, and this share is given up; see swiftprox_shape_retain.
             unsafe { Arc::decrement_strong_count(shape) };
         }
         Ok(())
-    })
+    });
 }
 
 /// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
@@ -273,12 +246,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
         unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
-        let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
-        let (kind, resolution) = match polyhedron.lookup.plan {
-            Plan::None | Plan::AllVertices { .. } => (LookupKind::None, 0),
-            Plan::Shells { resolution } => (LookupKind::Shells, resolution),
-            Plan::Spherical { resolution, .. } => (LookupKind::Spherical, resolution),
-        };
+        let polyhedron = shape.polyhedron();
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),
             dimension: i32::from(polyhedron.dimension),
@@ -289,15 +257,9 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
             volume: polyhedron.mass.volume,
             centre_of_mass: polyhedron.mass.centre_of_mass.into(),
             radius: polyhedron.mass.radius,
-            lower: polyhedron.mass.lower.into(),
-            upper: polyhedron.mass.upper.into(),
+            lower_corner: polyhedron.mass.lower.into(),
+            upper_corner: polyhedron.mass.upper.into(),
             bytes: shape.bytes(),
-            hierarchy: hierarchy.kind as i32,
-            level_count: hierarchy.levels.len(),
-            level_bytes: hierarchy.heap_bytes(),
-            lookup: kind as i32,
-            lookup_resolution: resolution as u32,
-            lookup_bytes: polyhedron.lookup.heap_bytes(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }
@@ -354,12 +316,12 @@ pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
 // --- What the functions above share --------------------------------------------------------------------------------------
 
 /// Runs `make` in the guard and hands its shape to the caller, or null.
-pub(super) fn create(shape: *mut *mut Shape, make: impl FnOnce() -> Checked<Shape>) -> StatusCode {
+pub(super) fn create(shape: *mut *const Shape, make: impl FnOnce() -> Checked<Shape>) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        unsafe { output(shape, "shape", std::ptr::null_mut()) }?;
+        unsafe { output(shape, "shape", std::ptr::null()) }?;
         keep_panics_quiet();
-        let made = Arc::into_raw(Arc::new(make()?)).cast_mut();
+        let made = Arc::into_raw(Arc::new(make()?));
         // SAFETY: as above.
         unsafe { output(shape, "shape", made) }
     })

@@ -2,7 +2,7 @@
 
 use super::contact;
 use super::query::{Query, set_interval};
-use super::{Bounds, Outcome, PairAnswer, PairCache, PairConfig, Status};
+use super::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::base::math::{Pose, ROTATION_LIMIT, divisor};
 use crate::base::simd::{Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
@@ -55,9 +55,7 @@ impl Acceptance<'_> {
                     interval.upper < f64::INFINITY && self.config.accuracy().is_met_by(interval.lower, interval.upper)
                 }
                 Query::Intersection => interval.lower > 0.0,
-                Query::Distance | Query::Contact => {
-                    self.config.bounds == Bounds::Verdict && interval.lower > 0.0 && interval.upper < f64::INFINITY
-                }
+                Query::Distance | Query::Contact => false,
             };
         is_narrow && interval.settles(self.config.distance_tolerance)
     }
@@ -68,7 +66,7 @@ impl Acceptance<'_> {
         let answer = &mut *self.answer;
         let normal = minimum.direction.mul(L::splat(minimum.inverse));
         self.cache.remember_features(state);
-        answer.status = Status::Marched;
+        answer.decided_by = DecidedBy::Marching;
         set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
         if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
             contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());

@@ -9,7 +9,8 @@ pub enum Outcome {
     None = 0,
     /// The objects are disjoint, `0 < lower ≤ distance ≤ upper`; `lower` is 0 only for a distance below the smallest double.
     Separated = 1,
-    /// The objects are disjoint and farther apart than the distance tolerance: only `lower` is said, which is at least that.
+    /// The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
+    /// `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features are not said.
     Beyond = 2,
     /// The closed objects have a common point (touching included).
     Intersecting = 3,
@@ -17,27 +18,27 @@ pub enum Outcome {
     Undecided = 4,
 }
 
-/// How a pair query ended. Values are never reused.
+/// What decided a pair query. Values are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
-pub enum Status {
-    /// Nothing was asked yet.
+pub enum DecidedBy {
+    /// Nothing: the value of a fresh answer.
     #[default]
     None = 0,
-    /// Voronoi marching ended and its certificate holds.
-    Marched = 1,
-    /// What proved the last verdict proves this one, or nearly did: vertex pairs that enclose the origin, or a separating axis.
-    Coherent = 2,
-    /// Gilbert-Johnson-Keerthi decided.
+    /// Voronoi marching: it ended, and its certificate holds.
+    Marching = 1,
+    /// What proved the last verdict, or nearly that: vertex pairs that enclose the origin, or a separating axis.
+    Coherence = 2,
+    /// Gilbert-Johnson-Keerthi in floating point.
     Fallback = 3,
-    /// Integer arithmetic decided.
-    Exact = 4,
-    /// An approximate query stopped because its interval was narrow enough.
-    WithinTolerance = 5,
-    /// The step budget of an approximate query ran out: the interval holds, and the next query with the same cache goes on from
-    /// there.
-    BudgetSpent = 6,
-    /// The bounding spheres are apart, and farther than the distance tolerance if there is one: no more was asked.
+    /// Integer arithmetic.
+    Integers = 4,
+    /// The errors that an approximate query may make: it stopped because its interval was narrow enough.
+    Tolerance = 5,
+    /// The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on
+    /// from there.
+    Budget = 6,
+    /// The bounding spheres: they are apart, and farther than the distance tolerance if there is one.
     BoundingSpheres = 7,
     /// In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
     InscribedSpheres = 8,
@@ -92,7 +93,7 @@ pub struct PairAnswer {
     /// Disjoint, beyond the tolerance, or intersecting.
     pub outcome: Outcome,
     /// Which rung of the search decided.
-    pub status: Status,
+    pub decided_by: DecidedBy,
     /// The best estimate, `lower ≤ distance ≤ upper`; 0 when intersecting.
     pub distance: f64,
     /// Lower end of the rigorous interval; 0 when intersecting.
@@ -115,7 +116,7 @@ pub struct PairAnswer {
     pub feature2: Feature,
     /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used: 1 to 4 when intersecting, but for [`Status::InscribedSpheres`], else 0.
+    /// How many entries of `proof` are used: 1 to 4 when intersecting, but for [`DecidedBy::InscribedSpheres`], else 0.
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,
@@ -128,7 +129,7 @@ impl PairAnswer {
         const NO_FEATURE: Feature = Feature { kind: FeatureKind::None, ids: [0; 2] };
         PairAnswer {
             outcome: Outcome::None,
-            status: Status::None,
+            decided_by: DecidedBy::None,
             distance: f64::NAN,
             lower: f64::NAN,
             upper: f64::NAN,

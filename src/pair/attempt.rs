@@ -61,8 +61,7 @@ impl Leg {
     }
 }
 
-/// The common case: the cached features still are the nearest. One state, straight through to the answer, without the loop that
-/// would keep so much in registers.
+/// The common case: the cached features still are the nearest. One state, straight through to the answer (R3).
 struct Coherent<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }
@@ -89,7 +88,7 @@ impl Kernel for Coherent<'_, '_> {
             Way::Nowhere => return Attempt::Untried,
             Way::Move | Way::Behind | Way::Crossing => {}
         }
-        // In line: the frame stays in registers.
+        // In line (R3).
         MarchOn { pair: self.pair, frame, start: step.at, steps: 1, leg: Leg::Trial }.run()
     }
 }

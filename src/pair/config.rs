@@ -5,17 +5,6 @@ use crate::base::error::{Error, Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
 use crate::solve::frame::RIGID_TOGETHER;
 
-/// Which interval a query computes.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Bounds {
-    /// As tight as double precision allows.
-    #[default]
-    Tight = 0,
-    /// The cheapest that still prove the verdict.
-    Verdict = 1,
-}
-
 /// Where marching starts. It changes how fast an answer comes, never the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
@@ -56,16 +45,11 @@ pub enum Levels {
 
 /// What a pair query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C)]
 pub struct PairConfig {
-    /// The size of this struct, so that it can grow; set by swiftprox_pair_config_init.
-    pub struct_size: usize,
-    /// Of pairs farther apart than this only that is said, with a lower bound; +∞ (the default): of none.
+    /// Pairs farther apart than this are [`Outcome::Beyond`](super::Outcome::Beyond); from 0 to +∞ (the default: none is).
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Which interval.
-    pub bounds: Bounds,
     /// Where marching starts.
     pub start: Start,
     /// Of an approximate query: `upper − lower` may be as large as this … Other queries do not look at this and the two that
@@ -87,10 +71,8 @@ pub struct PairConfig {
 impl Default for PairConfig {
     fn default() -> Self {
         PairConfig {
-            struct_size: size_of::<PairConfig>(),
             distance_tolerance: f64::INFINITY,
             rotation_limit: ROTATION_LIMIT,
-            bounds: Bounds::Tight,
             start: Start::Automatic,
             absolute_error: 0.0,
             relative_error: 0.0,

@@ -5,7 +5,7 @@ use super::contact;
 use super::contact_direction::contact_direction;
 use super::query::{Attempt, PairQuery, Query, Rungs, set_interval};
 use super::start::policy;
-use super::{Outcome, Start, Statistics, Status};
+use super::{DecidedBy, Outcome, Start, Statistics};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::{self, Portable};
 use crate::solve::decide::{self, Decision, Pairs, Wanted};
@@ -64,7 +64,7 @@ impl PairQuery<'_> {
     pub(super) fn is_enclosed(&mut self, frame: &Frame<Portable>, hint: &Hint) -> bool {
         let Some(weights) = encloses_origin(frame, hint.pairs.as_slice()) else { return false };
         self.answer.statistics = Statistics { marching_steps: hint.steps, ..Statistics::default() };
-        self.answer.status = Status::Coherent;
+        self.answer.decided_by = DecidedBy::Coherence;
         self.fill(&Decision::Intersecting { pairs: hint.pairs, weights });
         frame.mark(&mut self.cache.marker);
         true
@@ -95,7 +95,7 @@ impl PairQuery<'_> {
         let decide::Work { fallback_iterations, exact_iterations } = work;
         self.answer.statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };
-        self.answer.status = if exact_iterations > 0 { Status::Exact } else { Status::Fallback };
+        self.answer.decided_by = if exact_iterations > 0 { DecidedBy::Integers } else { DecidedBy::Fallback };
         self.fill(&decision);
         if let Some(frame) = frame {
             frame.mark(&mut self.cache.marker);

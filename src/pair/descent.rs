@@ -302,7 +302,7 @@ pub fn try_first<'a, L: Lanes>(
         return None;
     }
     let mut keep = Keep::nothing();
-    // Most often the features still are the nearest: one state, without the loop that would keep so much in registers.
+    // Most often the features still are the nearest: one state (R3).
     let Step { way, at: mut state } = marching::visit(&frame, place.state, &mut keep);
     let mut steps = 1;
     if way == Way::Move {
@@ -319,7 +319,7 @@ pub fn try_first<'a, L: Lanes>(
 /// Whether the pair has jumped since it had a marker.
 #[inline(always)]
 fn levels_have_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
-    // The levels' lever is that of the bodies. (A closure would be compiled without the lanes' instructions if it is not inlined.)
+    // The levels' lever is that of the bodies. No closure (R2).
     let frame = Frame { size: bodies.size(), ..*frame };
     match marker {
         Some(marker) => policy::has_jumped(&frame, marker),

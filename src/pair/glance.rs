@@ -2,7 +2,7 @@
 
 use super::contact;
 use super::query::{PairQuery, Query, set_interval};
-use super::{PairAnswer, PairConfig, Statistics, Status};
+use super::{DecidedBy, PairAnswer, PairConfig, Statistics};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::solve::certificate::reciprocal_length;
 use crate::solve::frame::Frame;
@@ -51,7 +51,7 @@ impl Kernel for Spheres<'_, '_> {
         if !(frame.usual & (interval.lower > self.enough)) {
             return false;
         }
-        answer.status = Status::BoundingSpheres;
+        answer.decided_by = DecidedBy::BoundingSpheres;
         answer.statistics = Statistics::default();
         set_interval(answer, &interval, frame.separation, config.distance_tolerance);
         let offset = frame.bodies[0].offset;
@@ -99,7 +99,7 @@ impl Kernel for Separation<'_, '_> {
 /// The answer of an axis that separates.
 #[inline(always)]
 fn fill_trial<L: Lanes>(trial: &Trial<L>, config: &PairConfig, answer: &mut PairAnswer) {
-    answer.status = Status::Coherent;
+    answer.decided_by = DecidedBy::Coherence;
     answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
     set_interval(answer, &trial.interval, trial.distance, config.distance_tolerance);
     contact::fill_normal(answer, trial.direction.mul(L::splat(trial.inverse)));

@@ -4,7 +4,7 @@
 use super::descent::{self, Leveled, Place, TRIAL_STEPS};
 use super::levels::{are_worth_it, may_answer, most_error};
 use super::query::{PairQuery, Query};
-use super::{Levels, Status};
+use super::{DecidedBy, Levels};
 use crate::base::simd::{self, Kernel, Lanes};
 
 impl PairQuery<'_> {
@@ -55,7 +55,7 @@ impl Kernel for LastLevels<'_, '_> {
         if !config.accuracy().is_met_by(found.lower, found.upper) {
             return false;
         }
-        self.pair.fill_found(&found, Status::WithinTolerance, steps);
+        self.pair.fill_found(&found, DecidedBy::Tolerance, steps);
         let most = most_error(config, found.lower);
         let stays = bodies.stays(found.place, found.lower, most);
         let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };

@@ -8,7 +8,7 @@ use super::descent::{Accuracy, Descended, Descent, Found, Leveled, Place};
 use super::query::{Attempt, Open, PairQuery, Query, set_interval};
 use super::start::policy::StartFrom;
 use super::start::start_pair;
-use super::{Levels, Outcome, Start, Statistics, Status};
+use super::{DecidedBy, Levels, Outcome, Start, Statistics};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
@@ -190,7 +190,7 @@ impl<'a> PairQuery<'a> {
             return false;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return false };
-        self.answer.status = Status::Coherent;
+        self.answer.decided_by = DecidedBy::Coherence;
         self.answer.statistics = Statistics::default();
         self.fill(&Decision::Intersecting { pairs, weights });
         frame.mark(&mut self.cache.marker);
@@ -225,9 +225,9 @@ impl<'a> PairQuery<'a> {
 
     /// The answer that a pair of levels gives.
     #[inline(always)]
-    pub(super) fn fill_found(&mut self, found: &Found, status: Status, steps: u32) {
+    pub(super) fn fill_found(&mut self, found: &Found, decided_by: DecidedBy, steps: u32) {
         let answer = &mut *self.answer;
-        answer.status = status;
+        answer.decided_by = decided_by;
         answer.statistics = Statistics { marching_steps: steps, levels: found.place.levels, ..Statistics::default() };
         let interval = Interval { lower: found.lower, upper: found.upper };
         // What a budget leaves open is not beyond.
@@ -271,7 +271,7 @@ impl<'a> LevelSearch<'a> {
         let Descent { place, is_trial, steps, step_limit, found, .. } = descent;
         match (descended, found) {
             (Descended::Enough, Some(found)) => {
-                pair.fill_found(&found, Status::WithinTolerance, steps);
+                pair.fill_found(&found, DecidedBy::Tolerance, steps);
                 self.remember_place(pair, place, found.lower);
                 if steps > 1 {
                     pair.remember_marker();
@@ -388,7 +388,7 @@ impl<'a> LevelSearch<'a> {
             }
             known.upper = if found.upper < known.upper { found.upper } else { known.upper };
         }
-        pair.fill_found(&known, Status::BudgetSpent, steps);
+        pair.fill_found(&known, DecidedBy::Budget, steps);
         if !(known.lower > 0.0) {
             pair.answer.outcome = Outcome::Undecided;
             contact::fill_nothing(pair.answer);

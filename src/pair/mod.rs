@@ -26,17 +26,18 @@ use crate::base::math::Pose;
 use crate::base::simd::environment::{self, with_default};
 use crate::shape::Shape;
 
-pub use answer::{Feature, FeatureKind, Outcome, PairAnswer, Statistics, Status};
+pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
-pub use config::{Bounds, Levels, PairConfig, Start};
+pub use config::{Levels, PairConfig, Start};
 pub use descent::Refinement;
 use ladder::climb;
 #[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
+pub use query::Query;
 #[doc(hidden)]
-pub use query::{Query, Rungs};
+pub use query::Rungs;
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
@@ -104,7 +105,7 @@ pub fn contact(
 /// soon as `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact
 /// distance.
 ///
-/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`Status::BudgetSpent`]). Points and
+/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and
 /// features are not said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only
 /// `lower` is said.
 ///

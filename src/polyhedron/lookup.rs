@@ -176,7 +176,7 @@ impl Grid {
     #[inline(always)]
     fn cell(&self, [x, y, z]: [f32; 3]) -> usize {
         // The octahedron |x| + |y| + |z| = 1 seen from above; its lower half is folded out to the corners of the square, where
-        // 1 − |v| = |u| + |w|. Without a branch, which would be guessed wrong half of the time.
+        // 1 − |v| = |u| + |w|. Without a branch (R4).
         let scale = 1.0 / (x.abs() + y.abs() + z.abs()).max(f32::MIN_POSITIVE);
         let (u, v, w) = (x * scale, y * scale, z * scale);
         let fold = if w < 0.0 { -w } else { 0.0 };

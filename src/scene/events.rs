@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use super::Scene;
 use crate::base::error::Result;
 use crate::base::memory::{extend, push};
-use crate::pair::{Bounds, Query};
+use crate::pair::Query;
 use crate::scene::object::ObjectId;
 use crate::scene::query::{PairResult, SceneQuery};
 
@@ -55,7 +55,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`], for a distance that is negative or NaN; what was near stays remembered.
     pub fn query_events(&mut self, distance: f64) -> Result<SceneEvents<'_>> {
-        let query = SceneQuery { distance_tolerance: distance, bounds: Bounds::Verdict, ..SceneQuery::default() };
+        let query = SceneQuery { distance_tolerance: distance, ..SceneQuery::default() };
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
         self.run(&query, kind)?;
         let mut now = std::mem::take(&mut self.events.before);

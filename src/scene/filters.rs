@@ -6,6 +6,7 @@ use crate::base::memory::copied;
 use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
+use crate::scene::narrow_phase::Findings;
 use crate::scene::object::{Object, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 
@@ -110,6 +111,18 @@ impl Scene {
     }
 
     // --- Near pairs ----------------------------------------------------------------------------------------------------------------
+
+    /// Gives back the memory that is kept for later: that of the results, and room for pairs that are no more. What the others
+    /// remember stays.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if there is none to bring the near pairs up to date; no result is lost then.
+    pub fn shrink(&mut self) -> Result<()> {
+        self.update_near_pairs(self.broad_phase.tolerance())?;
+        self.broad_phase.near.shrink()?;
+        (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
+        Ok(())
+    }
 
     /// Brings the near pairs up to date: all that a query with this tolerance may list are among them.
     ///

@@ -14,7 +14,7 @@ use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
-use crate::pair::{Outcome, PairAnswer, PairCache, PairConfig, Status};
+use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
@@ -33,7 +33,7 @@ const LOOK_AHEAD: usize = 16;
 /// The answer of balls that overlap.
 const INSCRIBED: PairAnswer = PairAnswer {
     outcome: Outcome::Intersecting,
-    status: Status::InscribedSpheres,
+    decided_by: DecidedBy::InscribedSpheres,
     distance: 0.0,
     lower: 0.0,
     upper: 0.0,
@@ -228,7 +228,7 @@ impl Pass<'_> {
         (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
         pair.reach = self.reach(answer, a, b);
         // What a budget left open may go on the next time.
-        if answer.status == Status::BudgetSpent {
+        if answer.decided_by == DecidedBy::Budget {
             pair.looked_at = 0;
         }
         Ok(())

@@ -19,47 +19,49 @@ const SCENE_BITS: u32 = 20;
 /// A slot whose generation has reached this is not used again.
 const LAST_GENERATION: u32 = (1 << GENERATION_BITS) - 1;
 
-/// Names an object of a scene. Zero ([`ObjectId::NULL`], the default) names none; the id of a removed object is refused
+/// Names an object of a scene. All zero, the default, names none; the id of a removed object is refused
 /// for ever, that of another scene unless about a million scenes were made in between.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash, Default)]
-#[repr(transparent)]
-pub struct ObjectId(u64);
+#[repr(C)]
+pub struct ObjectId {
+    bits: u64,
+}
 
 impl ObjectId {
     /// Names no object.
-    pub const NULL: ObjectId = ObjectId(0);
+    pub const NULL: ObjectId = ObjectId { bits: 0 };
 
     fn new(slot: usize, generation: u32, scene: u32) -> ObjectId {
         let upper = u64::from(scene) << GENERATION_BITS | u64::from(generation);
-        ObjectId(upper << SLOT_BITS | slot as u64)
+        ObjectId { bits: upper << SLOT_BITS | slot as u64 }
     }
 
     /// The id as a number, for C or for storage beside the caller's data. Opaque but for this: zero is null.
     pub fn to_bits(self) -> u64 {
-        self.0
+        self.bits
     }
 
     /// The inverse of [`ObjectId::to_bits`]. Any number is safe: a scene refuses those it has not given out.
     pub fn from_bits(bits: u64) -> ObjectId {
-        ObjectId(bits)
+        ObjectId { bits }
     }
 
     fn slot(self) -> usize {
-        (self.0 & ((1 << SLOT_BITS) - 1)) as usize
+        (self.bits & ((1 << SLOT_BITS) - 1)) as usize
     }
 
     fn generation(self) -> u32 {
-        (self.0 >> SLOT_BITS) as u32 & LAST_GENERATION
+        (self.bits >> SLOT_BITS) as u32 & LAST_GENERATION
     }
 
     fn scene(self) -> u32 {
-        (self.0 >> (SLOT_BITS + GENERATION_BITS)) as u32
+        (self.bits >> (SLOT_BITS + GENERATION_BITS)) as u32
     }
 }
 
 impl fmt::Display for ObjectId {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "{:#x}", self.0)
+        write!(f, "{:#x}", self.bits)
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a query over a scene is asked for, and what it says.
 
-use crate::pair::{Bounds, Levels, PairAnswer, Refinement, Start};
+use crate::pair::{Levels, PairAnswer, Refinement, Start};
 use crate::scene::object::ObjectId;
 
 /// What a query over a scene is asked for.
@@ -12,8 +12,6 @@ pub struct SceneQuery {
     /// to +∞ (the default: all pairs, which takes time in proportion to their number). [`query_intersection`](crate::scene::Scene::query_intersection) does without
     /// it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// Which interval the answers carry.
-    pub bounds: Bounds,
     /// [Approximate queries](crate::scene::Scene::query_approximate_distance): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
@@ -37,7 +35,6 @@ impl Default for SceneQuery {
         SceneQuery {
             early_exit: false,
             distance_tolerance: f64::INFINITY,
-            bounds: Bounds::Tight,
             absolute_error: 0.0,
             relative_error: 0.0,
             error_budget: f64::INFINITY,
@@ -74,7 +71,7 @@ pub struct PairResult {
 pub struct SceneAnswer<'a> {
     /// Whether any tested pair intersects.
     pub intersecting: bool,
-    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next change or query.
+    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next query.
     pub pairs: &'a [PairResult],
     /// The intersecting pair at which the query stopped, if it did ([`SceneQuery::early_exit`]): of all that intersect the first in
     /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as

@@ -130,7 +130,6 @@ impl Asked {
             levels: query.levels,
             refinement: query.refinement,
             start: query.start,
-            bounds: query.bounds,
             ..PairConfig::default()
         };
         Ok(Asked { config, query: kind })

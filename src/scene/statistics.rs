@@ -2,7 +2,7 @@
 
 #[cfg(doc)]
 use crate::pair::Outcome;
-use crate::pair::{PairAnswer, Status};
+use crate::pair::{DecidedBy, PairAnswer};
 #[cfg(doc)]
 use crate::scene::Scene;
 
@@ -59,16 +59,16 @@ impl SceneStatistics {
     /// A pair that geometry decided.
     pub(crate) fn count(&mut self, answer: &PairAnswer) {
         self.pairs += 1;
-        *match answer.status {
-            Status::None => return,
-            Status::Marched => &mut self.marched,
-            Status::Coherent => &mut self.coherent,
-            Status::Fallback => &mut self.fallback,
-            Status::Exact => &mut self.exact,
-            Status::WithinTolerance => &mut self.within_tolerance,
-            Status::BudgetSpent => &mut self.budget_spent,
-            Status::BoundingSpheres => &mut self.bounding_spheres,
-            Status::InscribedSpheres => &mut self.inscribed_spheres,
+        *match answer.decided_by {
+            DecidedBy::None => return,
+            DecidedBy::Marching => &mut self.marched,
+            DecidedBy::Coherence => &mut self.coherent,
+            DecidedBy::Fallback => &mut self.fallback,
+            DecidedBy::Integers => &mut self.exact,
+            DecidedBy::Tolerance => &mut self.within_tolerance,
+            DecidedBy::Budget => &mut self.budget_spent,
+            DecidedBy::BoundingSpheres => &mut self.bounding_spheres,
+            DecidedBy::InscribedSpheres => &mut self.inscribed_spheres,
         } += 1;
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);

@@ -23,6 +23,19 @@ pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
 
+/// What takes every mesh of finite vertices.
+const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
+
+/// A refusal of a mesh with what would take it, where it does not say that itself.
+fn with_cure(error: Error) -> Error {
+    match error {
+        Error::Mesh(message) if ![FLAT_HINT, HULL_HINT].iter().any(|hint| message.ends_with(hint)) => {
+            Error::Mesh(format!("{message}; {CURE}"))
+        }
+        other => other,
+    }
+}
+
 /// Default of [`ShapeOptions::convexity_tolerance`].
 const CONVEXITY_TOLERANCE: f64 = 1e-9;
 
@@ -150,7 +163,8 @@ impl Shape {
         check_points(&mesh.vertices)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
-        let check_as_given = |progress: &mut Progress| check_mesh_in_steps(&mesh, tolerance, allow_flat, progress);
+        let check_as_given =
+            |progress: &mut Progress| check_mesh_in_steps(&mesh, tolerance, allow_flat, progress).map_err(with_cure);
         // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
         let order = along_curve(&mesh.vertices, &mut of_body.part(0.0, 0.02))?;
         let Some((ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {

@@ -181,8 +181,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         [body1.rotate_back(first), body1.rotate_back(second)]
     }
 
-    /// Writes down where the pair is, to tell later how far it has moved. In place: put together elsewhere and copied as a whole it
-    /// would be read before it is written, which stalls (8 % of a query from the tables).
+    /// Writes down where the pair is, to tell later how far it has moved. In place (R1: 8 % of a query
+    /// from the tables).
     #[inline(always)]
     pub fn mark(&self, marker: &mut Marker) {
         let [to_origin, to_first, to_second] = &mut marker.0;

@@ -82,7 +82,7 @@ impl State {
     }
 
     /// A vertex of body `near` (0 or 1) and what lies across a lane of an edge's planes: a vertex across the first two, a face
-    /// across the others. Looked up: the processor would guess a branch wrong.
+    /// across the others. Looked up (R4).
     #[inline(always)]
     pub fn across_edge(near: usize, vertex: u32, lane: usize, across: u32) -> State {
         use Kind::{FaceVertex, VertexFace, VertexVertex};

@@ -4,19 +4,17 @@
 use std::cell::OnceCell;
 
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{
-    Bounds, Outcome, PairAnswer, PairCache, PairConfig, Start, Status, contact, distance, intersection,
-};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Start, contact, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 
-use crate::cases::Random;
-use crate::common::caches::{WORDS, cache_of_words};
-use crate::common::hard::flight::{fly, poses};
-use crate::properties::excess_work_without_levels;
 use crate::truth::ExactPair;
 use crate::{Flight, ask, contradiction};
+use testkit::caches::{WORDS, cache_of_words};
+use testkit::cases::Random;
+use testkit::hard::flight::{fly, poses};
+use testkit::properties::excess_work_without_levels;
 
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
 const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
@@ -25,12 +23,7 @@ pub type Query =
     fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 /// Every query there is.
-const QUERIES: [(&str, Query, Bounds); 4] = [
-    ("distance", distance, Bounds::Tight),
-    ("contact", contact, Bounds::Tight),
-    ("intersection", intersection, Bounds::Tight),
-    ("distance within the cheapest bounds", distance, Bounds::Verdict),
-];
+const QUERIES: [(&str, Query); 3] = [("distance", distance), ("contact", contact), ("intersection", intersection)];
 
 /// Every table that a shape may have.
 const TABLES: [LookupKind; 3] = [LookupKind::None, LookupKind::Shells, LookupKind::Spherical];
@@ -75,13 +68,13 @@ pub fn check(flight: &mut Flight) {
         ];
         for (start, cache) in starts {
             // Axes are for the verdict alone.
-            let asked = if start == "of an axis" { 2 } else { random.below(4) };
-            let (name, query, bounds) = QUERIES[asked];
+            let asked = if start == "of an axis" { 2 } else { random.below(3) };
+            let (name, query) = QUERIES[asked];
             // Without a limit to the distance, or with one that is as near to it as can be.
             let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
             let distance_tolerance = limits[random.below(12).saturating_sub(6)];
             let start_at = STARTS[random.below(5)];
-            let config = PairConfig { bounds, distance_tolerance, start: start_at, ..PairConfig::default() };
+            let config = PairConfig { distance_tolerance, start: start_at, ..PairConfig::default() };
             let shapes = if random.below(2) == 0 { shapes } else { [&other1, &other2] };
             let (mut used, mut answer) = (cache, PairAnswer::default());
             query(shapes[0], &placed[0], shapes[1], &placed[1], &mut used, &config, &mut answer)
@@ -119,7 +112,7 @@ fn not_as_asked(name: &str, answer: &PairAnswer) -> Option<String> {
         Some("points or the normal are not said".to_string())
     } else if answer.outcome != Outcome::Intersecting && !is_said(&[normal]) {
         Some("the normal is not said".to_string())
-    } else if answer.status == Status::None
+    } else if answer.decided_by == DecidedBy::None
         || answer.outcome == Outcome::None
         || [distance, lower, upper].iter().any(|x| x.is_nan())
     {
@@ -132,7 +125,7 @@ fn not_as_asked(name: &str, answer: &PairAnswer) -> Option<String> {
 /// Caches of another sequence of the same family: other bodies.
 fn foreign_caches(flight: &Flight) -> Vec<PairCache> {
     let other = flight.family.sequence(flight.seed ^ 0xf0, flight.index + 1);
-    let [first, second] = crate::common::hard::flight::shapes(&other).expect("bodies that the library admits");
+    let [first, second] = testkit::hard::flight::shapes(&other).expect("bodies that the library admits");
     let mut caches = Vec::new();
     fly(&other, [&first, &second], |_, _, _, cache| caches.push(*cache)).expect("accepted poses");
     caches

@@ -4,18 +4,18 @@
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::Pose;
 use swiftprox::pair::{
-    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, Status, approximate, contact, distance,
+    DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
     intersection,
 };
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 
-use crate::cases::Random;
-use crate::common::caches::cache_of_words;
-use crate::common::hard::flight::poses;
 use crate::history::{Query, words_of_a_cache};
-use crate::retold::extent;
 use crate::{Flight, ask, contradiction};
+use testkit::caches::cache_of_words;
+use testkit::cases::Random;
+use testkit::hard::flight::poses;
+use testkit::retold::extent;
 
 const KINDS: [HierarchyKind; 3] = [HierarchyKind::Quadric, HierarchyKind::DobkinKirkpatrick, HierarchyKind::OuterCuts];
 
@@ -109,7 +109,7 @@ fn random_places(random: &mut Random, shapes: [&Shape; 2]) -> PairCache {
 }
 
 fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f64) -> Option<String> {
-    let is_spent = answer.status == Status::BudgetSpent;
+    let is_spent = answer.decided_by == DecidedBy::Budget;
     match answer.outcome {
         Outcome::Undecided if is_spent && answer.lower == 0.0 => {
             return (answer.upper < exact.lower).then(|| "an interval that misses".to_string());

@@ -1,26 +1,12 @@
-//! The catalogue of hard families (`benches/common/hard`) against everything that answers promise: the truth, computed in
+//! The catalogue of hard families (`testkit/src/hard`) against everything that answers promise: the truth, computed in
 //! integers without the library; the independence of warm starts and of levels of detail; the independence of how a pair is told.
 //!
 //! `HARD_SEED` and `HARD_COUNT` (sequences a family, each family's sweep of its parameters otherwise) make other runs,
 //! `HARD_FAMILY` runs one family alone. The counts of every family, how its queries ended and in how many steps, are printed:
 //! `cargo test --profile checked --test hard -- --nocapture`.
 
-#[path = "../million/bodies.rs"]
-#[allow(dead_code)] // what it draws itself
-mod bodies;
-#[path = "../oracle/cases.rs"]
-#[allow(dead_code)] // its own families
-mod cases;
-#[path = "../../benches/common/mod.rs"]
-mod common;
 mod history;
 mod levels;
-#[path = "../oracle/mod.rs"]
-mod oracle;
-#[path = "../million/properties.rs"]
-mod properties;
-#[path = "../oracle/retold.rs"]
-mod retold;
 mod retelling;
 mod truth;
 
@@ -28,13 +14,14 @@ use std::collections::BTreeSet;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-use cases::Random;
-use common::hard::flight::{Table, Tally, fly, poses, shapes};
-use common::hard::{Family, Sequence, families, triangles};
-use properties::{Placed, Session, excess_work_without_levels};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
+use testkit::bodies::Body;
+use testkit::cases::{Case, Random};
+use testkit::hard::flight::{Table, Tally, fly, poses, shapes};
+use testkit::hard::{Family, Sequence, families, triangles};
+use testkit::properties::{Placed, Session, excess_work_without_levels};
 use truth::ExactPair;
 
 /// What a test does not like, and how to repeat it.
@@ -181,7 +168,7 @@ fn levels_of_detail_change_no_verdict() {
 #[test]
 fn answers_keep_every_promise() {
     over_all_families("promises", |flight| {
-        let bodies = flight.sequence.bodies.each_ref().map(|body| bodies::Body::from_points(body.vertices.clone()));
+        let bodies = flight.sequence.bodies.each_ref().map(|body| Body::from_points(body.vertices.clone()));
         let mut session = Session::new(flight.seed_of(0x7000));
         for (number, pair) in flight.sequence.poses.iter().enumerate() {
             session.check(&Placed { bodies: bodies.each_ref(), poses: poses(pair) });
@@ -207,7 +194,7 @@ fn the_two_oracles_agree() {
             for pair in sequence.poses.iter().take(8) {
                 let [points_a, points_b] = sequence.bodies.each_ref().map(|body| body.vertices.clone());
                 let [pose_a, pose_b] = poses(pair);
-                let truth = cases::Case { points_a, pose_a, points_b, pose_b }.truth();
+                let truth = Case { points_a, pose_a, points_b, pose_b }.truth();
                 assert_eq!(exact.truth(pair), truth, "{} sequence {index}", family.name);
                 compared += 1;
             }

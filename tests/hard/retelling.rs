@@ -7,10 +7,10 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::PairCache;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
-use crate::cases::Random;
-use crate::common::hard::flight::poses;
-use crate::retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly};
 use crate::{Flight, ask, contradiction};
+use testkit::cases::Random;
+use testkit::hard::flight::poses;
+use testkit::retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly};
 
 /// Tells every pose of a flight in other ways. How many of them could be moved without rounding.
 pub fn check(flight: &mut Flight) -> usize {

@@ -1,14 +1,11 @@
 //! The truth about a pose of a sequence, in integers and rationals.
 
-#[path = "../oracle/any_size/mod.rs"]
-mod any_size;
+use testkit::any_size::integers::place;
+use testkit::any_size::nearest::nearest;
 
-use any_size::integers::place;
-use any_size::nearest::nearest;
-
-use crate::common::PosePair;
-use crate::common::hard::Sequence;
-use crate::oracle::Truth;
+use testkit::PosePair;
+use testkit::hard::Sequence;
+use testkit::oracle::Truth;
 
 /// The vertices of a sequence's bodies.
 pub struct ExactPair {

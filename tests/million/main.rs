@@ -7,24 +7,16 @@ use std::collections::BTreeMap;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
-mod bodies;
-#[path = "../oracle/cases.rs"]
-mod cases;
-#[path = "../../benches/common/mod.rs"]
-mod common;
-#[path = "../oracle/mod.rs"]
-mod oracle;
 mod placements;
-mod properties;
 
-use bodies::{Body, any, any_box};
-use cases::{FAMILIES, Random};
-use common::models::{ELLIPSOIDS, ellipsoid};
-use common::orbits::{ORBITS, STEPS, poses};
 use placements::{anywhere, approach, on_grid, touching};
-use properties::{Placed, Session, Tally, Violation};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::PairCache;
+use testkit::bodies::{Body, any, any_box};
+use testkit::cases::{FAMILIES, Random};
+use testkit::models::{ELLIPSOIDS, ellipsoid};
+use testkit::orbits::{ORBITS, STEPS, poses};
+use testkit::properties::{Placed, Session, Tally, Violation};
 
 /// Runs a theme and fails with an example of each property that did not hold.
 fn run(theme: &str, chunks: usize, chunk: impl Fn(usize, &mut Session) + Sync) {

@@ -3,10 +3,10 @@
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::Outcome;
 
-use crate::bodies::Body;
-use crate::cases::{Random, gap};
-use crate::common::random::rotation;
-use crate::properties::{Placed, Session};
+use testkit::bodies::Body;
+use testkit::cases::{Random, gap};
+use testkit::properties::{Placed, Session};
+use testkit::random::rotation;
 
 /// Any orientation, mostly near enough to meet: where one body stands for the other of a similar size.
 pub fn anywhere(bodies: [&Body; 2], random: &mut Random) -> [Pose; 2] {

@@ -13,8 +13,8 @@ use swiftprox::mesh_io::read_mesh;
 
 use crate::method::Method;
 use crate::parry::{Climbing, Parry, Rings, pose_pair};
-use crate::scenes::PosePair;
-use crate::scenes::files::read_poses;
+use testkit::PosePair;
+use testkit::files::read_poses;
 
 const PARRY: &str = env!("PARRY");
 

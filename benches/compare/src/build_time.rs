@@ -6,9 +6,9 @@ use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::polyhedron::lookup::Lookup;
-use swiftprox::tables::build_table;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::tables::build_table;
 
 use crate::model;
 use crate::options::Options;

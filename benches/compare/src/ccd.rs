@@ -4,7 +4,7 @@
 use swiftprox::mesh::PolygonMesh;
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
+use testkit::PosePair;
 
 #[repr(C)]
 struct Body {

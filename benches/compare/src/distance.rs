@@ -3,17 +3,17 @@
 use std::rc::Rc;
 
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{Bounds, PairConfig};
+use swiftprox::pair::PairConfig;
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use crate::method::{Method, Reply, replies};
 use crate::options::Options;
 use crate::parry::{Climbing, Parry, Rings};
 use crate::report::{self, Row};
-use crate::scenes::models::cuboid;
 use crate::setting::{Query, setting, setting_of_pair};
 use crate::timing::{Time, median, time_methods};
 use crate::{model, motion};
+use testkit::models::cuboid;
 
 /// Answers farther apart than this, relative to the distance, are counted as disagreement.
 const AGREEMENT: f64 = 1e-6;
@@ -73,7 +73,7 @@ fn of_intersection(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     ])
 }
 
-/// No two of the same code follow each other: the second would find the branch predictors trained on the very poses.
+/// No two that search alike follow each other: the second would find the branch predictors trained on the very poses.
 fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let shape = shape(mesh)?;
     let rings = Rc::new(Rings::new(mesh));
@@ -81,7 +81,6 @@ fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     let mut all: Vec<Box<dyn Method>> = vec![
         setting("swiftprox", Query::Distance, &shape, PairConfig::default()),
         parry(Climbing::First),
-        setting("swiftprox-verdict", Query::Distance, &shape, verdict()),
         parry(Climbing::Steepest),
     ];
     debug_assert_eq!(all.len(), FIRST_TURNS);
@@ -106,7 +105,6 @@ fn beside_box(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
     Ok(vec![
         setting_of_pair("swiftprox", Query::Distance, shapes, PairConfig::default()),
         Box::new(Parry::new(rings.clone(), Climbing::First)),
-        setting_of_pair("swiftprox-verdict", Query::Distance, shapes, verdict()),
         Box::new(Parry::new(rings, Climbing::Steepest)),
     ])
 }
@@ -115,13 +113,9 @@ fn shape(mesh: &PolygonMesh) -> Result<Rc<Shape>, String> {
     Ok(Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?))
 }
 
-fn verdict() -> PairConfig {
-    PairConfig { bounds: Bounds::Verdict, ..PairConfig::default() }
-}
-
 /// FCL takes its turns when these methods have taken theirs: it takes thirty times as long, and what it leaves in the caches and
 /// the branch predictors costs those after it up to a tenth, the fastest the most.
-const FIRST_TURNS: usize = 4;
+const FIRST_TURNS: usize = 3;
 
 fn times(methods: &mut [Box<dyn Method>], options: &Options, count: usize) -> Vec<Time> {
     let is_split = options.query == Query::Distance && options.methods.is_empty();

@@ -2,8 +2,8 @@
 //! from vertex 0 each time; it has no coherence to keep.
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
 use swiftprox::mesh::PolygonMesh;
+use testkit::PosePair;
 
 #[repr(C)]
 struct Convex {

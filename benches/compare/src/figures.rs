@@ -7,19 +7,19 @@ use std::rc::Rc;
 
 use swiftprox::error::Result;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Levels, PairConfig, Refinement, Start};
 use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::tables::{LookupKind, LookupOptions};
 
 use crate::marches::Marching;
 use crate::method::{Method, Reply, replies};
 use crate::options::Options;
-use crate::scenes::PosePair;
-use crate::scenes::orbits::{STEPS, Step};
-use crate::setting::{Query, setting};
+use crate::setting::{Query, setting, verdict_by_marching};
 use crate::timing::{Time, time_methods};
 use crate::{model, motion, report};
+use testkit::PosePair;
+use testkit::orbits::{STEPS, Step};
 
 /// One figure: its name, orbits, sizes of the models, steps, and what it shows.
 pub struct Figure {
@@ -61,6 +61,14 @@ struct Series {
 impl Series {
     fn new(name: impl Into<String>, query: Query, shape: &Rc<Shape>, config: PairConfig) -> Series {
         Series { query, error: config.absolute_error, method: setting(name, query, shape, config) }
+    }
+
+    /// As in the paper: a verdict by marching alone.
+    fn of_paper(name: impl Into<String>, query: Query, shape: &Rc<Shape>, config: PairConfig) -> Series {
+        match query {
+            Query::Intersection => Series { query, error: 0.0, method: verdict_by_marching(name, shape, config) },
+            _ => Series::new(name, query, shape, config),
+        }
     }
 }
 
@@ -148,7 +156,7 @@ fn cut_offs(mesh: &PolygonMesh, query: Query) -> Result<Vec<Series>> {
         let shape = shape(mesh, NO_TABLE, dobkin_kirkpatrick(minimum))?;
         for (name, refinement) in POLICIES {
             let name = format!("{minimum} {name}");
-            all.push(Series::new(name, query, &shape, through_levels(refinement)));
+            all.push(Series::of_paper(name, query, &shape, through_levels(refinement)));
         }
     }
     Ok(all)
@@ -165,7 +173,7 @@ fn rates(mesh: &PolygonMesh, query: Query) -> Result<Vec<Series>> {
         for &decimation in decimations {
             let shape = shape(mesh, NO_TABLE, decimated(kind, decimation))?;
             let name = format!("{word} {decimation} ({})", 1 + shape.hierarchy().levels.len());
-            all.push(Series::new(name, query, &shape, through_levels(Refinement::SingleSingle)));
+            all.push(Series::of_paper(name, query, &shape, through_levels(Refinement::SingleSingle)));
         }
     }
     Ok(all)
@@ -180,11 +188,11 @@ fn best(mesh: &PolygonMesh, query: Query) -> Result<Vec<Series>> {
     let cuts = shape(mesh, NO_TABLE, decimated(HierarchyKind::OuterCuts, 0.03125))?;
     let ours = shape(mesh, LookupOptions::DEFAULT, none())?;
     Ok(vec![
-        Series::new("nothing", query, &bare, simple()),
-        Series::new("LUT 2 5.625", query, &table, by_tables()),
-        Series::new("DK 100 Double-Double", query, &removed, through_levels(Refinement::DoubleDouble)),
-        Series::new("quadric 0.03125", query, &quadric, through_levels(Refinement::SingleSingle)),
-        Series::new("cuts 0.03125", query, &cuts, through_levels(Refinement::SingleSingle)),
+        Series::of_paper("nothing", query, &bare, simple()),
+        Series::of_paper("LUT 2 5.625", query, &table, by_tables()),
+        Series::of_paper("DK 100 Double-Double", query, &removed, through_levels(Refinement::DoubleDouble)),
+        Series::of_paper("quadric 0.03125", query, &quadric, through_levels(Refinement::SingleSingle)),
+        Series::of_paper("cuts 0.03125", query, &cuts, through_levels(Refinement::SingleSingle)),
         Series::new("automatic", query, &ours, PairConfig::default()),
     ])
 }

@@ -4,6 +4,7 @@ mod answers;
 mod build_time;
 #[cfg(ccd)]
 mod ccd;
+mod crowd;
 mod distance;
 #[cfg(fcl)]
 mod fcl;
@@ -13,19 +14,17 @@ mod method;
 mod options;
 mod parry;
 mod report;
-#[path = "../../common/mod.rs"]
-mod scenes;
 mod setting;
 mod timing;
 
 use std::process::ExitCode;
 
 use options::Options;
-use scenes::PosePair;
-use scenes::models::{ELLIPSOIDS, ellipsoid};
-use scenes::orbits::{ORBITS, Orbit, Step, poses};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::read_mesh;
+use testkit::PosePair;
+use testkit::models::{ELLIPSOIDS, ellipsoid};
+use testkit::orbits::{ORBITS, Orbit, Step, poses};
 
 fn main() -> ExitCode {
     let run = || {
@@ -39,6 +38,8 @@ fn main() -> ExitCode {
         }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
+        } else if let Some(counts) = &options.crowd {
+            crowd::run(&options, counts)
         } else if options.build {
             build_time::run(&options)
         } else {
@@ -67,7 +68,7 @@ fn model(options: &Options, name: &str, n: usize) -> Result<PolygonMesh, String>
 
 fn motion(options: &Options, orbit: &str, step: Step) -> Result<Vec<PosePair>, String> {
     if let Some(directory) = &options.workload {
-        return scenes::files::read_poses(&directory.join(format!("{orbit}_{step}.poses")), options.count);
+        return testkit::files::read_poses(&directory.join(format!("{orbit}_{step}.poses")), options.count);
     }
     let known: Option<&Orbit> = ORBITS.iter().find(|known| known.name == orbit);
     Ok(poses(*known.ok_or_else(|| format!("{orbit}: no such orbit"))?, step, options.count))

@@ -3,20 +3,20 @@
 
 use std::rc::Rc;
 
+use swiftprox::base::simd::{self, Kernel, Lanes};
+use swiftprox::math::{Pose, ROTATION_LIMIT};
+use swiftprox::pair::start::policy::StartFrom;
+use swiftprox::pair::start::start_pair;
+use swiftprox::shape::Shape;
 use swiftprox::solve::certificate::{Certify, Gap, Minimum};
 use swiftprox::solve::frame::Frame;
 use swiftprox::solve::marching::{self, March, step_limit};
-use swiftprox::math::{Pose, ROTATION_LIMIT};
-use swiftprox::shape::Shape;
-use swiftprox::base::simd::{self, Kernel, Lanes};
-use swiftprox::pair::start::policy::StartFrom;
-use swiftprox::pair::start::start_pair;
 use swiftprox::solve::state::State;
 use swiftprox::solve::voronoi::Rule;
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
 use crate::setting::poses_of;
+use testkit::PosePair;
 
 pub struct Marching<const FIRST: bool> {
     name: &'static str,

@@ -3,7 +3,7 @@
 use std::hint::black_box;
 use std::ops::Range;
 
-use crate::scenes::PosePair;
+use testkit::PosePair;
 
 /// What a method says about one pose.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use std::path::PathBuf;
 
-use crate::scenes::models::ELLIPSOIDS;
-use crate::scenes::orbits::{ORBITS, STEPS, Step};
 use crate::setting::Query;
+use testkit::models::ELLIPSOIDS;
+use testkit::orbits::{ORBITS, STEPS, Step};
 
 pub const HELP: &str = "\
 Speed and accuracy of exact distance: swiftprox beside parry3d-f64 and FCL, on ellipsoids that orbit one another.
@@ -16,7 +16,7 @@ usage: compare [options]
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
   --query QUERY     distance, or intersection, the verdict alone (distance)
   --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
-  --methods LIST    of swiftprox, parry-hc, swiftprox-verdict, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
+  --methods LIST    of swiftprox, parry-hc, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
                     of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
@@ -24,6 +24,8 @@ usage: compare [options]
   --figures LIST    time the figures of Ehmann & Lin (2000) instead: of 5 to 12, choice (the automatic choice against the
                     fixed ones), error (approximate distances), size (models of up to 200,000 triangles), or all; a
                     figure has its own sizes, orbits and steps
+  --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
+                    swiftprox, parry, parry-rebuilt, sweep-and-prune, fcl
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -45,6 +47,8 @@ pub struct Options {
     pub passes: usize,
     pub workload: Option<PathBuf>,
     pub build: bool,
+    /// Numbers of bodies.
+    pub crowd: Option<Vec<usize>>,
     pub answers: Option<[String; 4]>,
     /// Which figures; empty: all.
     pub figures: Option<Vec<String>>,
@@ -67,6 +71,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         passes: 9,
         workload: None,
         build: false,
+        crowd: None,
         answers: None,
         figures: None,
         csv: None,
@@ -93,6 +98,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--count" => options.count = number(&value()?)?.max(1),
             "--passes" => options.passes = number(&value()?)?.max(1),
             "--workload" => options.workload = Some(value()?.into()),
+            "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
             "--figures" => {

@@ -11,17 +11,19 @@ use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
 use swiftprox::mesh::PolygonMesh;
+use testkit::PosePair;
 
 /// Parry's own form of two poses. A quaternion cannot hold a matrix that is not quite orthonormal.
 pub fn pose_pair(poses: &PosePair) -> (Pose, Pose) {
-    let pose = |m: &[f64]| {
-        let column = |j: usize| Vector::new(m[j], m[4 + j], m[8 + j]);
-        let rotation = Matrix3::from_cols(column(0), column(1), column(2));
-        Pose::from_parts(column(3), Rotation::from_mat3(&rotation).normalize())
-    };
-    (pose(&poses[..12]), pose(&poses[12..]))
+    (pose_of(&poses[..12]), pose_of(&poses[12..]))
+}
+
+/// Parry's own form of the row-major `[R|T]`.
+pub fn pose_of(m: &[f64]) -> Pose {
+    let column = |j: usize| Vector::new(m[j], m[4 + j], m[8 + j]);
+    let rotation = Matrix3::from_cols(column(0), column(1), column(2));
+    Pose::from_parts(column(3), Rotation::from_mat3(&rotation).normalize())
 }
 
 /// A hull as rings of neighbours.
@@ -54,12 +56,16 @@ impl Rings {
         }
         Rings { vertices, starts, ring }
     }
+
+    pub fn vertices(&self) -> &[Vector] {
+        &self.vertices
+    }
 }
 
 /// One body's view of the rings: where its last climb ended. It goes on to the steepest of a ring, or to the first that rises.
-struct Climber<'a, const STEEPEST: bool> {
-    rings: &'a Rings,
-    last: &'a Cell<u32>,
+pub struct Climber<'a, const STEEPEST: bool> {
+    pub rings: &'a Rings,
+    pub last: &'a Cell<u32>,
 }
 
 impl<const STEEPEST: bool> SupportMap for Climber<'_, STEEPEST> {

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use crate::distance::Accuracy;
 use crate::method::Reply;
-use crate::scenes::orbits::Step;
 use crate::timing::{Time, median};
+use testkit::orbits::Step;
 
 /// The methods that ratios are against: the first of them that is there.
 const PEERS: [&str; 2] = ["parry-hc", "libccd-mpr"];

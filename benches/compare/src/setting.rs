@@ -5,11 +5,11 @@ use std::rc::Rc;
 
 use swiftprox::error::Result;
 use swiftprox::math::Pose;
-use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Rungs};
 use swiftprox::shape::Shape;
 
 use crate::method::{Method, Reply};
-use crate::scenes::PosePair;
+use testkit::PosePair;
 
 /// What is asked.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -50,6 +50,17 @@ pub fn setting_of_pair(
         Query::Distance => Box::new(Setting::new(name, pair::distance, shapes, config)),
         Query::Contact => Box::new(Setting::new(name, pair::contact, shapes, config)),
     }
+}
+
+/// A verdict as Ehmann & Lin had it, by marching: neither bounding spheres nor the last separating axis are asked.
+pub fn verdict_by_marching(name: impl Into<String>, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
+    const RUNGS: Rungs = Rungs { spheres: false, last_axis: false, ..Rungs::ALL };
+    #[rustfmt::skip]
+    let ask = |shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer| {
+        let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+        pair::query_with(pair::Query::Intersection, RUNGS, bodies, cache, config, answer)
+    };
+    Box::new(Setting::new(name.into(), ask, [Rc::clone(shape), Rc::clone(shape)], config))
 }
 
 /// A type for each function of the library, so that the compiler sees which is called.

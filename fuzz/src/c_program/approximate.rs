@@ -1,7 +1,7 @@
 //! Calls that answer approximately and through levels, levels that a caller gives, and the log.
 
 use std::ffi::{CStr, c_char, c_void};
-use std::ptr::null_mut;
+use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
@@ -9,10 +9,11 @@ use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::query::*;
-use swiftprox::pair::{Bounds, Levels, Outcome, PairAnswer, PairConfig, Refinement, Start};
+use swiftprox::ffi::tuning::*;
+use swiftprox::pair::{Levels, Outcome, PairAnswer, Refinement, Start};
 use swiftprox::scene::PairResult;
 
-use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
+use super::arguments::{Block, any_pose, array, initialised, mesh_arrays, options, shape_options, start};
 use super::shapes::ask_alike;
 use super::{Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
@@ -27,31 +28,35 @@ const REFINEMENTS: [Refinement; 4] =
 /// A config with every member set; now and then one is out of range, or the struct of another size.
 fn any_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
-    let config = PairConfig {
-        distance_tolerance: if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() },
-        bounds: *u.choose(&[Bounds::Tight, Bounds::Verdict])?,
-        start: *u.choose(&STARTS)?,
-        absolute_error: *u.choose(&ERRORS)?,
-        relative_error: *u.choose(&ERRORS)?,
-        step_budget: *u.choose(&BUDGETS)?,
-        levels: *u.choose(&LEVELS)?,
-        refinement: *u.choose(&REFINEMENTS)?,
-        ..PairConfig::default()
-    };
+    let mut config: CPairConfig = initialised(swiftprox_pair_config_init_sized);
+    let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
+    config.distance_tolerance = if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() };
+    tuning.start = *u.choose(&STARTS)? as i32;
+    config.absolute_error = *u.choose(&ERRORS)?;
+    config.relative_error = *u.choose(&ERRORS)?;
+    config.step_budget = *u.choose(&BUDGETS)?;
+    tuning.levels = *u.choose(&LEVELS)? as i32;
+    tuning.refinement = *u.choose(&REFINEMENTS)? as i32;
     if !u.ratio(1, 8)? {
-        return Ok(Some(Block::of(std::slice::from_ref(&config))));
+        let tuning = Block::of(&[tuning]);
+        config.tuning = tuning.at();
+        return Ok(Some(Block::of(&[config]).with(Some(tuning))));
     }
     let error = any_number(u, &mut last)?.to_ne_bytes();
     let enumerator = u.int_in_range(-1..=4_i32)?.to_ne_bytes();
     let changes = [
-        (std::mem::offset_of!(PairConfig, absolute_error), &error[..]),
-        (std::mem::offset_of!(PairConfig, relative_error), &error[..]),
-        (std::mem::offset_of!(PairConfig, step_budget), &[0; 4]),
-        (std::mem::offset_of!(PairConfig, start), &enumerator[..]),
-        (std::mem::offset_of!(PairConfig, levels), &enumerator[..]),
-        (std::mem::offset_of!(PairConfig, refinement), &enumerator[..]),
+        (std::mem::offset_of!(CPairTuning, start), &enumerator[..]),
+        (std::mem::offset_of!(CPairTuning, levels), &enumerator[..]),
+        (std::mem::offset_of!(CPairTuning, refinement), &enumerator[..]),
     ];
-    options(u, &config, &changes)
+    let tuning = options(u, &tuning, &changes)?;
+    config.tuning = start(&tuning);
+    let changes = [
+        (std::mem::offset_of!(CPairConfig, absolute_error), &error[..]),
+        (std::mem::offset_of!(CPairConfig, relative_error), &error[..]),
+        (std::mem::offset_of!(CPairConfig, step_budget), &[0; 4]),
+    ];
+    Ok(options(u, &config, &changes)?.map(|config| config.with(tuning)))
 }
 
 /// What an answer without a verdict says: an interval from 0 on.
@@ -95,19 +100,18 @@ impl Program {
     pub fn scene_query_through_levels(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut query = unsafe { std::mem::zeroed::<CSceneQuery>() };
-        // SAFETY: room for the query.
-        assert_eq!(unsafe { swiftprox_scene_query_init(&mut query) }, StatusCode::Ok);
+        let mut query: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
         query.early_exit = i32::from(u.ratio(1, 8)?);
         query.absolute_error = *u.choose(&ERRORS)?;
         query.relative_error = *u.choose(&ERRORS)?;
         query.error_budget = *u.choose(&[f64::INFINITY, 0.0, 1.0, -1.0])?;
         query.step_budget = *u.choose(&BUDGETS)?;
-        query.levels = *u.choose(&LEVELS)? as i32;
-        query.refinement = *u.choose(&REFINEMENTS)? as i32;
+        tuning.levels = *u.choose(&LEVELS)? as i32;
+        tuning.refinement = *u.choose(&REFINEMENTS)? as i32;
+        query.tuning = &tuning;
         let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
-        // SAFETY: a living scene, query and answer; the results are the scene's until its next change.
+        // SAFETY: a living scene, query and answer; the results are the scene's until its next query.
         unsafe {
             let run = || swiftprox_scene_query_approximate_distance(scene.handle, &query, &mut answer);
             let status = inside(self.environment, run);
@@ -147,7 +151,7 @@ impl Program {
             .collect();
         let block = Block::of(&levels);
         let (first, count) = array(u, block.at(), levels.len())?;
-        let mut shape = null_mut();
+        let mut shape = null();
         // SAFETY: what is not null has the room that it claims.
         let status = unsafe { swiftprox_shape_create_from_levels(first, count, start(&options), &mut shape) };
         Ok(self.keep(status, shape))

@@ -5,10 +5,10 @@ use std::ffi::CString;
 use std::ptr::null_mut;
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
-use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape_options::*;
+use swiftprox::ffi::tuning::*;
 use swiftprox::math::Pose;
-use swiftprox::pair::PairConfig;
 
 use super::MOST_POINTS;
 use crate::geometry::{any_number, points, pose};
@@ -18,6 +18,8 @@ pub struct Block {
     /// Its first byte.
     pub start: *mut u8,
     layout: Layout,
+    /// What it points to.
+    needs: Option<Box<Block>>,
 }
 
 impl Block {
@@ -29,7 +31,7 @@ impl Block {
         assert!(!start.is_null());
         // SAFETY: as large as allocated.
         unsafe { start.write_bytes(0xa5, layout.size()) };
-        Block { start, layout }
+        Block { start, layout, needs: None }
     }
 
     pub fn of<T: Copy>(values: &[T]) -> Block {
@@ -42,12 +44,28 @@ impl Block {
     pub fn at<T>(&self) -> *mut T {
         self.start.cast()
     }
+
+    /// Keeps what it points to.
+    pub fn with(mut self, needs: Option<Block>) -> Block {
+        self.needs = needs.map(Box::new);
+        self
+    }
 }
 
 impl Drop for Block {
     fn drop(&mut self) {
         // SAFETY: allocated with this layout.
         unsafe { dealloc(self.start, self.layout) };
+    }
+}
+
+/// A struct as its macro fills it.
+pub fn initialised<T>(init: unsafe extern "C" fn(*mut T, usize)) -> T {
+    let mut value = std::mem::MaybeUninit::<T>::zeroed();
+    // SAFETY: room for the struct; zero is a value of every member, then written by the library.
+    unsafe {
+        init(value.as_mut_ptr(), size_of::<T>());
+        value.assume_init()
     }
 }
 
@@ -125,28 +143,29 @@ pub fn pair_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
     let tolerance = any_number(u, &mut last)?.to_ne_bytes();
     let limit = any_number(u, &mut last)?.to_ne_bytes();
-    let bounds = u.int_in_range(-1..=2_i32)?.to_ne_bytes();
+    let start = u.int_in_range(-1..=2_i32)?;
+    let tuning = Block::of(&[CPairTuning { start, ..initialised(swiftprox_pair_tuning_init_sized) }]);
     let changes = [
-        (std::mem::offset_of!(PairConfig, distance_tolerance), &tolerance[..]),
-        (std::mem::offset_of!(PairConfig, rotation_limit), &limit[..]),
-        (std::mem::offset_of!(PairConfig, bounds), &bounds[..]),
+        (std::mem::offset_of!(CPairConfig, distance_tolerance), &tolerance[..]),
+        (std::mem::offset_of!(CPairConfig, rotation_limit), &limit[..]),
     ];
-    options(u, &PairConfig::default(), &changes)
+    let config = options(u, &CPairConfig { tuning: tuning.at(), ..initialised(swiftprox_pair_config_init_sized) }, &changes)?;
+    Ok(config.map(|config: Block| config.with(Some(tuning))))
 }
 
 /// Half of the time the convex hull is asked for, which makes a shape of nearly anything.
 pub fn shape_options(u: &mut Unstructured) -> Result<Option<Block>> {
-    // SAFETY: zero is a value of every member; then written by the library.
-    let mut value = unsafe { std::mem::zeroed::<CShapeOptions>() };
-    // SAFETY: room for the options.
-    assert_eq!(unsafe { swiftprox_shape_options_init(&mut value) }, StatusCode::Ok);
-    value.hierarchy = u.int_in_range(0..=3)?;
-    value.minimum_triangles = u.int_in_range(0..=20)?;
-    value.lookup = u.int_in_range(0..=3)?;
-    value.lookup_resolution = *u.choose(&[0, 4, 8])?;
+    let mut tuning: CShapeTuning = initialised(swiftprox_shape_tuning_init_sized);
+    let mut value: CShapeOptions = initialised(swiftprox_shape_options_init_sized);
+    tuning.hierarchy = u.int_in_range(0..=3)?;
+    tuning.minimum_triangles = u.int_in_range(0..=20)?;
+    tuning.lookup = u.int_in_range(0..=3)?;
+    tuning.lookup_resolution = *u.choose(&[0, 4, 8])?;
     if u.arbitrary()? {
         value.input = 2;
-        return Ok(Some(Block::of(std::slice::from_ref(&value))));
+        let tuning = Block::of(&[tuning]);
+        value.tuning = tuning.at();
+        return Ok(Some(Block::of(&[value]).with(Some(tuning))));
     }
     let mut last = 1.0;
     let numbers = [any_number(u, &mut last)?, any_number(u, &mut last)?, any_number(u, &mut last)?];
@@ -155,18 +174,22 @@ pub fn shape_options(u: &mut Unstructured) -> Result<Option<Block>> {
     let lookup = u.int_in_range(-1..=4_i32)?.to_ne_bytes();
     let resolution = u.int_in_range(0..=17_u32)?.to_ne_bytes();
     let [scale, translation, tolerance] = numbers.map(f64::to_ne_bytes);
+    let tuning_changes = [
+        (std::mem::offset_of!(CShapeTuning, hierarchy), &hierarchy[..]),
+        (std::mem::offset_of!(CShapeTuning, decimation), &scale[..]),
+        (std::mem::offset_of!(CShapeTuning, lookup), &lookup[..]),
+        (std::mem::offset_of!(CShapeTuning, lookup_resolution), &resolution[..]),
+        (std::mem::offset_of!(CShapeTuning, lookup_radius_factor), &tolerance[..]),
+    ];
+    let tuning = options(u, &tuning, &tuning_changes)?;
+    value.tuning = start(&tuning);
     let changes = [
         (std::mem::offset_of!(CShapeOptions, input), &input[..]),
-        (std::mem::offset_of!(CShapeOptions, hierarchy), &hierarchy[..]),
-        (std::mem::offset_of!(CShapeOptions, decimation), &scale[..]),
-        (std::mem::offset_of!(CShapeOptions, lookup), &lookup[..]),
-        (std::mem::offset_of!(CShapeOptions, lookup_resolution), &resolution[..]),
-        (std::mem::offset_of!(CShapeOptions, lookup_radius_factor), &tolerance[..]),
         (std::mem::offset_of!(CShapeOptions, scale), &scale[..]),
         (std::mem::offset_of!(CShapeOptions, translation), &translation[..]),
         (std::mem::offset_of!(CShapeOptions, convexity_tolerance), &tolerance[..]),
     ];
-    options(u, &value, &changes)
+    Ok(options(u, &value, &changes)?.map(|options| options.with(tuning)))
 }
 
 /// A mesh in a program's arrays.

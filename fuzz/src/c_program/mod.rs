@@ -36,7 +36,7 @@ pub struct Program {
     /// Its floating-point environment.
     environment: Environment,
     /// Shapes, one entry for each share.
-    shapes: Vec<*mut Shape>,
+    shapes: Vec<*const Shape>,
     scenes: Vec<Scene>,
     /// Ids that were good once, of any scene.
     old_ids: Vec<ObjectId>,
@@ -81,13 +81,19 @@ impl Program {
             16 | 17 => self.move_objects(u),
             18 => self.activate(u),
             19..=21 => self.scene_query(u),
-            22 => self.statistics(u),
+            22 => match u.int_in_range(0..=7)? {
+                0 => self.statistics(u),
+                1 | 2 => self.change_one(u),
+                3 | 4 => self.choose_pairs(u),
+                _ => self.near_query(u),
+            },
             // At the end, so that the bytes of the corpus go on to mean the same calls.
             _ => match u.int_in_range(0..=15)? {
                 call @ 0..=5 => library(u, call),
                 6..=9 => self.pair_query_through_levels(u),
                 10..=12 => self.scene_query_through_levels(u),
-                13 | 14 => self.shape_from_levels(u),
+                13 => self.shape_from_levels(u),
+                14 => self.shrink(u),
                 _ => self.set_log(u),
             },
         }
@@ -103,7 +109,7 @@ impl Program {
                 assert_eq!(swiftprox_scene_destroy(scene.handle), StatusCode::Ok);
             }
             for &shape in &self.shapes {
-                assert_eq!(swiftprox_shape_release(shape), StatusCode::Ok);
+                swiftprox_shape_release(shape);
             }
         }
     }
@@ -128,12 +134,12 @@ unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answ
 /// What has to do with no handle.
 fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
     // SAFETY: what is null may be, by the header.
-    Ok(unsafe {
+    unsafe {
         match call {
-            0 => swiftprox_shape_options_init(null_mut()),
-            1 => swiftprox_scene_options_init(null_mut()),
-            2 => swiftprox_pair_config_init(null_mut()),
-            3 => swiftprox_scene_destroy(null_mut()),
+            0 => swiftprox_shape_options_init_sized(null_mut(), u.arbitrary()?),
+            1 => swiftprox_scene_options_init_sized(null_mut(), u.arbitrary()?),
+            2 => swiftprox_pair_config_init_sized(null_mut(), u.arbitrary()?),
+            3 => return Ok(swiftprox_scene_destroy(null_mut())),
             4 => swiftprox_shape_release(null()),
             _ => {
                 let _ = swiftprox_library_version();
@@ -141,8 +147,10 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
                 let _ = swiftprox_library_status_string(number);
                 let _ = swiftprox_library_outcome_string(number);
                 let _ = swiftprox_library_feature_kind_string(number);
-                swiftprox_object_options_init(null_mut())
+                let _ = swiftprox_library_decided_by_string(number);
+                swiftprox_object_options_init_sized(null_mut(), u.arbitrary()?);
             }
         }
-    })
+    }
+    Ok(StatusCode::Ok)
 }

@@ -4,17 +4,23 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::filter::*;
 use swiftprox::ffi::object::*;
+use swiftprox::ffi::object_query::*;
+use swiftprox::ffi::pose::*;
 use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::swiftprox_shape_retain;
+use swiftprox::ffi::tuning::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::Outcome;
 use swiftprox::scene::{PairResult, SceneStatistics};
 use swiftprox::shape::Shape;
 
-use super::arguments::{Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, shape_options, start};
-use super::model::{Object, Scene};
+use super::arguments::{
+    Block, any_pose, array, initialised, mesh_arrays, mesh_file, options, or_null, shape_options, start,
+};
+use super::model::{Object, Scene, refuses};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
 
@@ -28,13 +34,8 @@ impl Program {
         }
         let mut last = 1e-2;
         let limit = any_number(u, &mut last)?.to_ne_bytes();
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CSceneOptions>() };
-        let options = unsafe {
-            assert_eq!(swiftprox_scene_options_init(&mut value), StatusCode::Ok);
-            let offset = std::mem::offset_of!(CSceneOptions, rotation_limit);
-            options(u, &value, &[(offset, &limit)])?
-        };
+        let value: CSceneOptions = initialised(swiftprox_scene_options_init_sized);
+        let options = options(u, &value, &[(std::mem::offset_of!(CSceneOptions, rotation_limit), &limit)])?;
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
         let status = unsafe { swiftprox_scene_create(start(&options), &mut handle) };
@@ -82,11 +83,9 @@ impl Program {
         let place = self.scene(u)?;
         let (handle, user_data) = (self.scenes[place].handle, u.arbitrary::<u64>()?);
         let fixed = u.ratio(1, 4)?;
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CObjectOptions>() };
-        // SAFETY: room for the options.
-        assert_eq!(unsafe { swiftprox_object_options_init(&mut value) }, StatusCode::Ok);
+        let mut value: CObjectOptions = initialised(swiftprox_object_options_init_sized);
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
+        (value.groups, value.mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
         // SAFETY: twelve doubles.
         value.pose = unsafe { any_pose(u)?.at::<[f64; 12]>().read() };
         let given = options(u, &value, &[])?;
@@ -97,7 +96,7 @@ impl Program {
             match u.int_in_range(0..=7)? {
                 0 => {
                     let (shape_options, arrays) = (shape_options(u)?, mesh_arrays(u)?);
-                    pieces.push(null_mut());
+                    pieces.push(null());
                     let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
                     swiftprox_scene_add_mesh(
                         handle,
@@ -113,7 +112,7 @@ impl Program {
                 }
                 1 => {
                     let (shape_options, path) = (shape_options(u)?, mesh_file(u)?);
-                    pieces.push(null_mut());
+                    pieces.push(null());
                     let path = path.as_ref().map_or(null(), |path| path.as_ptr());
                     swiftprox_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
                 }
@@ -124,7 +123,11 @@ impl Program {
                     let block = Block::of(&pieces);
                     let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
                     pieces.truncate(count);
-                    swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
+                    if let ([piece], true) = (&pieces[..], user_data % 2 == 0) {
+                        swiftprox_scene_add_shape(handle, *piece, start(&given), &mut id)
+                    } else {
+                        swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
+                    }
                 }
             }
         };
@@ -151,7 +154,8 @@ impl Program {
             info
         };
         assert_eq!(info.piece_count, pieces);
-        let object = Object { id, pieces, fixed: info.fixed != 0, user_data: info.user_data };
+        let ObjectInfo { user_data, groups, mask, .. } = info;
+        let object = Object { id, pieces, fixed: info.fixed != 0, user_data, groups, mask };
         scene.objects.push(object);
     }
 
@@ -211,6 +215,9 @@ impl Program {
         let found = scene.find(id).map(|found| &scene.objects[found]);
         // SAFETY: a living scene, a block as large as it says or null, room for the shape.
         unsafe {
+            let mut valid = 7;
+            assert_eq!(swiftprox_scene_is_object_valid(scene.handle, id, &mut valid), StatusCode::Ok);
+            assert_eq!(valid, i32::from(found.is_some()));
             if u.arbitrary()? {
                 let mut value = std::mem::zeroed::<ObjectInfo>();
                 value.struct_size = size_of::<ObjectInfo>();
@@ -223,8 +230,7 @@ impl Program {
             let expected = found.is_some_and(|object| piece < object.pieces);
             assert_eq!((status == StatusCode::Ok, !shape.is_null()), (expected, expected), "{}", last_message());
             if !shape.is_null() && self.shapes.len() < MOST_SHAPES {
-                assert_eq!(swiftprox_shape_retain(shape), StatusCode::Ok);
-                self.shapes.push(shape.cast_mut());
+                self.shapes.push(swiftprox_shape_retain(shape));
             }
             Ok(status)
         }
@@ -307,7 +313,7 @@ impl Program {
                     let status = swiftprox_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
                     let expected = match (first, second) {
                         (Some(i), Some(j)) if i != j => {
-                            scene.is_tested(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
+                            scene.is_active(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
                         }
                         _ => false,
                     };
@@ -321,16 +327,16 @@ impl Program {
     pub fn scene_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        // SAFETY: zero is a value of every member; then written by the library.
-        let mut value = unsafe { std::mem::zeroed::<CSceneQuery>() };
-        // SAFETY: room for the query.
-        assert_eq!(unsafe { swiftprox_scene_query_init(&mut value) }, StatusCode::Ok);
+        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
         let mut last = 1.0;
         let tolerance = any_number(u, &mut last)?.to_ne_bytes();
-        let bounds = u.int_in_range(-1..=2_i32)?.to_ne_bytes();
+        let levels = u.int_in_range(-1..=2_i32)?;
+        let tuning = CPairTuning { levels, ..initialised(swiftprox_pair_tuning_init_sized) };
+        if levels != 0 {
+            value.tuning = &tuning;
+        }
         let changes = [
             (std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..]),
-            (std::mem::offset_of!(CSceneQuery, bounds), &bounds[..]),
         ];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
@@ -344,7 +350,7 @@ impl Program {
         let block = Block::new(size_of::<CSceneAnswer>());
         let target = or_null(u, block.at::<CSceneAnswer>())?;
         let handle = or_null(u, scene.handle)?;
-        // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next change.
+        // SAFETY: a living scene or null, blocks as large as they say; the results are the scene's until its next query.
         unsafe {
             let status = inside(self.environment, || run(handle, start(&given), target));
             if target.is_null() {
@@ -360,7 +366,8 @@ impl Program {
             }
             let key = |r: &PairResult| ([r.object1, r.object2], [r.piece1, r.piece2], [r.user_data1, r.user_data2]);
             let tested = scene.tested();
-            if is_plain && query > 0 {
+            // Of contacts only pairs that touch are listed by default.
+            if is_plain && (1..=2).contains(&query) {
                 assert!(
                     listed.iter().map(key).eq(tested.iter().copied()),
                     "{} pairs of {}",
@@ -376,6 +383,134 @@ impl Program {
             }
             Ok(status)
         }
+    }
+
+    /// What of an object decides which pairs are tested, and where its pieces are.
+    pub fn change_one(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let id = self.id(u, place)?;
+        let scene = &mut self.scenes[place];
+        let found = scene.find(id);
+        // SAFETY: a living scene, blocks of the sizes that the header names or null.
+        let status = unsafe {
+            match u.int_in_range(0..=3)? {
+                0 => {
+                    let fixed: bool = u.arbitrary()?;
+                    if let Some(found) = found {
+                        scene.objects[found].fixed = fixed;
+                    }
+                    swiftprox_scene_set_fixed(scene.handle, id, i32::from(fixed))
+                }
+                1 => {
+                    let (groups, mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
+                    if let Some(found) = found {
+                        scene.objects[found].groups = if groups == 0 { 1 } else { groups };
+                        scene.objects[found].mask = if mask == 0 { u32::MAX } else { mask };
+                    }
+                    swiftprox_scene_set_filter(scene.handle, id, groups, mask)
+                }
+                2 => {
+                    let (pose, piece) = (any_pose(u)?, u.int_in_range(0..=3)?);
+                    return Ok(swiftprox_scene_set_piece_pose(scene.handle, id, piece, or_null(u, pose.at())?));
+                }
+                _ => {
+                    let mut poses: Vec<[f64; 12]> = Vec::new();
+                    for _ in 0..u.int_in_range(0..=3)? {
+                        poses.push(any_pose(u)?.at::<[f64; 12]>().read());
+                    }
+                    let (ids, count) = (vec![id; poses.len()], poses.len());
+                    let (ids, poses) = (Block::of(&ids), Block::of(&poses));
+                    return Ok(swiftprox_scene_set_poses(scene.handle, or_null(u, ids.at())?, poses.at(), count));
+                }
+            }
+        };
+        assert_eq!(status, if found.is_some() { StatusCode::Ok } else { StatusCode::ErrorHandle });
+        Ok(status)
+    }
+
+    /// The program's own word on which pairs are tested.
+    pub fn choose_pairs(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let mut ids = Vec::new();
+        for _ in 0..2 * u.int_in_range(0..=4)? {
+            ids.push(self.id(u, place)?);
+        }
+        let scene = &mut self.scenes[place];
+        // SAFETY: a living scene, a block of the ids; the callback takes any ids and its number.
+        unsafe {
+            Ok(match u.int_in_range(0..=3)? {
+                0 => {
+                    scene.refused = u.arbitrary::<bool>()?.then_some(u.int_in_range(0..=2)?);
+                    let callback: PairFilterCallback = if scene.refused.is_some() { Some(says) } else { None };
+                    let user = std::ptr::without_provenance_mut(scene.refused.unwrap_or_default() as usize);
+                    swiftprox_scene_set_pair_filter(scene.handle, callback, user)
+                }
+                1 => swiftprox_scene_filter_again(scene.handle),
+                2 => {
+                    scene.given = None;
+                    swiftprox_scene_find_pairs(scene.handle)
+                }
+                _ => {
+                    let pairs: Vec<[ObjectId; 2]> = ids.as_chunks().0.to_vec();
+                    let is_pair = |[a, b]: &[ObjectId; 2]| a != b && scene.find(*a).is_some() && scene.find(*b).is_some();
+                    let is_good = pairs.iter().all(is_pair);
+                    let block = Block::of(&ids);
+                    let status = swiftprox_scene_set_pairs(scene.handle, block.at(), pairs.len());
+                    assert_eq!(status == StatusCode::Ok, is_good, "{}", last_message());
+                    if is_good {
+                        scene.given = Some(pairs);
+                    }
+                    status
+                }
+            })
+        }
+    }
+
+    /// What is near one object, or a shape put somewhere, and what has changed.
+    pub fn near_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let (id, shape) = (self.id(u, place)?, self.shape(u)?);
+        let scene = &self.scenes[place];
+        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut last = 1.0;
+        value.distance_tolerance = any_number(u, &mut last)?;
+        let given = options(u, &value, &[])?;
+        let kind = u.int_in_range(-1..=4_i32)?;
+        let pose = any_pose(u)?;
+        // SAFETY: a living scene, a living shape or null, blocks of the sizes that the header names.
+        unsafe {
+            let mut answer = std::mem::zeroed::<CSceneAnswer>();
+            let status = match u.int_in_range(0..=2)? {
+                0 => swiftprox_scene_query_object(scene.handle, id, kind, start(&given), &mut answer),
+                1 => swiftprox_scene_query_placed(scene.handle, shape, pose.at(), kind, start(&given), &mut answer),
+                _ => {
+                    let mut events = std::mem::zeroed::<CSceneEvents>();
+                    let status = swiftprox_scene_query_events(scene.handle, value.distance_tolerance, &mut events);
+                    assert_eq!(events.began.is_null(), events.began_count == 0);
+                    assert_eq!(events.ended.is_null(), events.ended_count == 0);
+                    return Ok(status);
+                }
+            };
+            assert_eq!(answer.pairs.is_null(), answer.count == 0);
+            for k in 0..answer.count {
+                let result = &*answer.pairs.add(k);
+                if result.object2 == ObjectId::NULL {
+                    continue;
+                }
+                assert!(result.object1 == id || result.object2 == id);
+                let [one, other] = [result.object1, result.object2].map(|id| &scene.objects[scene.find(id).unwrap()]);
+                assert!(scene.is_tested(one, other));
+                check_result(scene.handle, result);
+            }
+            Ok(status)
+        }
+    }
+
+    pub fn shrink(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let handle = or_null(u, self.scenes[place].handle)?;
+        // SAFETY: a living scene or null.
+        Ok(unsafe { swiftprox_scene_shrink(handle) })
     }
 
     pub fn statistics(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
@@ -394,20 +529,24 @@ impl Program {
     }
 }
 
+/// A filter whose user pointer is the number of what it refuses.
+unsafe extern "C-unwind" fn says(a: ObjectId, b: ObjectId, user: *mut std::ffi::c_void) -> i32 {
+    i32::from(!refuses(user.addr() as u64, a, b))
+}
+
 /// A listed answer holds for the pieces and poses that the scene has.
 ///
 /// # Safety
 /// The scene lives and the result is its.
 pub unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
     let placed = |id, piece: u32| {
-        // SAFETY: zero is a value of every member; a living scene and room for info and shape.
+        // SAFETY: a living scene and room for shape and pose.
         unsafe {
-            let mut info = std::mem::zeroed::<ObjectInfo>();
-            info.struct_size = size_of::<ObjectInfo>();
-            assert_eq!(swiftprox_scene_get_object_info(scene, id, &mut info), StatusCode::Ok);
             let mut shape = null();
             assert_eq!(swiftprox_scene_get_piece(scene, id, piece as usize, &mut shape), StatusCode::Ok);
-            (shape, info.pose)
+            let mut pose = [0.0; 12];
+            assert_eq!(swiftprox_scene_get_piece_pose(scene, id, piece, pose.as_mut_ptr()), StatusCode::Ok);
+            (shape, pose)
         }
     };
     let ((shape1, pose1), (shape2, pose2)) =

@@ -7,6 +7,7 @@ use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape::*;
+use swiftprox::ffi::tuning::*;
 use swiftprox::pair::{Outcome, PairAnswer};
 use swiftprox::shape::Shape;
 use swiftprox::base::simd::environment::Environment;
@@ -20,22 +21,22 @@ use crate::geometry::{any_points, inside};
 
 impl Program {
     /// Any shape of the program's, or null.
-    pub fn shape(&self, u: &mut Unstructured) -> Result<*mut Shape> {
+    pub fn shape(&self, u: &mut Unstructured) -> Result<*const Shape> {
         if self.shapes.is_empty() || u.ratio(1, 32)? {
-            return Ok(null_mut());
+            return Ok(null());
         }
         Ok(*u.choose(&self.shapes)?)
     }
 
     /// Keeps a shape that was made; on failure there is none.
-    pub fn keep(&mut self, status: StatusCode, shape: *mut Shape) -> StatusCode {
+    pub fn keep(&mut self, status: StatusCode, shape: *const Shape) -> StatusCode {
         assert_eq!(status == StatusCode::Ok, !shape.is_null(), "{}", last_message());
         if !shape.is_null() {
             self.shapes.push(shape);
             if self.shapes.len() > MOST_SHAPES {
                 let oldest = self.shapes.remove(0);
                 // SAFETY: a living shape whose share is given up.
-                assert_eq!(unsafe { swiftprox_shape_release(oldest) }, StatusCode::Ok);
+                unsafe { swiftprox_shape_release(oldest) };
             }
         }
         status
@@ -45,20 +46,20 @@ impl Program {
         let options = shape_options(u)?;
         let coordinates: Vec<[f64; 3]> = any_points(u, MOST_POINTS)?.iter().map(|&p| p.into()).collect();
         let block = Block::of(&coordinates);
-        let mut shape = null_mut();
+        let mut shape = null();
         let (array, count) = array(u, block.at(), coordinates.len())?;
-        let make = |shape: &mut *mut Shape| {
+        let make = |shape: &mut *const Shape| {
             // SAFETY: what is not null has the room that it claims.
             unsafe { swiftprox_shape_create_from_points(array, count, start(&options), shape) }
         };
         let status = make(&mut shape);
-        let mut again = null_mut();
+        let mut again = null();
         assert_eq!(inside(self.environment, || make(&mut again)), status, "{:?}", self.environment);
         if !shape.is_null() {
             // SAFETY: both live while they are compared; the second is released once.
             unsafe {
                 assert!(*shape == *again, "{:?}: another shape", self.environment);
-                assert_eq!(swiftprox_shape_release(again), StatusCode::Ok);
+                swiftprox_shape_release(again);
             }
         }
         Ok(self.keep(status, shape))
@@ -67,7 +68,7 @@ impl Program {
     pub fn shape_from_mesh(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let options = shape_options(u)?;
         let arrays = mesh_arrays(u)?;
-        let mut shape = null_mut();
+        let mut shape = null();
         // SAFETY: what is not null has the room that it claims.
         let status = unsafe {
             let [vertices, indices, valences] = [&arrays.vertices, &arrays.indices, &arrays.valences];
@@ -84,7 +85,7 @@ impl Program {
     pub fn shape_from_file(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let options = shape_options(u)?;
         let path = mesh_file(u)?;
-        let mut shape = null_mut();
+        let mut shape = null();
         let path = path.as_ref().map_or(null(), |path| path.as_ptr());
         // SAFETY: a string or null, and room for the shape.
         let status = reading(|| unsafe { swiftprox_shape_create_from_file(path, start(&options), &mut shape) });
@@ -94,19 +95,20 @@ impl Program {
     pub fn share_shape(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let shape = self.shape(u)?;
         // SAFETY: living shapes; the program has as many entries as shares.
-        Ok(unsafe {
+        unsafe {
             if u.arbitrary()? && self.shapes.len() < MOST_SHAPES {
                 if !shape.is_null() {
                     self.shapes.push(shape);
                 }
-                swiftprox_shape_retain(shape)
+                assert_eq!(swiftprox_shape_retain(shape), shape);
             } else {
                 if let Some(place) = self.shapes.iter().position(|&s| s == shape) {
                     self.shapes.remove(place);
                 }
-                swiftprox_shape_release(shape)
+                swiftprox_shape_release(shape);
             }
-        })
+        }
+        Ok(StatusCode::Ok)
     }
 
     pub fn look_at_shape(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
@@ -127,7 +129,12 @@ impl Program {
         // SAFETY: as large as it says, or null.
         let _ = unsafe { swiftprox_shape_get_info(shape, start(&given)) };
         if u.ratio(1, 4)? {
-            return self.look_at_level(u, shape, info.level_count);
+            // SAFETY: zero is a value of every member.
+            let mut has = unsafe { std::mem::zeroed::<TuningInfo>() };
+            has.struct_size = size_of::<TuningInfo>();
+            // SAFETY: a living shape, room for the info.
+            assert_eq!(unsafe { swiftprox_shape_get_tuning_info(shape, &mut has) }, StatusCode::Ok);
+            return self.look_at_level(u, shape, has.level_count);
         }
         if u.ratio(1, 8)? {
             return self.save_and_load(shape);
@@ -174,7 +181,7 @@ impl Program {
     /// What was saved loads as the same.
     fn save_and_load(&mut self, shape: *const Shape) -> Result<StatusCode> {
         let path = temporary_file("shape");
-        let mut loaded = null_mut();
+        let mut loaded = null();
         // SAFETY: a living shape, a path, and room for the shape; both shapes live while they are compared.
         let status = unsafe {
             assert_eq!(swiftprox_shape_save(shape, path.as_ptr()), StatusCode::Ok, "{}", last_message());

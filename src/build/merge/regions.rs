@@ -209,3 +209,69 @@ impl Regions<'_> {
         Ok(length > 0 && length == boundary.len())
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::build::hull::convex_hull;
+    use crate::build::merge::merge_bound;
+
+    /// Points of a smooth body about the x axis, whose other half axes are `thin`.
+    fn needle(count: usize, thin: f64) -> Vec<Vector> {
+        let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+        let point = |k: usize| {
+            let x = 1.0 - (2 * k + 1) as f64 / count as f64;
+            let (sine, cosine) = (golden * k as f64).sin_cos();
+            let r = thin * (1.0 - x * x).sqrt();
+            Vector::new(x, r * cosine, r * sine)
+        };
+        (0..count).map(point).collect()
+    }
+
+    /// Grows all regions; triangles taken into one, and how often each was in one that was none.
+    fn growth(points: &[Vector]) -> (usize, Vec<u8>) {
+        let hull = convex_hull(points).unwrap();
+        let mut index = vec![NONE; points.len()];
+        (0..).zip(&hull.vertices).for_each(|(new, old)| index[*old as usize] = new);
+        let positions: Vec<Vector> = hull.vertices.iter().map(|v| points[*v as usize]).collect();
+        let triangles: Vec<[u32; 3]> = hull.triangles.iter().map(|t| t.map(|v| index[v as usize])).collect();
+        let corners = triangles.iter().map(|t| t.map(|v| positions[v as usize]));
+        let normals: Vec<Vector> = corners.map(|[a, b, c]| normal_of(&area_vector(&a, &b, &c), &a, &b, &c)).collect();
+        let count = triangles.len();
+        let surface = Triangulation::new(triangles, &normals, positions.len()).unwrap();
+        let mut regions = Regions {
+            surface: &surface,
+            positions: &positions,
+            triangle_normals: &normals,
+            bound: merge_bound(1.0),
+            region_of: vec![NONE; count],
+            normals: Vec::new(),
+            out: vec![NONE; positions.len()],
+            failures: vec![0; count],
+        };
+        let mut taken = 0;
+        for seed in 0..count as u32 {
+            if regions.region_of[seed as usize] == NONE {
+                let mut tell = |steps| {
+                    taken += steps;
+                    Ok(())
+                };
+                regions.add(seed, &mut tell).unwrap();
+            }
+        }
+        (taken, regions.failures)
+    }
+
+    /// Around a smooth needle regions creep and are none: a triangle is in [`MOST_FAILURES`] of them, then left alone.
+    #[test]
+    fn growing_takes_each_triangle_a_bounded_number_of_times() {
+        let mut left_alone = 0;
+        for exponent in 10..17 {
+            let (taken, failures) = growth(&needle(1_500, 10f64.powi(-exponent)));
+            left_alone += failures.iter().filter(|count| **count == MOST_FAILURES).count();
+            // It begins one region besides, or is in one that stays.
+            assert!(taken <= (usize::from(MOST_FAILURES) + 1) * failures.len(), "1e-{exponent}: {taken}");
+        }
+        assert!(left_alone > 0, "no body crosses the limit");
+    }
+}

@@ -23,6 +23,9 @@ use scanner::Scanner;
 /// Some Windows programs start a text file with it (UTF-8).
 const BYTE_ORDER_MARK: &[u8] = b"\xef\xbb\xbf";
 
+/// How text begins that is UTF-16, in both orders of bytes.
+const UTF_16_MARKS: [&[u8]; 2] = [b"\xff\xfe", b"\xfe\xff"];
+
 /// A mesh file format.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Format {
@@ -97,6 +100,11 @@ pub fn parse_mesh(bytes: &[u8], format: Option<Format>, name: &str) -> Result<Po
 /// In one of the formats known here, `None` by content.
 fn parse_format(bytes: &[u8], format: Option<Format>, name: &str) -> Result<PolygonMesh> {
     let bytes = without_mark(bytes);
+    if UTF_16_MARKS.iter().any(|mark| bytes.starts_with(mark)) && !stl::is_binary(bytes) {
+        return Err(Error::File(format!(
+            "{name}: line 1: the file begins as UTF-16 text does; save it as UTF-8 or ASCII"
+        )));
+    }
     let format = format
         .or_else(|| Format::from_content(bytes))
         .ok_or_else(|| Error::File(format!("{name}: not a TRI, POLY, OFF, OBJ or STL file, by its first bytes")))?;

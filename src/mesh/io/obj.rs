@@ -1,7 +1,7 @@
 //! Wavefront OBJ (Advanced Visualizer manual, appendix B1), as far as it is polygons: `v` and `f`.
 //!
 //! Indices count from 1, negative ones back from the last vertex so far; of `a/b/c` only the first counts. Weights and
-//! colours behind a vertex and all other keywords are skipped; groups and objects become one mesh.
+//! colours behind a vertex and all other keywords are skipped; groups and objects become one mesh. A file of other text is told so.
 
 use std::str::FromStr;
 
@@ -19,6 +19,8 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     // A face may name vertices that come later, so faces wait, with their lines, until all vertices are known.
     let mut corners = Vec::new();
     let mut faces = Vec::new();
+    // The first word that no OBJ begins a line with: what it says is skipped, but a file of such lines alone is none.
+    let mut stranger = None;
     while let Some(keyword) = scanner.token() {
         match keyword {
             b"v" => read_vertex(&mut scanner, &mut mesh)?,
@@ -29,8 +31,21 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
                 }
                 push(&mut faces, (scanner.line(), start..corners.len()))?;
             }
-            _ => while scanner.token_on_line().is_some() {},
+            _ if keyword.contains(&0) => {
+                let message = "a zero byte in a word: this is UTF-16 or no text at all; save it as UTF-8 or ASCII";
+                return Err(scanner.error(format_args!("{message}")));
+            }
+            _ => {
+                if stranger.is_none() && !is_keyword(keyword) {
+                    stranger = Some((scanner.line(), shown(keyword)));
+                }
+                while scanner.token_on_line().is_some() {}
+            }
         }
+    }
+    if let (true, Some((line, word))) = (mesh.vertices.is_empty(), stranger) {
+        let message = "no line of an OBJ file begins so, and none of this file gives a vertex";
+        return Err(scanner.error_at(line, format_args!("{word}: {message}; is it an OBJ file?")));
     }
     let count = mesh.vertices.len();
     for (line, range) in faces {
@@ -42,6 +57,13 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
         mesh.push_face(face).map_err(|e| e.unless_memory(|e| scanner.error_at(line, format_args!("{e}"))))?;
     }
     Ok(mesh)
+}
+
+/// Whether a line of an OBJ file may begin with this word.
+fn is_keyword(word: &[u8]) -> bool {
+    const KEYWORDS: &str = "v vt vn vp f l p o g s mg usemtl mtllib usemap maplib bevel c_interp d_interp lod shadow_obj trace_obj \
+                            ctech stech cstype deg bmat step curv curv2 surf parm trim hole scrv sp end con call csh";
+    KEYWORDS.split(' ').any(|keyword| keyword.as_bytes() == word)
 }
 
 /// The rest of a `v` line: x y z, then perhaps a weight, a colour, or both.

@@ -12,7 +12,7 @@ use crate::tables::nearest_vertex::NearestVertex;
 pub(super) struct Alternate<'a, F, S> {
     pub(super) first: &'a F,
     pub(super) second: &'a S,
-    // Lent, not copied: pairs of pointers just written one by one would be read as one, which stalls.
+    // Lent, not copied (R1).
     pub(super) polyhedra: &'a [&'a Polyhedron; 2],
     pub(super) poses: &'a [&'a Pose; 2],
     /// Vertices to begin from, if rounds from there are fewer than from the centres of mass.

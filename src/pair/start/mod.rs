@@ -15,7 +15,7 @@ use crate::tables::nearest_vertex::AllVertices;
 use crate::tables::{table, tables};
 
 /// Where to start.
-// Handed back in memory, written number by number: two of them side by side would be read as one, which stalls.
+// Laid out so that no two of its numbers side by side are read as one (R1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct StartPair {
@@ -68,7 +68,7 @@ pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFro
 #[inline(never)]
 fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], rounds: u32) -> StartPair {
     let [body1, body2] = polyhedra;
-    // Returned from where it is found: put together elsewhere it would be copied, which stalls.
+    // Returned from where it is found (R1).
     match [body1.lookup.plan, body2.lookup.plan] {
         [Plan::Shells { .. }, Plan::Shells { .. }] => {
             if let (Table::Shells(first), Table::Shells(second)) = (table(body1), table(body2)) {

@@ -7,7 +7,7 @@ mod witness;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
-use crate::pair::answer::{FeatureKind, Outcome, PairAnswer, Status};
+use crate::pair::answer::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::exact::{self, VertexPair};
@@ -41,7 +41,7 @@ use witness::Witness;
 ///
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them. The
 /// status and the statistics tell of the search, and are not checked; of a contact's normal no more is checked than its length.
-/// [`Status::InscribedSpheres`] excuses an intersection from a proof: integers decide it anew.
+/// [`DecidedBy::InscribedSpheres`] excuses an intersection from a proof: integers decide it anew.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///
@@ -277,7 +277,7 @@ fn are_said(witnesses: &[Witness; 2]) -> bool {
 
 fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let count = answer.proof_count as usize;
-    if count == 0 && answer.status == Status::InscribedSpheres {
+    if count == 0 && answer.decided_by == DecidedBy::InscribedSpheres {
         return verify_without_proof(polyhedra, poses, answer);
     }
     if !(1..=4).contains(&count) {

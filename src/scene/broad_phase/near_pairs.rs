@@ -2,7 +2,7 @@
 //! candidates says which come and which go.
 
 use crate::base::error::Result;
-use crate::base::memory::{extend, push, reserve};
+use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
 use crate::pair::PairCache;
 use crate::scene::proxies::{Label, Proxies};
 
@@ -220,6 +220,21 @@ impl NearPairs {
         for pair in &mut self.pairs {
             pair.testing = testing(pair.testing, pair.proxies.map(|proxy| &labels[proxy as usize]));
         }
+    }
+
+    /// Gives back the room that the pairs do not need.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory) if there is none for smaller lists; nothing has changed then.
+    pub fn shrink(&mut self) -> Result<()> {
+        let mut pairs = copied(&self.pairs)?;
+        let caches = collected(pairs.iter().map(|pair| self.caches[pair.cache as usize]))?;
+        let free = with_capacity(caches.len())?;
+        for (place, pair) in (0..).zip(&mut pairs) {
+            pair.cache = place;
+        }
+        *self = NearPairs { pairs, caches, free, arrivals: Vec::new() };
+        Ok(())
     }
 
     /// Numbers the proxies anew, in the same order: number k of old becomes `numbers[k]`.

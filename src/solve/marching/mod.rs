@@ -30,7 +30,7 @@ pub enum March {
     Open(State),
 }
 
-/// What one state's tests say. No enum that holds the state: that would be handed on in memory, not in registers.
+/// What one state's tests say. No enum that holds the state (R5).
 pub struct Step {
     /// How to go on.
     pub way: Way,

@@ -93,7 +93,7 @@ pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let record = &far.polyhedron.edges[side as usize];
     let values = plane_values(&record.planes, point);
     let least = L::splat(-frame.tolerance);
-    // No closure: it would be compiled without the features of the lanes.
+    // No closure (R2).
     if least.greater(values) == 0 {
         return None;
     }

@@ -1,0 +1,168 @@
+//! Many bodies that move: their meshes, and their poses step by step, each a function of the seed alone.
+
+use std::f64::consts::TAU;
+
+use swiftprox::math::{Matrix, Vector};
+use swiftprox::mesh::PolygonMesh;
+use testkit::models::{ELLIPSOIDS, ellipsoid, random_hull};
+use testkit::random::{Random, rotation};
+
+/// What the bodies are.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Bodies {
+    /// Hulls of 102 points on one of the benchmark's ellipsoids.
+    Alike(&'static str),
+    /// Hulls of 8 to 1,002 vertices: all the benchmark's ellipsoids and random points, half axes 0.3 to 1.
+    Mixed,
+}
+
+/// How they move from step to step.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Motion {
+    /// All by up to 2 % of the radius and 1°.
+    All,
+    /// The same, but only one body in 20, others in each step.
+    Some,
+    /// None, after the first step: a pile of layers that touch.
+    Rest,
+    /// All, to anywhere.
+    Teleport,
+}
+
+pub const MOTIONS: [Motion; 4] = [Motion::All, Motion::Some, Motion::Rest, Motion::Teleport];
+
+impl Motion {
+    pub fn name(self) -> &'static str {
+        match self {
+            Motion::All => "all",
+            Motion::Some => "5%",
+            Motion::Rest => "rest",
+            Motion::Teleport => "teleport",
+        }
+    }
+}
+
+/// One step: the bodies that move, and the poses of all of them, row-major `[R|T]`.
+pub struct Step {
+    pub moved: Vec<u32>,
+    pub poses: Vec<[f64; 12]>,
+}
+
+/// Bodies of radius 1 and less to so many cubes of side 1: about 1.7 pairs of boxes a body overlap.
+const DENSITY: f64 = 0.053;
+
+pub struct World {
+    pub meshes: Vec<PolygonMesh>,
+    /// The mesh of each body.
+    pub mesh_of: Vec<u32>,
+    motion: Motion,
+    side: f64,
+    bodies: Vec<Body>,
+    random: Random,
+    steps: u32,
+}
+
+struct Body {
+    at: Vector,
+    turn: Matrix,
+    velocity: Vector,
+    spin: Matrix,
+}
+
+impl World {
+    pub fn new(bodies: Bodies, motion: Motion, count: usize) -> Result<World, String> {
+        let mut random = Random::new(0x5ce7e + count as u64);
+        let meshes = meshes(bodies).map_err(|e| e.to_string())?;
+        let mesh_of = (0..count).map(|_| random.below(meshes.len()) as u32).collect();
+        let side = (count as f64 / DENSITY).cbrt();
+        let bodies = (0..count).map(|_| Body::new(side, &mut random)).collect();
+        let mut world = World { meshes, mesh_of, motion, side, bodies, random, steps: 0 };
+        if motion == Motion::Rest {
+            world.pile_up();
+        }
+        Ok(world)
+    }
+
+    /// Layers of bodies that stand side by side, their boxes touching and a little more.
+    fn pile_up(&mut self) {
+        let row = (self.bodies.len() as f64).cbrt().ceil() as usize;
+        for (i, body) in self.bodies.iter_mut().enumerate() {
+            let cell = [i % row, i / row % row, i / (row * row)].map(|k| k as f64);
+            body.at = Vector::from(cell) * 1.9;
+            body.turn = Matrix::identity();
+        }
+    }
+
+    /// The next steps.
+    pub fn steps(&mut self, count: usize) -> Vec<Step> {
+        (0..count).map(|_| self.step()).collect()
+    }
+
+    fn step(&mut self) -> Step {
+        let is_first = self.steps == 0;
+        self.steps += 1;
+        let mut moved = Vec::new();
+        for (i, body) in (0..).zip(&mut self.bodies) {
+            let moves = match self.motion {
+                Motion::All | Motion::Teleport => true,
+                Motion::Some => self.random.below(20) == 0,
+                Motion::Rest => false,
+            };
+            if moves {
+                if self.motion == Motion::Teleport {
+                    *body = Body::new(self.side, &mut self.random);
+                } else {
+                    body.go_on(self.side);
+                }
+            }
+            if moves || is_first {
+                moved.push(i);
+            }
+        }
+        Step { moved, poses: self.bodies.iter().map(Body::pose).collect() }
+    }
+}
+
+impl Body {
+    fn new(side: f64, random: &mut Random) -> Body {
+        let at = Vector::from_fn(|_, _| random.uniform(0.0, side));
+        let axis = random.direction();
+        let spin = rotation(&axis, random.uniform(0.0, TAU / 360.0));
+        Body { at, turn: random.rotation(), velocity: random.vector() * 0.02, spin }
+    }
+
+    /// Bounces off the walls.
+    fn go_on(&mut self, side: f64) {
+        self.at += self.velocity;
+        for k in 0..3 {
+            if !(0.0..=side).contains(&self.at[k]) {
+                self.velocity[k] = if self.at[k] < 0.0 { self.velocity[k].abs() } else { -self.velocity[k].abs() };
+            }
+        }
+        self.turn = self.spin * self.turn;
+    }
+
+    fn pose(&self) -> [f64; 12] {
+        std::array::from_fn(|k| if k % 4 == 3 { self.at[k / 4] } else { self.turn[(k / 4, k % 4)] })
+    }
+}
+
+fn meshes(bodies: Bodies) -> swiftprox::error::Result<Vec<PolygonMesh>> {
+    match bodies {
+        Bodies::Alike(name) => {
+            let (_, half_axes) = ELLIPSOIDS.iter().find(|(known, _)| *known == name).expect("a model of the benchmark");
+            Ok(vec![ellipsoid(*half_axes, 102)?])
+        }
+        Bodies::Mixed => {
+            let mut meshes = Vec::new();
+            for (k, n) in [8, 30, 102, 300, 1002].into_iter().enumerate() {
+                let scale = [0.3, 1.0, 0.6, 0.8, 0.45][k];
+                for (_, half_axes) in ELLIPSOIDS {
+                    meshes.push(ellipsoid(half_axes.map(|a| a * scale), n)?);
+                }
+                meshes.push(random_hull(n / 2 + 8, n as u64)?);
+            }
+            Ok(meshes)
+        }
+    }
+}

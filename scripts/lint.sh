@@ -1,0 +1,13 @@
+#!/bin/sh
+# What is checked without running anything: formatting, clippy, the width of comments, the pages' tables against their CSV files.
+set -e
+cd "${0%/*}/.."
+cargo fmt --all --check
+cargo clippy --locked --profile checked --workspace --all-targets -- -D warnings
+if LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' \
+    --exclude-dir=target --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$'; then
+    echo 'comments are at most 132 columns wide' >&2
+    exit 1
+fi
+python3 benches/figures.py --check benches/results/figures-*.csv
+python3 benches/plot.py --check

@@ -1,0 +1,16 @@
+//! Pair queries: the truth, its proof, and what an answer must not depend on.
+
+mod exact_truth;
+mod flat_edges;
+mod forgery;
+mod high_valence;
+mod invariance;
+mod lookup;
+mod metamorphic;
+mod overlap;
+mod pair_truth;
+mod refused;
+mod separating_axis;
+mod stretched;
+mod verify;
+mod witnesses;

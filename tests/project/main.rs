@@ -1,0 +1,5 @@
+//! The project itself: the order of its code, its exports, its README.
+
+mod architecture;
+mod readme;
+mod symbols;

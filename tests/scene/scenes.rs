@@ -1,0 +1,618 @@
+//! Scenes through the public interface: what is listed, in which order, and what changes nothing.
+
+use std::sync::Arc;
+
+use swiftprox::error::Error;
+use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use swiftprox::object::{ObjectId, ObjectOptions};
+use swiftprox::pair::{self, FeatureKind, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
+use swiftprox::progress::Progress;
+use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
+use swiftprox::shape::Shape;
+use swiftprox::solve::exact::solve;
+use swiftprox::verify::verify;
+use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
+use testkit::shapes::at;
+
+fn scene() -> Scene {
+    Scene::new(&SceneOptions::default()).unwrap()
+}
+
+/// Unit cubes with their centres at the given places on the x axis; user data 100, 101, …
+fn cubes(scene: &mut Scene, places: &[f64]) -> Vec<ObjectId> {
+    let cube = cuboid([0.5; 3]);
+    let add = |(k, &x): (usize, &f64)| {
+        let options = ObjectOptions { pose: at(x, 0.0, 0.0), user_data: 100 + k as u64, ..Default::default() };
+        scene.add_object(vec![cube.clone()], &options).unwrap()
+    };
+    places.iter().enumerate().map(add).collect()
+}
+
+fn up_to(distance_tolerance: f64) -> SceneQuery {
+    SceneQuery { distance_tolerance, ..Default::default() }
+}
+
+fn listed(pairs: &[PairResult]) -> Vec<[ObjectId; 2]> {
+    pairs.iter().map(|pair| [pair.object1, pair.object2]).collect()
+}
+
+fn distances(scene: &mut Scene, query: &SceneQuery) -> Vec<[ObjectId; 2]> {
+    listed(scene.query_exact_distance(query).unwrap().pairs)
+}
+
+fn refused<T: std::fmt::Debug>(result: Result<T, Error>, part: &str) {
+    match result {
+        Err(error) => assert!(error.message().contains(part), "{error:?} does not speak of {part:?}"),
+        Ok(value) => panic!("accepted: {value:?}"),
+    }
+}
+
+#[test]
+fn an_empty_scene_answers() {
+    let mut scene = scene();
+    let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+    assert!(!answer.intersecting && answer.pairs.is_empty());
+}
+
+#[test]
+fn each_query_lists_what_it_promises() {
+    let mut scene = scene();
+    // Gaps: 0–1 overlap, 1–2 a gap of 1.5, 0–2 a gap of 2.
+    let ids = cubes(&mut scene, &[0.0, 0.5, 3.0]);
+    let pair = |k: usize, l: usize| [ids[k], ids[l]];
+
+    let answer = scene.query_intersection(&SceneQuery::default()).unwrap();
+    assert!(answer.intersecting);
+    assert_eq!(listed(answer.pairs), [pair(0, 1)]);
+    assert_eq!(answer.pairs[0].answer.outcome, Outcome::Intersecting);
+    assert_eq!((answer.pairs[0].user_data1, answer.pairs[0].user_data2), (100, 101));
+
+    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    assert!(answer.intersecting);
+    assert_eq!(listed(answer.pairs), [pair(0, 1), pair(0, 2), pair(1, 2)]);
+    for (result, distance) in answer.pairs.iter().zip([0.0, 2.0, 1.5]) {
+        assert!(result.answer.lower <= distance && distance <= result.answer.upper, "{result:?}");
+    }
+
+    // At most the tolerance: the pair exactly that far apart is listed, too.
+    assert_eq!(listed(scene.query_tolerance(&up_to(1.5)).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
+    assert_eq!(listed(scene.query_tolerance(&up_to(1.5_f64.next_down())).unwrap().pairs), [pair(0, 1)]);
+    assert_eq!(distances(&mut scene, &up_to(1.5)), [pair(0, 1), pair(1, 2)]);
+
+    // Verification says of a separated pair all that the distance does, of an intersecting one the verdict.
+    let [overlapping, apart] = scene.query_tolerance(&up_to(1.5)).unwrap().pairs else { panic!() };
+    let points = |answer: &PairAnswer| [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
+    let features = |answer: &PairAnswer| [answer.feature1.kind, answer.feature2.kind];
+    assert!(points(&apart.answer).as_flattened().iter().all(|x| x.is_finite()), "{apart:?}");
+    assert!(!features(&apart.answer).contains(&FeatureKind::None) && apart.answer.proof_count == 0, "{apart:?}");
+    assert!(apart.answer.upper - apart.answer.lower < 1e-13, "{apart:?}");
+    assert!(points(&overlapping.answer).as_flattened().iter().all(|x| x.is_nan()), "{overlapping:?}");
+    let PairAnswer { distance, lower, upper, proof_count, .. } = overlapping.answer;
+    assert!([distance, lower, upper] == [0.0; 3] && proof_count > 0, "{overlapping:?}");
+    assert_eq!(features(&overlapping.answer), [FeatureKind::None; 2]);
+
+    let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+    assert_eq!(answer.pairs.len(), 3);
+    for PairResult { answer, .. } in answer.pairs {
+        let normal = Vector::from(answer.normal);
+        assert!((normal.norm() - 1.0).abs() < 1e-12, "{answer:?}");
+        let witnesses = answer.world1.iter().chain(&answer.world2).chain(&answer.local1).chain(&answer.local2);
+        assert!(witnesses.into_iter().all(|x| x.is_finite()), "{answer:?}");
+    }
+}
+
+/// A distance that is no double is beyond the next one below it and not beyond the next one above.
+#[test]
+fn a_tolerance_is_decided_to_the_last_digit() {
+    let mut random = Random::new(0x701e);
+    let mut exact = 0;
+    for _ in 0..300 {
+        let mut scene = scene();
+        let ids = cubes(&mut scene, &[0.0, 3.0]);
+        for (k, id) in ids.iter().enumerate() {
+            let pose = random_pose(&mut random, 0.3);
+            let along = Vector::new(3.0 * k as f64, 0.0, 0.0);
+            scene.set_pose(*id, &Pose::new(&pose.rotation(), &(pose.translation() + along))).unwrap();
+        }
+        let [one, other] = [scene.object(ids[0]).unwrap(), scene.object(ids[1]).unwrap()];
+        let polyhedra = [one, other].map(|object| object.pieces()[0].polyhedron());
+        let truth = solve(polyhedra[0], one.pose(), polyhedra[1], other.pose(), &[]);
+        assert!(truth.lower < truth.upper && truth.lower.next_up() == truth.upper, "{truth:?}");
+        for query in [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts] {
+            assert_eq!(listed(query(&mut scene, &up_to(truth.lower)).unwrap().pairs).len(), 0);
+            assert_eq!(listed(query(&mut scene, &up_to(truth.upper)).unwrap().pairs), [[ids[0], ids[1]]]);
+        }
+        exact += scene.statistics().exact;
+    }
+    // Intervals in doubles are too wide for this.
+    assert!(exact > 300);
+}
+
+#[test]
+fn touching_is_intersecting() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 1.0]);
+    let answer = scene.query_intersection(&SceneQuery::default()).unwrap();
+    assert!(answer.intersecting);
+    assert_eq!(listed(answer.pairs), [[ids[0], ids[1]]]);
+    assert_eq!(distances(&mut scene, &up_to(0.0)), [[ids[0], ids[1]]]);
+}
+
+#[test]
+fn early_exit_lists_nothing_when_something_intersects() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 2.0, 4.5]);
+    let query = SceneQuery { early_exit: true, ..Default::default() };
+    let answer = scene.query_exact_distance(&query).unwrap();
+    assert!(!answer.intersecting);
+    assert_eq!((answer.pairs.len(), answer.found), (3, None));
+
+    scene.set_pose(ids[2], &at(2.5, 0.0, 0.0)).unwrap();
+    let answer = scene.query_exact_distance(&query).unwrap();
+    assert!(answer.intersecting && answer.pairs.is_empty());
+    assert_eq!(answer.found.map(|found| [found.object1, found.object2]), Some([ids[1], ids[2]]));
+    let answer = scene.query_intersection(&query).unwrap();
+    assert!(answer.intersecting && answer.pairs.is_empty());
+    assert_eq!(answer.found.map(|found| (found.user_data1, found.user_data2)), Some((101, 102)));
+    // Of several the first in the order of results, however the objects came to where they are.
+    scene.set_pose(ids[0], &at(1.5, 0.0, 0.0)).unwrap();
+    for query in [query, SceneQuery { distance_tolerance: 0.0, ..query }] {
+        let found = scene.query_contacts(&query).unwrap().found.copied().unwrap();
+        assert_eq!([found.object1, found.object2], [ids[0], ids[1]]);
+        assert_eq!(found.answer.outcome, Outcome::Intersecting);
+    }
+    assert_eq!(scene.query_contacts(&SceneQuery::default()).unwrap().found, None);
+}
+
+/// Distances that no double holds are no reason to lose the others.
+#[test]
+fn far_objects_cost_no_other_answer() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 0.5, f64::MAX, -f64::MAX, 1e300, 4.0]);
+    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    assert!(answer.intersecting);
+    assert_eq!(answer.pairs.len(), 15);
+    for pair in answer.pairs {
+        let near = [ids[0], ids[1], ids[5]];
+        let both_near = near.contains(&pair.object1) && near.contains(&pair.object2);
+        let PairAnswer { outcome, lower, upper, .. } = pair.answer;
+        assert_eq!(outcome == Outcome::Intersecting, pair.object2 == ids[1], "{pair:?}");
+        assert!(lower <= upper && (both_near || lower > 1e299), "{pair:?}");
+    }
+}
+
+#[test]
+fn a_senseless_tolerance_is_refused_and_the_scene_stays_usable() {
+    let mut scene = scene();
+    cubes(&mut scene, &[0.0, 2.0]);
+    for tolerance in [-1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY, f64::NAN] {
+        refused(scene.query_intersection(&up_to(tolerance)), "tolerance");
+        refused(scene.query_tolerance(&up_to(tolerance)), "tolerance");
+        refused(scene.query_exact_distance(&up_to(tolerance)), "tolerance");
+        refused(scene.query_contacts(&up_to(tolerance)), "tolerance");
+    }
+    assert_eq!(distances(&mut scene, &SceneQuery::default()).len(), 1);
+}
+
+#[test]
+fn a_bad_pose_is_refused_and_the_object_stays() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 2.0]);
+    let mut numbers = [1.0, 0.0, 0.0, 5.0, 0.0, 1.0, 0.0, 6.0, 0.0, 0.0, 1.0, 7.0];
+    for (bad, part) in [(f64::NAN, "entry 5"), (f64::INFINITY, "entry 5"), (1.1, "orthonormal")] {
+        numbers[5] = bad;
+        refused(scene.set_pose(ids[0], &Pose::from_row_major(&numbers)), part);
+        let options = ObjectOptions { pose: Pose::from_row_major(&numbers), ..Default::default() };
+        refused(scene.add_object(vec![cuboid([1.0; 3])], &options), part);
+    }
+    numbers[5] = -1.0;
+    refused(scene.set_pose(ids[0], &Pose::from_row_major(&numbers)), "reflection");
+    assert_eq!(scene.object(ids[0]).unwrap().pose(), &Pose::IDENTITY);
+    assert_eq!(scene.object_count(), 2);
+    numbers[5] = 1.0;
+    scene.set_pose(ids[0], &Pose::from_row_major(&numbers)).unwrap();
+    assert_eq!(scene.object(ids[0]).unwrap().pose(), &at(5.0, 6.0, 7.0));
+}
+
+#[test]
+fn the_pose_limit_is_the_scenes() {
+    // RᵀR − I has the entry (1 + 1e-4)² − 1 ≈ 2e-4.
+    let stretched = Pose::new(&(Matrix::identity() * (1.0 + 1e-4)), &Vector::zeros());
+    let cube = cuboid([0.5; 3]);
+    let options = ObjectOptions { pose: stretched, ..Default::default() };
+    assert!(scene().add_object(vec![cube.clone()], &options).is_ok());
+    let mut strict = Scene::new(&SceneOptions { rotation_limit: 1e-6 }).unwrap();
+    refused(strict.add_object(vec![cube.clone()], &options), "orthonormal");
+    let id = strict.add_object(vec![cube], &ObjectOptions::default()).unwrap();
+    refused(strict.set_pose(id, &stretched), "orthonormal");
+    refused(strict.set_all_poses(&[stretched]), "pose 0 of 1");
+    for rotation_limit in [-1e-9, 2.0 * ROTATION_LIMIT, f64::NAN] {
+        refused(Scene::new(&SceneOptions { rotation_limit }), "rotation_limit");
+    }
+}
+
+#[test]
+fn all_poses_are_set_together_or_not_at_all() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 10.0]);
+    let fixed = ObjectOptions { fixed: true, ..Default::default() };
+    let wall = scene.add_object(vec![cuboid([1.0; 3])], &fixed).unwrap();
+    let last = scene.copy_object(ids[0]).unwrap();
+    // Creation order, not slot order: the object in the slot used again is the last.
+    scene.remove_object(ids[0]).unwrap();
+    let again = scene.copy_object(ids[1]).unwrap();
+
+    let poses = [at(1.0, 0.0, 0.0), at(2.0, 0.0, 0.0), at(3.0, 0.0, 0.0)];
+    scene.set_all_poses(&poses).unwrap();
+    let pose = |scene: &Scene, id| *scene.object(id).unwrap().pose();
+    assert_eq!([ids[1], last, again].map(|id| pose(&scene, id)), poses);
+    assert_eq!(pose(&scene, wall), Pose::IDENTITY);
+
+    refused(scene.set_all_poses(&poses[..2]), "2 poses for 3 objects");
+    let bad = [at(7.0, 0.0, 0.0), at(8.0, 0.0, 0.0), at(f64::NAN, 0.0, 0.0)];
+    refused(scene.set_all_poses(&bad), "pose 2 of 3");
+    assert_eq!([ids[1], last, again].map(|id| pose(&scene, id)), poses);
+    // A fixed object may be moved on its own.
+    scene.set_pose(wall, &at(4.0, 0.0, 0.0)).unwrap();
+    assert_eq!(pose(&scene, wall), at(4.0, 0.0, 0.0));
+}
+
+#[test]
+fn two_fixed_objects_make_no_pair() {
+    let mut scene = scene();
+    let cube = cuboid([1.0; 3]);
+    let fixed = ObjectOptions { fixed: true, ..Default::default() };
+    let walls = [(); 2].map(|()| scene.add_object(vec![cube.clone()], &fixed).unwrap());
+    let moving = scene.add_object(vec![cube], &ObjectOptions::default()).unwrap();
+    let pairs = [[walls[0], moving], [walls[1], moving]];
+    assert_eq!(distances(&mut scene, &SceneQuery::default()), pairs);
+    scene.set_pair_active(walls[0], walls[1], true).unwrap();
+    scene.set_all_active(true);
+    assert!(!scene.is_pair_active(walls[0], walls[1]).unwrap());
+    assert_eq!(distances(&mut scene, &SceneQuery::default()), pairs);
+}
+
+#[test]
+fn activation_decides_what_is_tested() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 0.5, 1.0]);
+    let all = SceneQuery::default();
+    let pair = |k: usize, l: usize| [ids[k], ids[l]];
+    assert_eq!(distances(&mut scene, &all), [pair(0, 1), pair(0, 2), pair(1, 2)]);
+
+    // In either order, and remembered.
+    scene.set_pair_active(ids[1], ids[0], false).unwrap();
+    assert!(!scene.is_pair_active(ids[0], ids[1]).unwrap());
+    assert_eq!(distances(&mut scene, &all), [pair(0, 2), pair(1, 2)]);
+    assert_eq!(distances(&mut scene, &all), [pair(0, 2), pair(1, 2)]);
+
+    // An object's word covers all its pairs.
+    scene.set_object_active(ids[1], true).unwrap();
+    assert_eq!(distances(&mut scene, &all).len(), 3);
+    scene.set_object_active(ids[2], false).unwrap();
+    assert_eq!(distances(&mut scene, &all), [pair(0, 1)]);
+
+    // A robot among obstacles: one object active, all others not, and what comes later is active.
+    scene.set_all_active(false);
+    let answer = scene.query_intersection(&all).unwrap();
+    assert!(!answer.intersecting && answer.pairs.is_empty());
+    scene.set_object_active(ids[0], true).unwrap();
+    assert_eq!(distances(&mut scene, &all), [pair(0, 1), pair(0, 2)]);
+    let later = scene.copy_object(ids[2]).unwrap();
+    let expected = [pair(0, 1), pair(0, 2), [ids[0], later], [ids[1], later], [ids[2], later]];
+    assert_eq!(distances(&mut scene, &all), expected);
+
+    refused(scene.set_pair_active(ids[0], ids[0], false), "twice");
+    refused(scene.is_pair_active(later, later), "twice");
+}
+
+#[test]
+fn a_removed_object_is_gone_and_its_id_stale() {
+    let mut scene = scene();
+    let ids = cubes(&mut scene, &[0.0, 2.0, 4.0]);
+    assert_eq!(distances(&mut scene, &SceneQuery::default()).len(), 3);
+    scene.set_pair_active(ids[0], ids[2], false).unwrap();
+    scene.remove_object(ids[0]).unwrap();
+    assert_eq!(distances(&mut scene, &SceneQuery::default()), [[ids[1], ids[2]]]);
+
+    refused(scene.object(ids[0]), "stale");
+    refused(scene.set_pose(ids[0], &Pose::IDENTITY), "stale");
+    refused(scene.copy_object(ids[0]), "stale");
+    refused(scene.remove_object(ids[0]), "stale");
+    refused(scene.set_object_active(ids[0], true), "stale");
+    refused(scene.set_pair_active(ids[1], ids[0], true), "stale");
+    refused(scene.set_user_data(ids[0], 1), "stale");
+    refused(scene.object(ObjectId::NULL), "null");
+    let foreign = self::scene().add_object(vec![cuboid([1.0; 3])], &ObjectOptions::default()).unwrap();
+    refused(scene.object(foreign), "not of this scene");
+
+    // The slot's next object inherits nothing, and comes last.
+    let again = scene.copy_object(ids[2]).unwrap();
+    assert_eq!(distances(&mut scene, &SceneQuery::default()), [[ids[1], ids[2]], [ids[1], again], [ids[2], again]]);
+    let order: Vec<ObjectId> = scene.objects().map(|object| object.id()).collect();
+    assert_eq!(order, [ids[1], ids[2], again]);
+}
+
+#[test]
+fn a_copy_shares_the_geometry_and_stands_where_its_original_does() {
+    let mut scene = scene();
+    let options = ObjectOptions { pose: at(1.0, 2.0, 3.0), fixed: true, user_data: 7, ..Default::default() };
+    let id = scene.add_object(vec![cuboid([1.0; 3]), cuboid([2.0; 3])], &options).unwrap();
+    let copy = scene.copy_object(id).unwrap();
+    let (original, copied) = (scene.object(id).unwrap(), scene.object(copy).unwrap());
+    assert_eq!(original.pieces().len(), 2);
+    for (a, b) in original.pieces().iter().zip(copied.pieces()) {
+        assert!(Arc::ptr_eq(a, b));
+    }
+    assert_eq!((copied.pose(), copied.fixed(), copied.user_data()), (&options.pose, true, 7));
+    scene.set_user_data(copy, 8).unwrap();
+    assert_eq!((scene.object(id).unwrap().user_data(), scene.object(copy).unwrap().user_data()), (7, 8));
+    refused(scene.add_object(Vec::new(), &ObjectOptions::default()), "at least one piece");
+}
+
+#[test]
+fn statistics_add_up() {
+    let mut scene = scene();
+    cubes(&mut scene, &[0.0, 0.5, 3.0]);
+    scene.query_contacts(&SceneQuery::default()).unwrap();
+    scene.query_contacts(&SceneQuery::default()).unwrap();
+    let statistics = *scene.statistics();
+    assert_eq!((statistics.queries, statistics.pairs), (2, 6));
+    let SceneStatistics { marched, coherent, fallback, exact, bounding_spheres, unmoved, .. } = statistics;
+    assert_eq!((marched + coherent + fallback + exact + bounding_spheres, unmoved), (3, 3));
+    // Another query is asked anew.
+    scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    assert_eq!((scene.statistics().pairs, scene.statistics().unmoved), (9, 3));
+    assert!(statistics.marching_steps + statistics.fallback_iterations + statistics.exact_iterations > 0);
+    scene.reset_statistics();
+    assert_eq!(scene.statistics(), &SceneStatistics::default());
+}
+
+/// Verdicts spend nothing, however wide their intervals are; of distances all that is left open counts, and what a budget of steps
+/// leaves undecided most of all.
+#[test]
+fn error_spent_is_what_distances_leave_open() {
+    let mut random = Random::new(0xe4405);
+    let mut scene = scene();
+    let shape = ellipsoid(&mut random, 300, [0.6, 0.5, 0.2], Vector::zeros());
+    for _ in 0..12 {
+        let options = ObjectOptions { pose: random_pose(&mut random, 1.5), ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap();
+    }
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    assert!(scene.statistics().pairs > 0 && scene.statistics().error_spent == 0.0, "{:?}", scene.statistics());
+
+    let near = SceneQuery { distance_tolerance: 0.5, absolute_error: 0.1, ..Default::default() };
+    let hurried = SceneQuery { step_budget: 1, start: Start::Cold, ..near };
+    let mut undecided = 0;
+    for ask in
+        [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts, Scene::query_approximate_distance]
+    {
+        for query in [near, hurried] {
+            scene.reset_statistics();
+            let pairs = ask(&mut scene, &query).unwrap().pairs;
+            let left_open: f64 = pairs.iter().map(|pair| pair.answer.upper - pair.answer.lower).sum();
+            undecided += pairs.iter().filter(|pair| pair.answer.outcome == Outcome::Undecided).count();
+            assert!(left_open > 0.0);
+            assert_eq!(scene.statistics().error_spent, left_open);
+        }
+    }
+    assert!(undecided > 0);
+}
+
+/// The steps of the first pair of a scene's list, asked behind another query.
+fn steps(scene: &mut Scene) -> u32 {
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    answer.pairs[0].answer.statistics.marching_steps
+}
+
+#[test]
+fn a_pair_that_stays_remembers_and_a_deactivated_one_too() {
+    let mut random = Random::new(4);
+    let shape = ellipsoid(&mut random, 500, [1.0, 0.8, 0.6], Vector::zeros());
+    let mut scene = scene();
+    let add = |pose: Pose| {
+        let options = ObjectOptions { pose, ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap()
+    };
+    let ids = [at(0.0, 0.0, 0.0), at(1.0, 2.0, 1.5), at(9.0, 0.0, 0.0)].map(add);
+    let cold = steps(&mut scene);
+    let warm = steps(&mut scene);
+    assert!(warm < cold, "{warm} steps warm, {cold} cold");
+
+    scene.copy_object(ids[0]).unwrap();
+    scene.remove_object(ids[2]).unwrap();
+    assert_eq!(steps(&mut scene), warm);
+    scene.copy_object(ids[0]).unwrap();
+    assert_eq!(steps(&mut scene), warm);
+
+    scene.set_object_active(ids[0], false).unwrap();
+    scene.query_intersection(&SceneQuery::default()).unwrap();
+    scene.set_object_active(ids[0], true).unwrap();
+    assert_eq!(steps(&mut scene), warm);
+    scene.set_all_active(false);
+    scene.set_all_active(true);
+    assert_eq!(steps(&mut scene), warm);
+}
+
+/// What a query must list, by the pair layer with cold caches over all pairs of pieces.
+fn expected(scene: &Scene) -> Vec<PairResult> {
+    let objects: Vec<_> = scene.objects().collect();
+    let mut results = Vec::new();
+    for (k, object1) in objects.iter().enumerate() {
+        for object2 in &objects[k + 1..] {
+            if !scene.is_pair_active(object1.id(), object2.id()).unwrap() {
+                continue;
+            }
+            for (piece1, shape1) in object1.pieces().iter().enumerate() {
+                for (piece2, shape2) in object2.pieces().iter().enumerate() {
+                    results.push(PairResult {
+                        object1: object1.id(),
+                        object2: object2.id(),
+                        user_data1: object1.user_data(),
+                        user_data2: object2.user_data(),
+                        piece1: piece1 as u32,
+                        piece2: piece2 as u32,
+                        answer: cold(shape1, object1.pose(), shape2, object2.pose()),
+                    });
+                }
+            }
+        }
+    }
+    results
+}
+
+fn cold(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
+    let mut answer = PairAnswer::default();
+    let (mut cache, config) = (PairCache::default(), PairConfig::default());
+    pair::distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).unwrap();
+    answer
+}
+
+/// The same pairs in the same order with the same verdicts, and intervals that share a point.
+fn agree(actual: &[PairResult], expected: &[PairResult]) {
+    assert_eq!(actual.len(), expected.len());
+    for (a, e) in actual.iter().zip(expected) {
+        let key = |r: &PairResult| (r.object1, r.object2, r.user_data1, r.user_data2, r.piece1, r.piece2);
+        assert_eq!(key(a), key(e));
+        assert_eq!(a.answer.outcome, e.answer.outcome);
+        assert!(a.answer.lower <= e.answer.upper && e.answer.lower <= a.answer.upper, "{a:?} {e:?}");
+    }
+}
+
+/// Every answer, checked without trust in the solver.
+fn verified(scene: &Scene, pairs: &[PairResult]) {
+    for pair in pairs {
+        let [object1, object2] = [pair.object1, pair.object2].map(|id| scene.object(id).unwrap());
+        let (shape1, shape2) = (&object1.pieces()[pair.piece1 as usize], &object2.pieces()[pair.piece2 as usize]);
+        let checked = verify(shape1, object1.pose(), shape2, object2.pose(), &pair.answer);
+        checked.unwrap_or_else(|e| panic!("{e}: {pair:?}"));
+    }
+}
+
+/// A scene with a past (objects moved, added, removed, copied, activated and not, queries of every kind in between) answers
+/// as the pair layer does without one.
+#[test]
+fn answers_do_not_depend_on_the_past() {
+    let mut random = Random::new(3);
+    let mut shapes = vec![cuboid([0.5, 0.3, 0.2]), cuboid([0.1, 0.1, 0.8])];
+    shapes.push(ellipsoid(&mut random, 40, [0.6, 0.4, 0.2], Vector::zeros()));
+    shapes.push(ellipsoid(&mut random, 12, [0.3, 0.3, 0.3], Vector::new(0.4, 0.0, 0.0)));
+    let mut scene = scene();
+    let mut ids = Vec::new();
+    let mut seen = [0; 2];
+    for step in 0..400_u64 {
+        match random.below(10) {
+            0..3 if ids.len() < 9 => {
+                let pieces = (0..1 + random.below(3)).map(|_| shapes[random.below(4)].clone()).collect();
+                let options = ObjectOptions {
+                    pose: random_pose(&mut random, 1.5),
+                    fixed: random.below(3) == 0,
+                    user_data: step,
+                    ..Default::default()
+                };
+                ids.push(scene.add_object(pieces, &options).unwrap());
+            }
+            3 if ids.len() > 4 => scene.remove_object(ids.swap_remove(random.below(ids.len()))).unwrap(),
+            4 if ids.len() > 1 => {
+                let active = random.below(2) == 1;
+                let (id1, id2) = (ids[0], ids[1 + random.below(ids.len() - 1)]);
+                scene.set_pair_active(id1, id2, active).unwrap();
+            }
+            5 if step % 3 == 0 => scene.set_all_active(random.below(4) > 0),
+            5 if !ids.is_empty() => scene.set_object_active(ids[random.below(ids.len())], true).unwrap(),
+            6 if !ids.is_empty() => {
+                scene.set_pose(ids[random.below(ids.len())], &random_pose(&mut random, 1.5)).unwrap()
+            }
+            _ => {
+                // A small step for everything that moves: here the caches are of use.
+                let drift = random.vector() * 0.02;
+                let moving = scene.objects().filter(|object| !object.fixed());
+                let step = |pose: &Pose| Pose::new(&pose.rotation(), &(pose.translation() + drift));
+                let poses: Vec<Pose> = moving.map(|object| step(object.pose())).collect();
+                scene.set_all_poses(&poses).unwrap();
+            }
+        }
+        let expected = expected(&scene);
+        let intersects = |r: &&PairResult| r.answer.outcome == Outcome::Intersecting;
+        let intersecting: Vec<PairResult> = expected.iter().filter(intersects).copied().collect();
+        seen[0] += intersecting.len();
+        seen[1] += expected.len();
+
+        let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+        assert_eq!(answer.intersecting, !intersecting.is_empty());
+        agree(answer.pairs, &expected);
+        let mut answers = answer.pairs.to_vec();
+        let answer = scene.query_intersection(&SceneQuery::default()).unwrap();
+        assert_eq!(answer.intersecting, !intersecting.is_empty());
+        agree(answer.pairs, &intersecting);
+        answers.extend(answer.pairs);
+        let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+        agree(answer.pairs, &expected);
+        answers.extend(answer.pairs);
+        verified(&scene, &answers);
+
+        let tolerance = 0.3;
+        let near: Vec<PairResult> = expected.into_iter().filter(|r| r.answer.lower <= tolerance).collect();
+        agree(scene.query_tolerance(&up_to(tolerance)).unwrap().pairs, &near);
+        let early = SceneQuery { early_exit: true, ..up_to(tolerance) };
+        let answer = scene.query_contacts(&early).unwrap();
+        assert_eq!(answer.intersecting, !intersecting.is_empty());
+        agree(answer.pairs, if intersecting.is_empty() { &near } else { &[] });
+        agree(answer.found.map_or(&[], std::slice::from_ref), &intersecting[..intersecting.len().min(1)]);
+    }
+    // The test saw what it is about.
+    assert!(seen[0] > 1_000 && seen[1] - seen[0] > 1_000, "{seen:?}");
+}
+
+/// Each pair within its error, all pairs within the budget, and what levels answered in the statistics.
+#[test]
+fn approximate_distances_and_a_budget_for_all() {
+    let mut random = Random::new(77);
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let options = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
+    let plain = ellipsoid(&mut random, 500, [0.6, 0.6, 0.1], Vector::zeros());
+    let shape = Arc::new((*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap());
+    for _ in 0..12 {
+        let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap();
+    }
+    let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
+    let all = SceneQuery { levels: Levels::All, ..SceneQuery::default() };
+    let wide = SceneQuery { absolute_error: 0.2, ..all };
+    let budget = SceneQuery { error_budget: 6.6, ..all };
+    let tight = SceneQuery { error_budget: 1e-3, ..all };
+    for (query, error, total) in [(wide, 0.2, f64::INFINITY), (budget, 0.1, 6.6), (tight, 1e-3 / 66.0, 1e-3)] {
+        for _ in 0..2 {
+            scene.reset_statistics();
+            let answer = scene.query_approximate_distance(&query).unwrap();
+            assert_eq!(answer.pairs.len(), 66);
+            for (pair, exact) in answer.pairs.iter().zip(&exact) {
+                let (answer, exact) = (&pair.answer, &exact.answer);
+                assert_eq!(answer.outcome, exact.outcome);
+                assert!(answer.lower <= exact.upper && exact.lower <= answer.upper);
+                assert!(answer.upper - answer.lower <= error, "{answer:?}");
+            }
+            let statistics = scene.statistics();
+            assert!(statistics.error_spent <= total && statistics.by_level.iter().sum::<u64>() == 66);
+            assert_eq!(statistics.by_level[1..].iter().any(|&count| count > 0), error > 0.01, "{statistics:?}");
+        }
+    }
+    for query in [
+        SceneQuery { absolute_error: f64::NAN, ..Default::default() },
+        SceneQuery { relative_error: -1.0, ..Default::default() },
+        SceneQuery { error_budget: -1.0, ..Default::default() },
+        SceneQuery { step_budget: 0, ..Default::default() },
+        SceneQuery { distance_tolerance: f64::NAN, ..Default::default() },
+    ] {
+        // By every query, whether it does without the member or not.
+        assert!(matches!(scene.query_approximate_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_intersection(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_tolerance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_exact_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_contacts(&query), Err(Error::Argument(_))));
+    }
+}

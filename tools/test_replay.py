@@ -1,0 +1,152 @@
+#!/usr/bin/env python3
+"""Tests swiftprox-replay from outside:  test_replay.py TOOL"""
+import math
+import os
+import pty
+import random
+import subprocess
+import sys
+import tempfile
+import unittest
+
+TOOL = sys.argv.pop(1)
+MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "models")
+BOX = os.path.join(MODELS, "box.off")  # half sides 0.8, 0.5, 0.3
+BALL = os.path.join(MODELS, "sphere.stl")
+HEAD = "# swiftprox scene 1\n"
+BOXES = HEAD + f"shape box {BOX}\nobject box fixed\nobject box\nobject box\n"
+
+
+def at(number, x, y=0, z=0):
+    return f"{number} 1 0 0 {x} 0 1 0 {y} 0 0 1 {z}\n"
+
+
+class Replay(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.addCleanup(self.folder.cleanup)
+
+    def file(self, content, name="scene.txt"):
+        path = os.path.join(self.folder.name, name)
+        with open(path, "w") as out:
+            out.write(content)
+        return path
+
+    def play(self, content, *options):
+        done = subprocess.run([TOOL, self.file(content), *options], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return [line.split() for line in done.stdout.splitlines()]
+
+    def refused(self, status, message, *arguments, stdin=None):
+        done = subprocess.run([TOOL, *arguments], input=stdin, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (status, ""))
+        self.assertIn(message, done.stderr)
+
+    def refused_scene(self, line, message, content, status=2):
+        path = self.file(content)
+        self.refused(status, f"{path}:{line}: {message}", path)
+
+    # -- answers --
+
+    def test_what_is_listed_in_each_step(self):
+        rows = self.play(BOXES + "step\n" + at(1, 3) + at(2, 6) + "step\n" + at(2, 1.5) + "step\n", "--verify")
+        self.assertEqual([row[:4] for row in rows], [
+            [str(step), a, b, outcome]
+            for step, outcomes in enumerate((["separated"] * 3, ["separated", "intersecting", "intersecting"],
+                                             ["separated", "intersecting", "intersecting"]))
+            for (a, b), outcome in zip((("0", "1"), ("0", "2"), ("1", "2")), outcomes)])
+        for row in rows:
+            distance, lower, upper = map(float, row[4:7])
+            self.assertTrue(lower <= distance <= upper)
+            self.assertEqual(row[7], "nan")
+        self.assertAlmostEqual(float(rows[0][4]), 1.4)
+
+    def test_the_tolerance(self):
+        scene = BOXES + "step\n" + at(1, 2.1) + at(2, 9)
+        self.assertEqual(len(self.play(scene)), 3)
+        self.assertEqual([row[1:3] for row in self.play(scene, "--tolerance", "0.6")], [["0", "1"]])
+        self.assertEqual(self.play(scene, "--tolerance", "0.4"), [])
+        self.assertEqual(self.play(scene, "--query", "contact"), [])
+        self.assertEqual(len(self.play(scene, "--query", "contact", "--tolerance", "0.6")), 1)
+
+    def test_the_verdict_alone(self):
+        rows = self.play(BOXES + "step\n" + at(1, 0.5) + at(2, 9), "--query", "intersection", "--verify")
+        self.assertEqual([row[:4] for row in rows], [["0", "0", "1", "intersecting"]])
+
+    def test_shapes_lie_beside_the_scene_and_names_may_hold_blanks(self):
+        with open(BOX) as model:
+            self.file(model.read(), "my box.off")
+        rows = self.play(HEAD + "\n# two\nshape a my box.off \nobject a\nobject a\nstep\n" + at(1, 2))
+        self.assertAlmostEqual(float(rows[0][4]), 0.4)
+
+    def test_the_standard_input(self):
+        scene = BOXES + "step\n" + at(1, 2) + at(2, 9)
+        done = subprocess.run([TOOL, "-"], input=scene, capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, len(done.stdout.splitlines())), (0, 3))
+
+    def test_a_bench_lists_what_the_answers_list(self):
+        draw = random.Random(7)
+        scene = HEAD + f"shape box {BOX}\nshape ball {BALL}\n" + "object box\nobject ball\n" * 10
+        for _ in range(5):
+            scene += "step\n" + "".join(at(i, *(draw.uniform(-3, 3) for _ in range(3))) for i in range(20))
+        rows = self.play(scene, "--tolerance", "0.5", "--verify")
+        mean, median, worst, pairs, total = map(float, self.play(scene, "--tolerance", "0.5", "--bench", "2")[0])
+        self.assertEqual(pairs, len(rows))
+        self.assertGreater(pairs, 50)
+        self.assertTrue(math.isclose(total, sum(float(row[4]) for row in rows), rel_tol=1e-9))
+        self.assertTrue(0 < median <= worst and 0 < mean <= worst)
+
+    def test_a_bar_for_people_alone(self):
+        primary, secondary = pty.openpty()
+        self.addCleanup(os.close, primary)
+        scene = BOXES + ("step\n" + at(1, 2)) * 20000
+        done = subprocess.run([TOOL, self.file(scene), "--bench", "40"], stdout=subprocess.PIPE, stderr=secondary, timeout=60)
+        os.close(secondary)
+        self.assertEqual(done.returncode, 0)
+        self.assertIn("\r[", os.read(primary, 1 << 16).decode())
+
+    # -- refusals --
+
+    def test_bad_scenes(self):
+        self.refused_scene(1, "a scene begins with the line", "shape a b\n")
+        self.refused_scene(1, "a scene begins with the line", HEAD.strip() + "0\n")
+        self.refused_scene(2, "a shape is `shape NAME FILE`", HEAD + "shape box\n")
+        self.refused_scene(3, "this shape has been named before", HEAD + f"shape a {BOX}\nshape a {BOX}\n")
+        self.refused_scene(2, "no shape of this name is above", HEAD + "object a\n")
+        self.refused_scene(3, "an object is", HEAD + f"shape a {BOX}\nobject a solid\n")
+        self.refused_scene(7, "all objects stand above the first step", BOXES + "step\nobject box\n")
+        self.refused_scene(6, "a move stands above the first step", BOXES + at(1, 2))
+        self.refused_scene(7, "object 3, but there are 3, numbered from 0", BOXES + "step\n" + at(3, 2))
+        self.refused_scene(7, "object 99999999999999999999, but", BOXES + "step\n" + at("9" * 20, 2))
+        self.refused_scene(7, "neither shape, object nor step", BOXES + "step\n" + at(-1, 2))
+        self.refused_scene(7, "neither shape, object nor step", BOXES + "step\nwalk\n")
+        self.refused_scene(6, "`step` stands alone", BOXES + "step 1\n")
+        self.refused_scene(7, "11 numbers where a pose has 12", BOXES + "step\n1" + " 0" * 11 + "\n")
+        self.refused_scene(7, "number 4 is not finite", BOXES + "step\n" + at(1, "inf"))
+        self.refused_scene(7, "", BOXES + "step\n1" + " 0" * 12 + "\n")  # no rotation
+        self.refused_scene(2, "", HEAD + "shape a missing.off\nobject a\nstep\n")
+        self.refused(2, "No such file", "missing.txt")
+        path = self.file(BOXES + "step\n")
+        self.refused(2, "there is no step to time", path, "--bench", "1")
+
+    def test_bad_arguments(self):
+        path = self.file(BOXES)
+        self.refused(1, "a scene is needed")
+        self.refused(1, "one file too many", path, path)
+        self.refused(1, "--query does not know", path, "--query", "depths")
+        self.refused(1, "--input does not know", path, "--input", "any")
+        self.refused(1, "--tolerance wants", path, "--tolerance", "-1")
+        self.refused(1, "--tolerance wants", path, "--tolerance", "nan")
+        self.refused(1, "--bench wants", path, "--bench", "0")
+        self.refused(1, "wants a value", path, "--bench")
+        self.refused(1, "unknown option", path, "--fast", "1")
+
+    def test_help_and_version(self):
+        for option, text in (("--help", "usage: swiftprox-replay FILE"), ("--version", "swiftprox-replay ")):
+            done = subprocess.run([TOOL, option], capture_output=True, text=True, timeout=60)
+            self.assertEqual(done.returncode, 0)
+            self.assertTrue(done.stdout.startswith(text))
+
+
+if __name__ == "__main__":
+    unittest.main()

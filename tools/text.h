@@ -1,0 +1,45 @@
+/* Text files of lines that are words and numbers: read as a whole, every complaint with the file and the line. */
+#ifndef SWIFTPROX_TOOLS_TEXT_H
+#define SWIFTPROX_TOOLS_TEXT_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+struct text_file {
+    const char *path;
+    char *text;
+    char *next; /* where the next line starts */
+    char *end;
+    size_t line;
+};
+
+/* A line that is not blank. It lives as long as its file and ends with a zero byte. */
+struct text_line {
+    const char *path;
+    size_t number; /* counted from 1 */
+    char *text;    /* from its first character that is not blank */
+    char *end;     /* its zero byte: a zero byte before that is content */
+};
+
+/* Reads the file, or the standard input when `path` is "-". On failure it prints a message on the standard error and returns
+ * false; there is nothing to close then. */
+bool text_open(const char *path, struct text_file *file);
+
+/* The next line that is not blank, false when there is none. */
+bool text_next(struct text_file *file, struct text_line *line);
+
+void text_close(struct text_file *file);
+
+/* The end of the word that starts here. */
+char *text_word_end(char *at);
+
+/* The first character from here on that is not blank, or the end of the line. */
+char *text_skip_blanks(char *at);
+
+/* Reads exactly `count` finite numbers from `at` to the end of the line. `whose` stands in the message if there are others. */
+bool text_numbers(const struct text_line *line, char *at, double *numbers, size_t count, const char *whose);
+
+/* Prints file, line and message on the standard error; always false. */
+bool text_refuse(const struct text_line *line, const char *message);
+
+#endif
