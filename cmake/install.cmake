@@ -17,6 +17,7 @@ set(from_config "${CMAKE_INSTALL_FULL_LIBDIR}/cmake/swiftprox")
 file(RELATIVE_PATH config_include_dir "${from_config}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 file(RELATIVE_PATH config_library_dir "${from_config}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 string(PREPEND config_include_dir "\${_swiftprox_here}/")
+set(config_legacy_dir "${config_include_dir}/swiftprox/legacy")
 string(PREPEND config_library_dir "\${_swiftprox_here}/")
 configure_file(cmake/swiftproxConfig.cmake.in "${install_tree}/swiftproxConfig.cmake" @ONLY)
 
@@ -27,6 +28,7 @@ file(RELATIVE_PATH pc_include_dir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FUL
 file(RELATIVE_PATH pc_library_dir "${CMAKE_INSTALL_PREFIX}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 list(JOIN SWIFTPROX_STATIC_NEEDS " " pc_static_needs)
 configure_file(cmake/swiftprox.pc.in "${install_tree}/swiftprox.pc" @ONLY)
+configure_file(cmake/swiftprox-legacy.pc.in "${install_tree}/swiftprox-legacy.pc" @ONLY)
 
 # --- The files -----------------------------------------------------------------------------------------------------------------
 
@@ -38,9 +40,11 @@ install(FILES "${SWIFTPROX_LIBRARY_DIR}/libswiftprox.so" "${SWIFTPROX_STATIC}"
   DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT swiftprox_development)
 install(FILES "${SWIFTPROX_INCLUDE_DIR}/swiftprox.h" "${SWIFTPROX_INCLUDE_DIR}/swiftprox_tuning.h"
   DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT swiftprox_development)
+install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/legacy" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/swiftprox"
+  COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swiftproxConfigVersion.cmake"
   DESTINATION "${config_dir}" COMPONENT swiftprox_development)
-install(FILES "${install_tree}/swiftprox.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
+install(FILES "${install_tree}/swiftprox.pc" "${install_tree}/swiftprox-legacy.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
 install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development)
 
 # --- Without debug information -------------------------------------------------------------------------------------------------

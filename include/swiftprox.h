@@ -498,7 +498,7 @@ typedef enum swiftprox_feature_kind SWIFTPROX_INT32 {
   SWIFTPROX_FEATURE_KIND_EDGE = 2,
   /**
    * A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact of
-   * objects deep in each other one that reaches farthest into the other. Of a hull that was made without polygons it is a
+   * objects deep in each other one along which they overlap least. Of a hull that was made without polygons it is a
    * number of the hull's own, from 0 and below its number of faces.
    */
   SWIFTPROX_FEATURE_KIND_FACE = 3
@@ -715,6 +715,250 @@ const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by)
  * number that is no kind gets a string that says so.
  */
 const char *swiftprox_library_feature_kind_string(swiftprox_feature_kind kind);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_depth How deep objects are in each other
+ * @{
+ */
+
+/** How a depth query ended. Values are never reused. */
+typedef enum swiftprox_depth_ending SWIFTPROX_INT32 {
+  /** Nothing was asked yet. */
+  SWIFTPROX_DEPTH_ENDING_NONE = 0,
+  /** The interval is as narrow as was asked for, or as double precision can prove. */
+  SWIFTPROX_DEPTH_ENDING_NARROW = 1,
+  /** A direction separates the objects. */
+  SWIFTPROX_DEPTH_ENDING_SEPARATED = 2,
+  /** Integer arithmetic decided what rounding hides: whether the objects are apart, touch or overlap. Touching is depth 0. */
+  SWIFTPROX_DEPTH_ENDING_INTEGERS = 3,
+  /** The step budget was spent; the interval holds. */
+  SWIFTPROX_DEPTH_ENDING_BUDGET = 4,
+  /** No further vertex could be added to the proof: it has no room for more, or rounding hides where. The interval holds. */
+  SWIFTPROX_DEPTH_ENDING_STALLED = 5
+} swiftprox_depth_ending;
+
+/** What a depth query did. */
+typedef struct swiftprox_depth_statistics {
+  /** Expansions of the proof. */
+  uint32_t steps;
+  /** Support vertices asked for. */
+  uint32_t supports;
+  /** Triangles of the proof. */
+  uint32_t triangles;
+  /** Iterations in integer arithmetic, which allocates. */
+  uint32_t exact_iterations;
+} swiftprox_depth_statistics;
+
+/**
+ * How deep two objects are in each other. Numbers that it does not say are NaN, features of no kind.
+ *
+ * The depth is the length of the shortest translation after which the objects have no common inner point: 0 of objects that touch
+ * or are flat. Moving object 1 by `depth * normal`, or object 2 by the opposite, parts them, as far as the interval is wide.
+ */
+typedef struct swiftprox_depth_answer {
+  /**
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included) or SWIFTPROX_OUTCOME_SEPARATED; of separated objects only a normal is said that
+   * separates them, and a depth of 0.
+   */
+  swiftprox_outcome outcome;
+  /** How the query ended. */
+  swiftprox_depth_ending ending;
+  /** The best estimate, `lower <= depth <= upper`. */
+  double depth;
+  /** Lower end of the rigorous interval; more than 0 only for objects that overlap. */
+  double lower;
+  /** Upper end of the rigorous interval; 0 only for objects that touch, or are separated. */
+  double upper;
+  /** Witness point on object 1, in its local frame: among those that are deepest in object 2 along the normal. */
+  double local1[3];
+  /** Witness point on object 2, in its local frame. */
+  double local2[3];
+  /** Witness point on object 1, in the world frame; `world2 - world1` is `depth * normal` up to rounding. */
+  double world1[3];
+  /** Witness point on object 2, in the world frame. */
+  double world2[3];
+  /** Unit normal in the world frame, from object 2 to object 1, along which the objects overlap by `upper` at most. */
+  double normal[3];
+  /** The feature of object 1 that holds its witness point. */
+  struct swiftprox_feature feature1;
+  /** The feature of object 2 that holds its witness point. */
+  struct swiftprox_feature feature2;
+  /** What the query did. */
+  struct swiftprox_depth_statistics statistics;
+} swiftprox_depth_answer;
+
+/**
+ * What a pair remembers of its depth, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an answer
+ * comes, and which of several directions of least overlap is said; never the verdict, and no depth beyond its interval.
+ */
+typedef struct swiftprox_depth_cache {
+  /** Not to be looked at. */
+  uint32_t words[352];
+} swiftprox_depth_cache;
+
+/** What a depth query is asked for. Fill it with swiftprox_depth_config_init, then change what should differ. */
+typedef struct swiftprox_depth_config {
+  /** Set by swiftprox_depth_config_init. */
+  size_t struct_size;
+  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
+  double rotation_limit;
+  /** upper - lower may be as large as this ... from 0 to infinity. */
+  double absolute_error;
+  /** ... or as this times lower. Both 0 (the default): as narrow as double precision can prove. */
+  double relative_error;
+  /**
+   * Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's
+   * own, 400. What is then left of the verdict is decided all the same, in integers.
+   */
+  uint32_t step_budget;
+} swiftprox_depth_config;
+
+/**
+ * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program was
+ * compiled with. Null is ignored.
+ */
+void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
+                                       size_t struct_size);
+#define swiftprox_depth_config_init(pointer) swiftprox_depth_config_init_sized((pointer), sizeof *(pointer))
+
+/**
+ * How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
+ * points and features. Touching is a depth of 0, decided in integers. Of separated objects only that is said, and a normal that
+ * separates them: swiftprox_pair_distance tells how far.
+ *
+ * Arguments and errors as of swiftprox_pair_distance; the cache is one for depths alone, and config may be null.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
+                                      const double *pose1,
+                                      const struct swiftprox_shape *shape2,
+                                      const double *pose2,
+                                      struct swiftprox_depth_cache *cache,
+                                      const struct swiftprox_depth_config *config,
+                                      struct swiftprox_depth_answer *answer);
+
+/**
+ * Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any other:
+ * then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
+ *
+ * Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
+ * that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify: points
+ * and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not checked.
+ *
+ * Takes time linear in the number of vertices and in the size of the cache.
+ *
+ * Errors as of swiftprox_pair_verify.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape1,
+                                             const double *pose1,
+                                             const struct swiftprox_shape *shape2,
+                                             const double *pose2,
+                                             const struct swiftprox_depth_cache *cache,
+                                             const struct swiftprox_depth_answer *answer);
+
+/** How a depth query ended, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_manifold Where objects meet
+ * @{
+ */
+
+/** One contact point: a point of each object, in line along the normal. */
+typedef struct swiftprox_manifold_point {
+  /** On object 1, in its local frame. */
+  double local1[3];
+  /** On object 2, in its local frame. */
+  double local2[3];
+  /** On object 1, in the world frame. */
+  double world1[3];
+  /** On object 2, in the world frame. */
+  double world2[3];
+  /** How far the first is from the second along the normal, at least; less than 0 where the objects overlap there. */
+  double gap_lower;
+  /** ... and at most. */
+  double gap_upper;
+  /** What holds the point on object 1, in the caller's numbering. */
+  struct swiftprox_feature feature1;
+  /** What holds the point on object 2. */
+  struct swiftprox_feature feature2;
+  /** A number made of the two features: while they stay it stays. */
+  uint64_t id;
+} swiftprox_manifold_point;
+
+/** Where two objects meet, or nearly do. */
+typedef struct swiftprox_manifold {
+  /** SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED within the margin, or SWIFTPROX_OUTCOME_BEYOND it. */
+  swiftprox_outcome outcome;
+  /** 1 or 2: the object whose face is the reference; 0 where no face is, and the manifold has but one point. */
+  uint32_t reference;
+  /** The distance of the objects is at least this; of overlapping ones their depth is at most minus this. */
+  double lower;
+  /** The distance is at most this; the depth at least minus this. */
+  double upper;
+  /**
+   * Unit normal in the world frame, from object 2 to object 1: along which they are as far apart, or overlap as little, as the
+   * interval says.
+   */
+  double normal[3];
+  /** Points written. */
+  uint32_t point_count;
+  /** Points found, before any were left out. */
+  uint32_t found_count;
+} swiftprox_manifold;
+
+/** What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are safe. */
+typedef struct swiftprox_manifold_cache {
+  /** Not to be looked at. */
+  uint32_t words[384];
+} swiftprox_manifold_cache;
+
+/** What a manifold query is asked for. Fill it with swiftprox_manifold_config_init, then change what should differ. */
+typedef struct swiftprox_manifold_config {
+  /** Set by swiftprox_manifold_config_init. */
+  size_t struct_size;
+  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
+  double rotation_limit;
+  /** Objects up to this far apart have a manifold, and points with a gap of at most this belong to it. Default: 0. */
+  double margin;
+  /**
+   * Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
+   * the line between; none is moved. 0 (the default): all.
+   */
+  uint32_t reduces;
+} swiftprox_manifold_config;
+
+/**
+ * Fills `config` with the defaults. Call it as swiftprox_manifold_config_init(&config), which hands over the size that the program
+ * was compiled with. Null is ignored.
+ */
+void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *config,
+                                          size_t struct_size);
+#define swiftprox_manifold_config_init(pointer) swiftprox_manifold_config_init_sized((pointer), sizeof *(pointer))
+
+/**
+ * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
+ * connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
+ * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+ *
+ * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0. On
+ * failure the manifold is reset, and points are as they were.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
+                                         const double *pose1,
+                                         const struct swiftprox_shape *shape2,
+                                         const double *pose2,
+                                         struct swiftprox_manifold_cache *cache,
+                                         const struct swiftprox_manifold_config *config,
+                                         struct swiftprox_manifold_point *points,
+                                         size_t capacity,
+                                         struct swiftprox_manifold *manifold);
 
 /** @} */
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Holds swiftprox-query against exact truth: every verdict, every interval, in exact decimals and without any tolerance.
 
-  cases.py TOOL DIR [--query contact|distance|intersection|approximate] [--error E] [--levels ...]
+  cases.py TOOL DIR [--query contact|distance|intersection|approximate|depth] [--error E] [--levels ...]
            [--start ...] [--answers OUT] [--timeout SECONDS]
 
 DIR holds folders of one of two forms; both may occur:
@@ -26,9 +26,12 @@ The tool runs with --input hull. What is counted, a family a row:
           --query intersection
   refused, failed, hung: poses left without an answer by an exit status of 2, another end, or no end in time
 
+With --query depth these are of the depth instead: its true value lies in [depth_lo, depth_hi], a distance of nan claims disjoint,
+and an upper end of 0 touching.
+
 Exit status 0 when all of these are 0. With --answers, OUT/FAMILY/CASE.ans is written for judges that read 11 numbers a
 pose, dist depth a b n, with n running from A to B, the other way round than the tool's; where the objects penetrate,
-points and direction are left out, because the tool does not claim a depth.
+points are left out, as the judge knows nearest points alone.
 """
 import argparse
 import collections
@@ -41,7 +44,7 @@ from decimal import Decimal
 
 Case = collections.namedtuple("Case", "family name first second poses truth workload")
 
-STATUSES = ("marched", "coherent", "fallback", "exact", "spheres", "tolerance")
+STATUSES = ("marched", "coherent", "fallback", "exact", "spheres", "tolerance", "narrow", "apart", "stalled")
 FAILURES = ("wrong", "missed", "wide", "refused", "failed", "hung")
 
 
@@ -168,27 +171,33 @@ def run_tool(arguments, case, promise):
     return answers, {0: None, 2: "refused"}.get(done.returncode, "failed"), message
 
 
-def judge_pose(row, answer, truth, pose, promise, complain):
+def judge_pose(arguments, row, answer, truth, pose, promise, complain):
     """Counts one answer of the tool, and complains about what is not as promised."""
     lo, hi = Decimal(truth[0]), Decimal(truth[1])
     distance, lower, upper = (Decimal(answer[i]) for i in (0, 11, 12))
     row.counts[answer[13]] += 1
     disjoint = lo > 0
+    if arguments.query == "depth":
+        lo, hi = Decimal(truth[8]), Decimal(truth[9])
     row.counts["disjoint" if disjoint else "penetrating" if Decimal(truth[8]) > 0 else "touching"] += 1
-    claims_disjoint = not lower.is_nan() and lower > 0
-    claims_intersecting = distance == lower == upper == 0
-    if not (claims_disjoint if disjoint else claims_intersecting):
+    if arguments.query == "depth":
+        claims_disjoint, claims_touching = distance.is_nan(), distance == 0 and upper == 0
+        right = claims_disjoint if disjoint else not claims_disjoint and claims_touching == (hi == 0)
+    else:
+        right = not lower.is_nan() and lower > 0 if disjoint else distance == lower == upper == 0
+    if not right:
         row.counts["wrong"] += 1
         complain("wrong: truth [%s, %s], answer %s in [%s, %s] by %s" % (lo, hi, distance, lower, upper, answer[13]))
         return
-    if not disjoint:
+    if disjoint == (arguments.query == "depth"):
         return
     bounded = not upper.is_nan()
     if lower > hi or (bounded and upper < lo):
         row.counts["missed"] += 1
         complain("missed: truth [%s, %s], interval [%s, %s] by %s" % (lo, hi, lower, upper, answer[13]))
     if bounded and promise:
-        width = float(upper - lower - printing(lower) - printing(upper)) / promise.width([float(word) for word in pose], float(distance))
+        apart = 0.0 if arguments.query == "depth" else float(distance)
+        width = float(upper - lower - printing(lower) - printing(upper)) / promise.width([float(word) for word in pose], apart)
         row.widest = max(row.widest, width)
         if width > 1:
             row.counts["wide"] += 1
@@ -217,7 +226,7 @@ def judge_case(arguments, case):
     answers = answers[:len(poses)]
     row.counts["poses"] += len(poses)
     for i, (answer, truth, pose) in enumerate(zip(answers, truths, poses)):
-        judge_pose(row, answer, truth, pose, promise if tight else None, lambda what, i=i: complain(i, what))
+        judge_pose(arguments, row, answer, truth, pose, promise if tight else None, lambda what, i=i: complain(i, what))
     if cut:
         row.counts[cut] += max(1, len(poses) - len(answers))
         complain(len(answers), "%s: %s" % (cut, message))
@@ -230,10 +239,8 @@ def write_answers(path, answers, truths):
     os.makedirs(os.path.dirname(path), exist_ok=True)
     with open(path, "w") as out:
         for answer, truth in zip(answers, truths):
-            if Decimal(truth[8]) > 0:
-                said = answer[:2] + ["nan"] * 9
-            else:
-                said = answer[:8] + [negated(word) for word in answer[8:11]]
+            points = ["nan"] * 6 if Decimal(truth[8]) > 0 else answer[2:8]
+            said = answer[:2] + points + [negated(word) for word in answer[8:11]]
             out.write(" ".join(said) + "\n")
 
 
@@ -256,7 +263,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("tool", help="the swiftprox-query to run")
     parser.add_argument("directory", metavar="DIR")
-    parser.add_argument("--query", default="contact", choices=("contact", "distance", "intersection", "approximate"))
+    parser.add_argument("--query", default="contact", choices=("contact", "distance", "intersection", "approximate", "depth"))
     parser.add_argument("--error", metavar="E", type=float, default=0.01, help="of --query approximate, over r1 + r2 (0.01)")
     parser.add_argument("--levels", default="auto", choices=("auto", "none", "quadric", "dk", "outer"))
     parser.add_argument("--start", default="auto", choices=("auto", "cache", "table", "cold"))

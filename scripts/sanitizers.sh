@@ -15,8 +15,13 @@ address)
     scripts/nightly.sh "" test --locked --profile checked --target "$host" --test pair -- verify:: flat_edges::
     unset RUSTFLAGS
     cmake -S . -B build/asan -DCMAKE_BUILD_TYPE=Debug -DBUILD_TESTING=ON \
-        -DCMAKE_C_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
+        -DCMAKE_C_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all" \
+        -DCMAKE_CXX_FLAGS="-fsanitize=address,undefined -fno-sanitize-recover=all"
     programs='scene_use results bad_input mesh_reader allocator memory files threads busy'
+    if command -v c++ >/dev/null; then
+        programs="$programs legacy_robot legacy_rigid_bodies legacy_modeller legacy_actor legacy_flat legacy_files legacy_methods"
+        programs="$programs legacy_queries legacy_pieces legacy_edges legacy_units legacy_macros"
+    fi
     # Unquoted: each word is a target.
     cmake --build build/asan --target $programs
     ctest --test-dir build/asan --output-on-failure --tests-regex "^($(echo $programs | tr ' ' '|'))\$"

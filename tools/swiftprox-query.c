@@ -16,8 +16,8 @@
 
 enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
-static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate] [--error E]\n"
-                            "                       [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
+static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth]\n"
+                            "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
                             "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
 
 static const char HELP[] =
@@ -28,13 +28,15 @@ static const char HELP[] =
     "  POSES   one query a line, 24 numbers: the row-major 3x4 [R|T] of A, then of B; blank lines and lines\n"
     "          that start with # are skipped; - is the standard input. What one query learned starts the next.\n"
     "\n"
-    "  --query contact       distance, witness points and normal, also where the objects touch or intersect\n"
-    "                        (the default)\n"
+    "  --query contact       distance, witness points and normal; of objects that touch or intersect the depth, its\n"
+    "                        witness points and normal (the default)\n"
     "  --query distance      the same for disjoint objects; the verdict alone for intersecting ones\n"
     "  --query intersection  the verdict alone; lower and upper are not tight\n"
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
-    "  --error E             how wide the interval of an approximate answer may be (default: as narrow as possible)\n"
+    "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
+    "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
+    "                        as possible)\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
     "                        that they may answer (the default)\n"
     "  --levels none         no levels of detail\n"
@@ -56,13 +58,14 @@ static const char HELP[] =
     "Each answer is a line of 15 fields, numbers with 17 significant digits:\n"
     "  distance depth  ax ay az  bx by bz  nx ny nz  lower upper  status steps\n"
     "  distance       best estimate; 0 when the objects touch or intersect\n"
-    "  depth          nan: penetration depth is not computed yet\n"
-    "  a, b           witness points on A and on B in the world frame\n"
+    "  depth          how far A has to move along n, or B against it, to come free (queries contact and depth)\n"
+    "  a, b           witness points on A and on B in the world frame; b - a is depth n where the objects intersect\n"
     "  n              unit normal in the world frame, from B to A\n"
     "  lower, upper   the true distance lies between them, rounding included (lower is printed rounded down\n"
     "                 and upper rounded up, so this holds for the printed decimals); both 0 when intersecting\n"
     "  status         how the query was decided: marched, coherent, fallback, exact, spheres: by bounding\n"
-    "                 spheres, or tolerance: by levels of detail\n"
+    "                 spheres, or tolerance: by levels of detail; a depth: narrow, apart, exact, or stalled, where the\n"
+    "                 interval is wider than could be\n"
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
@@ -81,7 +84,7 @@ typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, con
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
-    pair_query *query;
+    pair_query *query; /* NULL: the depth */
     swiftprox_input input;
     swiftprox_start start;
     swiftprox_hierarchy hierarchy;
@@ -135,9 +138,9 @@ static bool parse_error(const char *word, double *error)
 
 static bool parse_option(const char *name, const char *value, struct arguments *arguments)
 {
-    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate"};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth"};
     static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
-                                                  swiftprox_pair_approximate};
+                                                  swiftprox_pair_approximate, NULL};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
     static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
@@ -150,7 +153,7 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
     int choice;
     if (strcmp(name, "--query") == 0) {
-        if ((choice = choose(value, QUERIES, 4)) < 0) {
+        if ((choice = choose(value, QUERIES, 5)) < 0) {
             return wrong_usage("--query does not know ", value);
         }
         arguments->query = QUERY_FUNCTIONS[choice];
@@ -218,15 +221,36 @@ struct job {
     const swiftprox_shape *shapes[2];
     struct pose_list poses;
     const char *pose_path;
-    pair_query *query;
+    pair_query *query; /* NULL: the depth */
     swiftprox_pair_config config;
+    swiftprox_depth_config depth_config;
 };
 
-static swiftprox_status answer_query(const struct job *job, size_t index, swiftprox_pair_cache *cache,
-                                     swiftprox_pair_answer *answer)
+/* What the pair remembers. */
+struct caches {
+    swiftprox_pair_cache pair;
+    swiftprox_depth_cache depth;
+};
+
+struct answer {
+    swiftprox_pair_answer pair;
+    swiftprox_depth_answer depth;
+};
+
+static swiftprox_status answer_depth(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
-    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, cache, &job->config, answer);
+    return swiftprox_pair_depth(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->depth, &job->depth_config,
+                                &answer->depth);
+}
+
+static swiftprox_status answer_query(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
+{
+    const struct pose_pair *pair = &job->poses.pairs[index];
+    if (!job->query) {
+        return answer_depth(job, index, caches, answer);
+    }
+    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->pair, &job->config, &answer->pair);
 }
 
 /* What the library refused, with the line of the pose file; the exit status. */
@@ -284,17 +308,48 @@ static void print_rounded(double value, int direction)
     fesetround(before);
 }
 
-static void print_answer(const struct job *job, const swiftprox_pair_answer *answer)
+static const char *ending_word(swiftprox_depth_ending ending)
+{
+    switch (ending) {
+    case SWIFTPROX_DEPTH_ENDING_NARROW:
+        return "narrow";
+    case SWIFTPROX_DEPTH_ENDING_SEPARATED:
+        return "apart";
+    case SWIFTPROX_DEPTH_ENDING_INTEGERS:
+        return "exact";
+    case SWIFTPROX_DEPTH_ENDING_STALLED:
+        return "stalled";
+    default:
+        return "none";
+    }
+}
+
+static void print_depth(const swiftprox_depth_answer *answer)
+{
+    const bool apart = answer->outcome == SWIFTPROX_OUTCOME_SEPARATED;
+    const swiftprox_depth_statistics *statistics = &answer->statistics;
+    print_number(apart ? NAN : 0); /* distance */
+    print_number(answer->depth);
+    print_vector(answer->world1);
+    print_vector(answer->world2);
+    print_vector(answer->normal);
+    print_rounded(answer->lower, FE_DOWNWARD);
+    print_rounded(answer->upper, FE_UPWARD);
+    printf("%s %llu\n", ending_word(answer->ending), (unsigned long long)statistics->steps + statistics->exact_iterations);
+}
+
+/* `depth` is NULL where none was asked for. */
+static void print_answer(const struct job *job, const swiftprox_pair_answer *answer, const swiftprox_depth_answer *depth)
 {
     static const double NOTHING[3] = {NAN, NAN, NAN};
     /* The verdict's query needs some direction and says which, but it is not the normal at nearest points. */
     const bool verdict_only = job->query == swiftprox_pair_intersection && answer->outcome == SWIFTPROX_OUTCOME_SEPARATED;
     const swiftprox_statistics *statistics = &answer->statistics;
     print_number(verdict_only ? NAN : answer->distance);
-    print_number(NAN); /* depth */
-    print_vector(verdict_only ? NOTHING : answer->world1);
-    print_vector(verdict_only ? NOTHING : answer->world2);
-    print_vector(verdict_only ? NOTHING : answer->normal);
+    print_number(depth ? depth->depth : NAN);
+    print_vector(verdict_only ? NOTHING : depth ? depth->world1 : answer->world1);
+    print_vector(verdict_only ? NOTHING : depth ? depth->world2 : answer->world2);
+    print_vector(verdict_only ? NOTHING : depth ? depth->normal : answer->normal);
     print_rounded(answer->lower, FE_DOWNWARD);
     print_rounded(answer->upper, FE_UPWARD);
     printf("%s %llu\n", status_word(answer->decided_by),
@@ -305,16 +360,25 @@ static int print_answers(const struct job *job)
 {
     const size_t count = job->poses.count;
     struct progress progress = progress_start();
-    swiftprox_pair_cache cache = {0};
+    struct caches caches = {0};
     for (size_t i = 0; i < count; i++) {
-        swiftprox_pair_answer answer;
-        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        struct answer answer;
+        swiftprox_status status = answer_query(job, i, &caches, &answer);
+        const bool contact = status == SWIFTPROX_OK && job->query == swiftprox_pair_contact &&
+                             answer.pair.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+        if (contact) {
+            status = answer_depth(job, i, &caches, &answer);
+        }
         if (status != SWIFTPROX_OK) {
             progress_erase(&progress);
             fflush(stdout);
             return refused(job, i, status);
         }
-        print_answer(job, &answer);
+        if (job->query) {
+            print_answer(job, &answer.pair, contact ? &answer.depth : NULL);
+        } else {
+            print_depth(&answer.depth);
+        }
         if (i % QUERIES_A_LOOK == QUERIES_A_LOOK - 1) {
             progress_look(&progress, i + 1, count);
         }
@@ -325,10 +389,10 @@ static int print_answers(const struct job *job)
 
 static int run_pass(const struct job *job)
 {
-    swiftprox_pair_cache cache = {0};
-    swiftprox_pair_answer answer;
+    struct caches caches = {0};
+    struct answer answer;
     for (size_t i = 0; i < job->poses.count; i++) {
-        const swiftprox_status status = answer_query(job, i, &cache, &answer);
+        const swiftprox_status status = answer_query(job, i, &caches, &answer);
         if (status != SWIFTPROX_OK) {
             return refused(job, i, status);
         }
@@ -439,6 +503,8 @@ static int run(const struct arguments *arguments)
     swiftprox_pair_config_init(&job.config);
     job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
+    swiftprox_depth_config_init(&job.depth_config);
+    job.depth_config.absolute_error = arguments->error;
 
     int result = BAD_FILE;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {

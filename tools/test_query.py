@@ -49,8 +49,7 @@ class Query(unittest.TestCase):
         rows = [line.split() for line in done.stdout.splitlines()]
         for row in rows:
             self.assertEqual(len(row), 15)
-            self.assertEqual(row[1], "nan")
-            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact", "spheres", "tolerance"))
+            self.assertIn(row[13], ("marched", "coherent", "fallback", "exact", "spheres", "tolerance", "narrow", "apart"))
             self.assertGreaterEqual(int(row[14]), 0)
         return rows
 
@@ -85,10 +84,27 @@ class Query(unittest.TestCase):
         for query in ("contact", "distance", "intersection"):
             row = self.answers(INTERSECTING, "--query", query)[0]
             self.assertEqual([row[0], row[11], row[12]], ["0", "0", "0"])
+            self.assertEqual(row[1] == "nan", query != "contact")
 
     def test_a_contact_has_points_and_a_normal(self):
         row = [float(x) for x in self.answers(INTERSECTING)[0][2:11]]
         self.assertAlmostEqual(sum(x * x for x in row[6:]), 1.0)
+
+    def test_a_contact_says_how_deep_it_is(self):
+        deep = [float(x) for x in self.answers(INTERSECTING, "--query", "depth")[0][:13]]
+        distance, depth, a, b, n, lower, upper = deep[0], deep[1], deep[2:5], deep[5:8], deep[8:11], deep[11], deep[12]
+        self.assertEqual(distance, 0)
+        self.assertTrue(0 < lower <= depth <= upper < lower + 1e-13)
+        for i in range(3):
+            self.assertAlmostEqual(b[i] - a[i], depth * n[i], places=13)
+        row = [float(x) for x in self.answers(INTERSECTING)[0][:13]]
+        self.assertEqual(row[1:11], deep[1:11])
+        self.assertEqual(row[11:], [0, 0])
+        apart = self.answers(APART, "--query", "depth")[0]
+        self.assertEqual(apart[:2] + apart[11:14], ["nan", "0", "0", "0", "apart"])
+        self.assertEqual(self.answers(APART)[0][1], "nan")
+        wide = [float(x) for x in self.answers(INTERSECTING, "--query", "depth", "--error", "10")[0][11:13]]
+        self.assertTrue(wide[0] <= depth <= wide[1])
 
     def test_the_verdict_alone(self):
         row = self.answers(APART, "--query", "intersection")[0]

@@ -27,6 +27,11 @@ if [ -n "$static_libc" ]; then
     eval "'$cc' -static '$hello' $(pkg-config --static --cflags --libs swiftprox) -o static_altogether"
     ./static_altogether
 fi
+# An old program, where there is a C++ compiler.
+if command -v c++ >/dev/null; then
+    eval "c++ '${hello%/*}/legacy.cpp' $(pkg-config --cflags --libs swiftprox-legacy) -o with_legacy"
+    ./with_legacy
+fi
 
 # The tree as the root of another system. pkg-config before pkgconf says that root twice, pkgconf where its name has a space.
 case "$(pkg-config --version) $moved" in 0.* | *\ *\ *) exit 0 ;; esac

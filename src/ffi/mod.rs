@@ -18,6 +18,7 @@ pub mod shape_options;
 pub mod shape;
 pub mod level;
 pub mod pair;
+pub mod depth;
 pub mod scene;
 pub mod object;
 pub mod pose;
@@ -35,7 +36,7 @@ use std::sync::Once;
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
-use crate::pair::{DecidedBy, FeatureKind, Levels, Outcome, Query, Refinement, Start};
+use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
@@ -312,6 +313,7 @@ enumerator!(DecidedBy {
     InscribedSpheres
 });
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
+enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 
 // Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
 // up; here they are numbers, as a program may hand over any.
@@ -326,6 +328,8 @@ pub type OutcomeNumber = i32;
 pub type DecidedByNumber = i32;
 /// A [`FeatureKind`].
 pub type FeatureKindNumber = i32;
+/// A [`DepthEnding`].
+pub type DepthEndingNumber = i32;
 /// An [`InputPolicy`].
 pub type InputNumber = i32;
 /// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).

@@ -118,11 +118,9 @@ pub unsafe extern "C" fn swiftprox_pair_intersection(
     unsafe { query(pair::intersection, shape1, pose1, shape2, pose2, cache, config, answer) }
 }
 
-/// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
-/// which the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
-/// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
-/// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
-/// the normal, of object 2 along it. Arguments and errors as of swiftprox_pair_distance.
+/// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
+/// which the objects overlap least and the features that meet there: those of swiftprox_pair_depth, which says how deep they are in
+/// each other, and where. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_contact(
     shape1: *const Shape,

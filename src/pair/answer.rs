@@ -56,7 +56,7 @@ pub enum FeatureKind {
     /// An edge: `ids` are the caller's indices of its two end vertices.
     Edge = 2,
     /// A face: `ids[0]` is the caller's index of a polygon that holds the witness point; of a contact of
-    /// objects deep in each other one that reaches farthest into the other. Of a hull that was made without polygons it is a
+    /// objects deep in each other one along which they overlap least. Of a hull that was made without polygons it is a
     /// number of the hull's own, from 0 and below its number of faces.
     Face = 3,
 }

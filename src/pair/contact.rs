@@ -1,7 +1,6 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
 use super::answer::{Feature, FeatureKind, PairAnswer};
-use super::contact_direction::Overlap;
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::simd::{Lanes, Portable};
 use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
@@ -67,14 +66,27 @@ pub fn fill_placed(
     direction: &Vector,
     features: [FeatureId; 2],
 ) {
-    let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
-    answer.local1 = local[0].into();
-    answer.local2 = local[1].into();
-    answer.world1 = placed(poses[0], &local[0]).into();
-    answer.world2 = placed(poses[1], &local[1]).into();
+    let PlacedPoints { local, world } = placed_points(polyhedra, poses, points);
+    [answer.local1, answer.local2] = local;
+    [answer.world1, answer.world2] = world;
     answer.normal = normalised(direction);
     answer.feature1 = label(polyhedra[0], features[0], &points[0]);
     answer.feature2 = label(polyhedra[1], features[1], &points[1]);
+}
+
+/// Points of two bodies, in both frames.
+pub struct PlacedPoints {
+    /// In the bodies' own frames.
+    pub local: [[f64; 3]; 2],
+    /// In the world.
+    pub world: [[f64; 3]; 2],
+}
+
+/// Points given in centred coordinates.
+pub fn placed_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], points: &[Vector; 2]) -> PlacedPoints {
+    let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
+    let world = [placed(poses[0], &local[0]), placed(poses[1], &local[1])];
+    PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
 }
 
 /// A local point in the world, infinite only where the world is larger than the doubles: not where terms that cancel are.
@@ -102,7 +114,7 @@ pub fn normalised(direction: &Vector) -> [f64; 3] {
 
 /// A feature in the caller's numbering; `point` is the witness point in centred coordinates.
 #[inline(always)]
-fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
+pub fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
     match feature {
         FeatureId::Vertex(v) => Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[v as usize], 0] },
         FeatureId::Edge(e) => {
@@ -130,38 +142,6 @@ pub fn features_of_pairs(
     points: &[Vector; 2],
     direction: &Vector,
 ) -> [FeatureId; 2] {
-    features(polyhedra, poses, pairs, points, direction, None)
-}
-
-/// The features of a contact: those that hold the points; of a deep one the faces at the vertices that reach farthest into the
-/// other body along the overlap's direction, which look most towards it.
-pub fn features_of_overlap(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    pairs: &[VertexPair],
-    points: &[Vector; 2],
-    overlap: &Overlap,
-) -> [FeatureId; 2] {
-    let size = polyhedra[0].radius.min(polyhedra[1].radius);
-    let between = poses[0].translation() - poses[1].translation();
-    let reach = |polyhedron: &Polyhedron| polyhedron.radius + polyhedron.centre.norm();
-    let rounding = 64.0 * UNIT_ROUNDOFF * (reach(polyhedra[0]) + reach(polyhedra[1]) + between.norm());
-    let ends = (overlap.depth > DEEP * size + rounding).then_some(overlap.ends);
-    features(polyhedra, poses, pairs, points, &overlap.direction, ends)
-}
-
-/// As a multiple of the smaller radius, the depth from which on a point common to both bodies tells nothing of the faces that meet.
-/// Touching bodies overlap by rounding.
-const DEEP: f64 = 1e-6;
-
-fn features(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    pairs: &[VertexPair],
-    points: &[Vector; 2],
-    direction: &Vector,
-    ends: Option<VertexPair>,
-) -> [FeatureId; 2] {
     std::array::from_fn(|i| {
         let towards = poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
         let mut vertices = [0; 4];
@@ -172,21 +152,11 @@ fn features(
                 count += 1;
             }
         }
-        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards, ends.map(|pair| pair[i]))
+        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards)
     })
 }
 
-/// `end` is the vertex that reaches farthest into the other body, if it is deep in it.
-fn feature_of_vertices(
-    polyhedron: &Polyhedron,
-    vertices: &[u32],
-    point: &Vector,
-    towards: &Vector,
-    end: Option<u32>,
-) -> FeatureId {
-    if let Some(face) = end.and_then(|end| steepest_face(polyhedron, end, towards)) {
-        return FeatureId::Face(face);
-    }
+fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector, towards: &Vector) -> FeatureId {
     let &[first, ref others @ ..] = vertices else { return FeatureId::Vertex(0) };
     if others.is_empty() {
         return FeatureId::Vertex(first);
@@ -209,12 +179,6 @@ fn feature_of_vertices(
     let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));
     let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
-}
-
-/// The face at a vertex that looks most in a direction.
-fn steepest_face(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
-    let slope = |face: &u32| polyhedron.faces[*face as usize].normal.dot(towards);
-    faces_at(polyhedron, vertex).max_by(|face, other| slope(face).total_cmp(&slope(other)))
 }
 
 /// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
@@ -264,7 +228,7 @@ fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
 }
 
 /// The faces at a vertex, each twice.
-fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
+pub fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
     edges_at(polyhedron, vertex).flat_map(|edge| {
         let edge = &polyhedron.edges[edge as usize];
         [edge.left(), edge.right()]

@@ -2,7 +2,7 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::contact;
-use super::contact_direction::contact_direction;
+use super::depth::deepest;
 use super::query::{Attempt, PairQuery, Query, Rungs, set_interval};
 use super::start::policy;
 use super::{DecidedBy, Outcome, Start, Statistics};
@@ -137,11 +137,15 @@ impl PairQuery<'_> {
                 answer.upper = 0.0;
                 contact::fill_proof(answer, polyhedra, pairs.as_slice());
                 if query == Query::Contact {
-                    let overlap = &contact_direction(polyhedra, poses, pairs.as_slice());
                     let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
                     let points = decide::combinations(polyhedra, pairs.as_slice(), &weights);
-                    let features = contact::features_of_overlap(polyhedra, poses, pairs.as_slice(), &points, overlap);
-                    contact::fill_placed(answer, polyhedra, poses, &points, &overlap.direction, features);
+                    let least = deepest(polyhedra, poses);
+                    let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+                    [answer.local1, answer.local2] = local;
+                    [answer.world1, answer.world2] = world;
+                    answer.normal = least.normal;
+                    (answer.feature1, answer.feature2) = (least.feature1, least.feature2);
+                    answer.statistics.exact_iterations += least.statistics.exact_iterations;
                 } else {
                     contact::fill_nothing(answer);
                 }

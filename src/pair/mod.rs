@@ -2,8 +2,6 @@
 //! way in which an answer comes about.
 
 mod answer;
-mod normal_cone;
-mod contact_direction;
 mod contact;
 mod placed;
 #[doc(hidden)]
@@ -11,6 +9,7 @@ pub mod start;
 mod descent;
 mod config;
 mod cache;
+mod depth;
 mod query;
 mod acceptance;
 mod glance;
@@ -19,6 +18,7 @@ mod decision;
 mod levels;
 mod level_glance;
 mod ladder;
+mod manifold;
 pub mod verify;
 
 use crate::base::error::Result;
@@ -30,8 +30,11 @@ pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistic
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Start};
+pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub use descent::Refinement;
 use ladder::climb;
+pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
+pub(crate) use manifold::{Sink, manifold_into};
 #[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
@@ -80,11 +83,8 @@ pub fn intersection(
     query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
 }
 
-/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), a unit normal along which
-/// the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
-/// where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
-/// deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
-/// the normal, of object 2 along it.
+/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which the
+/// objects overlap least and the features that meet there: those of [`depth()`], which says how deep, and where.
 ///
 /// # Errors
 /// As [`distance`].

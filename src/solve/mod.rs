@@ -19,3 +19,5 @@ pub(crate) mod gjk;
 #[doc(hidden)]
 pub mod enclosure;
 pub(crate) mod decide;
+#[doc(hidden)]
+pub mod shell;

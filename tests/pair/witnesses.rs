@@ -246,7 +246,7 @@ fn matrices_off_orthonormal_are_marched() {
     }
 }
 
-/// Of a point deep inside the faces are those towards the other body.
+/// Features of bodies deep in each other are those where they overlap least: a vertex and a face, or two edges.
 #[test]
 fn features_of_a_deep_contact_look_along_the_normal() {
     let body = Shape::from_mesh(&ellipsoid([1.0, 0.8, 0.6], 400).unwrap(), &OPTIONS()).unwrap();
@@ -260,6 +260,12 @@ fn features_of_a_deep_contact_look_along_the_normal() {
         contact(&body, &pose1, &body, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
         assert_eq!(answer.outcome, Outcome::Intersecting);
         let normal = Vector::from(answer.normal);
+        let kinds = [answer.feature1.kind, answer.feature2.kind];
+        let vertex_face = [FeatureKind::Vertex, FeatureKind::Face];
+        assert!(
+            kinds == vertex_face || [kinds[1], kinds[0]] == vertex_face || kinds == [FeatureKind::Edge; 2],
+            "{kinds:?}"
+        );
         for (feature, outward) in
             [(answer.feature1, pose1.rotate_back(&-normal)), (answer.feature2, pose2.rotate_back(&normal))]
         {
@@ -267,15 +273,15 @@ fn features_of_a_deep_contact_look_along_the_normal() {
                 let polyhedron = body.polyhedron();
                 let face = polyhedron.faces.iter().position(|face| face.label == feature.ids[0]).unwrap();
                 let slope = polyhedron.faces[face].normal.dot(&outward);
-                assert!(slope > 0.9, "{slope}: {answer:?}");
+                assert!(slope > 1.0 - 1e-12, "{slope}: {answer:?}");
                 faces += 1;
             }
         }
     }
-    assert!(faces > 900, "{faces}");
+    assert!(faces > 150, "{faces}");
 }
 
-/// Boxes overlap least along a face normal or a cross product of edges; the normal of a contact is nearly as good, from any cache.
+/// Boxes overlap least along a face normal or a cross product of edges; the normal of a contact is as good.
 #[test]
 fn normals_of_contacts_overlap_little() {
     let cube = |k: usize| [0, 1, 2].map(|axis| if k >> axis & 1 == 1 { 1.0 } else { -1.0 });
@@ -305,5 +311,5 @@ fn normals_of_contacts_overlap_little() {
         contacts += 1;
     }
     println!("{contacts} contacts, {worst} times the least overlap at worst");
-    assert!(contacts > 3_000 && worst < 2.0, "{worst}");
+    assert!(contacts > 3_000 && worst < 1.0 + 1e-12, "{worst}");
 }

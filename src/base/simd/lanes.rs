@@ -53,8 +53,14 @@ pub trait Lanes: Copy {
     fn norm1(self) -> f64;
     /// Lane by lane the greater one.
     fn max(self, other: Self) -> Self;
+    /// Lane by lane the lesser one.
+    fn min(self, other: Self) -> Self;
     /// Quotient.
     fn div(self, other: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// The x, the y and the z of four vectors.
+    fn components(vectors: &[Self; 4]) -> [Self; 3];
     /// This where the lane of `left` is greater than that of `right`, elsewhere `other`.
     fn where_greater(self, left: Self, right: Self, other: Self) -> Self;
     /// With lane 0 of `other`.
@@ -189,8 +195,20 @@ impl Lanes for Portable {
         self.where_greater(self, other, other)
     }
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        other.where_greater(self, other, self)
+    }
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         Portable(std::array::from_fn(|i| self.0[i] / other.0[i]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Portable(self.0.map(f64::sqrt))
+    }
+    #[inline(always)]
+    fn components(vectors: &[Self; 4]) -> [Self; 3] {
+        std::array::from_fn(|k| Portable(std::array::from_fn(|i| vectors[i].0[k])))
     }
     #[inline(always)]
     fn where_greater(self, left: Self, right: Self, other: Self) -> Self {

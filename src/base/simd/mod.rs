@@ -127,7 +127,7 @@ mod tests {
             [(f64, usize); 2],
             (f32, usize),
             [bool; 2],
-            [[f64; 4]; 5],
+            [[f64; 4]; 7],
             [u32; 4],
             [f64; 4],
             [f32; 2],
@@ -148,7 +148,16 @@ mod tests {
             let (quotient, greater) = (z.div(y), y.max(turned));
             let mut single = [0; 4];
             L::load(&[1e300, 0.1, -1e-300, -2.5]).store_single(&mut single);
-            let chosen = [quotient, greater, x.where_greater(y, turned, z), x.with_first(y), L::upper_halves(x, y)];
+            let [.., third] = L::components(&[x, y, z, turned]);
+            let chosen = [
+                quotient,
+                greater,
+                x.where_greater(y, turned, z),
+                x.with_first(y),
+                L::upper_halves(x, y),
+                y.min(turned),
+                third.sqrt(),
+            ];
             (
                 combined.to_array(),
                 L::transpose(&rows).map(L::to_array),
@@ -184,7 +193,14 @@ mod tests {
         assert_eq!((expected.5, expected.6), ((16.5, 5), [false, true]));
         assert_eq!(
             expected.7[1..],
-            [[7.0, 6.0, 7.0, 8.0], [9.0, 2.0, 11.0, 4.0], [5.0, 2.0, 3.0, 4.0], [3.0, 4.0, 7.0, 8.0]]
+            [
+                [7.0, 6.0, 7.0, 8.0],
+                [9.0, 2.0, 11.0, 4.0],
+                [5.0, 2.0, 3.0, 4.0],
+                [3.0, 4.0, 7.0, 8.0],
+                [5.0, 1.0, 7.0, 1.0],
+                [3.0, 7.0, 11.0, 7.0].map(f64::sqrt)
+            ]
         );
     }
 }

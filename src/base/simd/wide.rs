@@ -238,6 +238,32 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
         Wide(unsafe { _mm256_max_pd(self.0, other.0) })
     }
     #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        // SAFETY: see above.
+        Wide(unsafe { _mm256_min_pd(self.0, other.0) })
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        // SAFETY: see above.
+        Wide(unsafe { _mm256_sqrt_pd(self.0) })
+    }
+    #[inline(always)]
+    fn components(vectors: &[Self; 4]) -> [Self; 3] {
+        let [a, b, c, d] = vectors;
+        // SAFETY: see above.
+        unsafe {
+            let even_ab = _mm256_unpacklo_pd(a.0, b.0); // a.x b.x a.z b.z
+            let odd_ab = _mm256_unpackhi_pd(a.0, b.0); // a.y b.y …
+            let even_cd = _mm256_unpacklo_pd(c.0, d.0);
+            let odd_cd = _mm256_unpackhi_pd(c.0, d.0);
+            [
+                Wide(_mm256_permute2f128_pd::<0x20>(even_ab, even_cd)),
+                Wide(_mm256_permute2f128_pd::<0x20>(odd_ab, odd_cd)),
+                Wide(_mm256_permute2f128_pd::<0x31>(even_ab, even_cd)),
+            ]
+        }
+    }
+    #[inline(always)]
     fn div(self, other: Self) -> Self {
         // SAFETY: see above.
         Wide(unsafe { _mm256_div_pd(self.0, other.0) })

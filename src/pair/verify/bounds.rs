@@ -63,6 +63,27 @@ impl<'a> Bounds<'a> {
         (gap.value - needed).hi > self.error
     }
 
+    /// The difference of two vertices, right to the error of a length in each coordinate.
+    pub fn difference(&self, pair: VertexPair) -> WideVector {
+        let [point1, point2] =
+            [0, 1].map(|i| rotate(self.poses[i], &widen(&self.polyhedra[i].vertices[pair[i] as usize].position)));
+        [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]))
+    }
+
+    /// Whether the product of a difference with a vector of at most length 2 is more than a double for sure.
+    pub fn is_more(&self, product: DoubleDouble, than: f64) -> bool {
+        (product - than.into()).hi > 4.0 * self.error
+    }
+
+    /// Whether a gap along a normal, which is then an overlap, proves the depth to be at most `upper`: it is at most −gap/|normal|.
+    pub fn prove_overlap(&self, gap: &Gap, normal: &Vector, upper: f64) -> bool {
+        let wide = widen(normal);
+        // √(1 + x) ≥ 1 + x/2 − x² for every x from −1/2 on.
+        let excess = wide_dot(&wide, &wide) - 1.0.into();
+        let least = excess * 0.5.into() + 1.0.into() - excess * excess;
+        (gap.value + least * upper.into()).hi > self.error
+    }
+
     /// Whether a point of each body proves the distance to be at most `upper`.
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
         let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i])));

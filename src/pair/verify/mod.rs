@@ -3,6 +3,7 @@
 
 mod bounds;
 mod witness;
+mod depth;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
@@ -12,6 +13,7 @@ use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::exact::{self, VertexPair};
 use bounds::{Bounds, PointInside};
+pub use depth::verify_depth;
 use witness::Witness;
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
@@ -232,8 +234,13 @@ fn too_large() -> Error {
 
 /// The distance of the witness points.
 fn distance_between(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> f64 {
+    length(&difference_of(polyhedra, poses, witnesses))
+}
+
+/// From the witness point of object 2 to that of object 1, in the world.
+fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> Vector {
     let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
-    length(&(between_origins(polyhedra, poses) + first - second))
+    between_origins(polyhedra, poses) + first - second
 }
 
 fn check_no_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {

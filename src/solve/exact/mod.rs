@@ -12,11 +12,15 @@
 mod body;
 mod dyadic;
 mod simplex;
+mod boundary;
+mod differences;
 
 use std::cmp::Ordering;
 
 use body::Body;
+pub use boundary::{Position, Supports, locate, overlap_along_axes};
 use dashu_int::IBig;
+pub use differences::Differences;
 use dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits};
 use simplex::{Corner, Simplex};
 

@@ -1,0 +1,183 @@
+/*
+ * Depths and manifolds from C: known ones, their check, what a program may do wrong, and the same bits in every rounding.
+ */
+#include <fenv.h>
+#include <math.h>
+#include <stdint.h>
+#include <string.h>
+
+#include "check.h"
+
+static void place(double pose[12], double x, double y, double z)
+{
+    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    memcpy(pose, identity, sizeof identity);
+    pose[3] = x;
+    pose[7] = y;
+    pose[11] = z;
+}
+
+static const swiftprox_shape *box(double x, double y, double z)
+{
+    double corners[24];
+    int i;
+    const swiftprox_shape *shape = NULL;
+    for (i = 0; i < 8; ++i) {
+        corners[3 * i] = i & 1 ? x : -x;
+        corners[3 * i + 1] = i & 2 ? y : -y;
+        corners[3 * i + 2] = i & 4 ? z : -z;
+    }
+    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
+    return shape;
+}
+
+/* One box sinks into another from above, touches it, and is lifted off. */
+static void known_depths(const swiftprox_shape *a, const swiftprox_shape *b)
+{
+    double here[12], there[12];
+    int step;
+    swiftprox_depth_cache cache = {{0}};
+    place(there, 0, 0, 0);
+    for (step = -4; step <= 4; ++step) {
+        swiftprox_depth_answer answer;
+        const double depth = step < 0 ? -0.0625 * step : 0;
+        place(here, 0.125, 0.25, 1 + 0.0625 * step);
+        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+        CHECK(answer.outcome == (step > 0 ? SWIFTPROX_OUTCOME_SEPARATED : SWIFTPROX_OUTCOME_INTERSECTING));
+        CHECK(answer.lower <= depth && depth <= answer.upper && answer.upper - answer.lower <= 1e-13);
+        CHECK((answer.upper == 0) == (step >= 0));
+        CHECK(fabs(answer.normal[2] - 1) < 1e-14);
+        if (step <= 0) {
+            CHECK(fabs(answer.world2[2] - answer.world1[2] - depth) < 1e-14);
+            CHECK(answer.feature1.kind != SWIFTPROX_FEATURE_KIND_NONE && answer.feature2.kind != SWIFTPROX_FEATURE_KIND_NONE);
+        } else {
+            CHECK(isnan(answer.world1[0]) && answer.feature1.kind == SWIFTPROX_FEATURE_KIND_NONE);
+        }
+        if (step < 0) {
+            answer.upper = 0.5 * answer.lower;
+            answer.lower = answer.depth = answer.upper;
+            CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "overlap",
+                        swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+        }
+    }
+}
+
+static void manifolds(const swiftprox_shape *a, const swiftprox_shape *b)
+{
+    double here[12], there[12];
+    int i, j;
+    swiftprox_manifold_cache cache = {{0}};
+    swiftprox_manifold_config config;
+    swiftprox_manifold_point points[8];
+    swiftprox_manifold manifold;
+    swiftprox_manifold_config_init(&config);
+    config.margin = 0.01;
+    place(there, 0, 0, 0);
+    place(here, 0.125, 0.25, 0.995);
+    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 8, &manifold));
+    CHECK(manifold.outcome == SWIFTPROX_OUTCOME_INTERSECTING && manifold.point_count == 4 && manifold.found_count == 4);
+    for (i = 0; i < 4; ++i) {
+        CHECK(points[i].gap_lower <= -0.005 + 1e-12 && points[i].gap_upper >= -0.005 - 1e-12);
+        for (j = 0; j < i; ++j) {
+            CHECK(points[i].id != points[j].id);
+        }
+    }
+    place(here, 0.125, 0.25, 1.005);
+    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 2, &manifold));
+    CHECK(manifold.outcome == SWIFTPROX_OUTCOME_SEPARATED && manifold.point_count == 2 && manifold.found_count == 4);
+    place(here, 0.125, 0.25, 1.02);
+    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, NULL, 0, &manifold));
+    CHECK(manifold.outcome == SWIFTPROX_OUTCOME_BEYOND && manifold.point_count == 0);
+}
+
+static void mistakes(const swiftprox_shape *a)
+{
+    double here[12], bent[12];
+    swiftprox_depth_cache cache = {{0}};
+    swiftprox_manifold_cache manifold_cache = {{0}};
+    swiftprox_depth_config config;
+    swiftprox_manifold_config manifold_config;
+    swiftprox_depth_answer answer;
+    swiftprox_manifold manifold;
+    const int32_t unknown = 77;
+    place(here, 0, 0, 0);
+    place(bent, 0, 0, NAN);
+    swiftprox_depth_config_init(&config);
+    swiftprox_manifold_config_init(&manifold_config);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1", swiftprox_pair_depth(NULL, here, a, here, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2", swiftprox_pair_depth(a, here, a, NULL, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_depth(a, here, a, here, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_depth(a, here, a, here, &cache, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_pair_depth(a, here, a, bent, &cache, NULL, &answer));
+    CHECK(answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.depth));
+    config.step_budget = 0;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget",
+                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
+    config.step_budget = 1;
+    config.absolute_error = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "absolute_error",
+                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
+    config.struct_size = 3;
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_depth_config",
+                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_depth(a, here, a, here, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_depth_verify(a, here, a, here, NULL, &answer));
+    memcpy(&answer.ending, &unknown, sizeof unknown);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ending", swiftprox_pair_depth_verify(a, here, a, here, &cache, &answer));
+    manifold_config.margin = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, &manifold_config, NULL, 0, &manifold));
+    CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && isnan(manifold.lower));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
+                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 4, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "manifold",
+                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 0, NULL));
+    CHECK(strcmp(swiftprox_library_depth_ending_string(SWIFTPROX_DEPTH_ENDING_NARROW), "narrow") == 0);
+    CHECK(swiftprox_library_depth_ending_string((swiftprox_depth_ending)unknown) != NULL);
+}
+
+/* Any bytes are a cache, and in every rounding the answer has the same bits. */
+static void caches_and_roundings(const swiftprox_shape *a, const swiftprox_shape *b)
+{
+    static const int roundings[] = {FE_TONEAREST, FE_DOWNWARD, FE_UPWARD, FE_TOWARDZERO};
+    double here[12], there[12];
+    swiftprox_depth_answer first;
+    swiftprox_depth_answer answer;
+    size_t i;
+    unsigned k;
+    place(here, 0.1, 0.2, 0.3);
+    place(there, 0, 0, 0);
+    for (i = 0; i < sizeof roundings / sizeof roundings[0]; ++i) {
+        swiftprox_depth_cache cache = {{0}};
+        memset(&answer, 0, sizeof answer);
+        fesetround(roundings[i]);
+        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+        CHECK(fegetround() == roundings[i]);
+        fesetround(FE_TONEAREST);
+        if (i == 0) {
+            first = answer;
+        }
+        CHECK(memcmp(&first.depth, &answer.depth, sizeof(double) * 18) == 0);
+    }
+    for (k = 0; k < 256; ++k) {
+        swiftprox_depth_cache cache;
+        memset(&cache, (int)k, sizeof cache);
+        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
+        CHECK(answer.lower <= first.upper && first.lower <= answer.upper);
+    }
+}
+
+int main(void)
+{
+    const swiftprox_shape *a = box(1, 1, 0.5);
+    const swiftprox_shape *b = box(2, 2, 0.5);
+    known_depths(a, b);
+    manifolds(a, b);
+    mistakes(a);
+    caches_and_roundings(a, b);
+    swiftprox_shape_release(a);
+    swiftprox_shape_release(b);
+    return check_report("depth");
+}

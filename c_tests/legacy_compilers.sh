@@ -1,0 +1,21 @@
+#!/bin/sh
+# Builds the tests of SWIFT.h with one compiler by one standard, every warning an error, and runs them.
+#
+#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]    SOURCE: the project's folder; LIBRARY: that of the library
+set -eu
+compiler=$1 standard=$2 source=$3 library=$4 folder=$5
+shift 5
+mkdir -p "$folder"
+for test in "$source"/c_tests/legacy_*.cpp; do
+    name=$(basename "$test" .cpp)
+    more=''
+    case $name in
+    legacy_cost | legacy_units_other) continue ;;
+    legacy_units) more=$source/c_tests/legacy_units_other.cpp ;;
+    legacy_macros) more=-DSWIFT_LEGACY_VERSION=2 ;;
+    esac
+    "$compiler" "-std=c++$standard" -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror "$@" \
+        -I"$source/include/legacy" -I"$source/include" -I"$source/c_tests" "$test" ${more:+"$more"} \
+        -L"$library" -lswiftprox -Wl,-rpath,"$library" -o "$folder/$name"
+    "$folder/$name" "$folder"
+done

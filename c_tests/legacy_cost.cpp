@@ -1,0 +1,201 @@
+/*
+ * What SWIFT.h costs over the interface of C: the same queries by both.
+ *
+ *   legacy_cost pair|scene|near c|legacy STEPS [DEGREES]
+ *
+ * pair: contacts of two bodies of 1,002 vertices in orbit, DEGREES a step (1). scene: all distances of 1,000 boxes. near: pairs of them within a
+ * tolerance that few are. Count instructions (valgrind --tool=callgrind) with two numbers of STEPS and take the difference: they
+ * repeat exactly, and what making the scene takes is in both.
+ */
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <SWIFT.h>
+
+namespace {
+
+struct Body {
+    std::vector<SWIFT_Real> vertices;
+    std::vector<int> triangles;
+};
+
+/* An ellipsoid of 25 rings of 40 vertices and two poles. */
+Body ellipsoid()
+{
+    const int rings = 25, around = 40;
+    const double pi = PI;
+    Body body;
+    for (int ring = 0; ring <= rings + 1; ++ring) {
+        const double polar = pi * ring / (rings + 1);
+        for (int i = 0; i < (ring % (rings + 1) == 0 ? 1 : around); ++i) {
+            body.vertices.push_back(std::sin(polar) * std::cos(2 * pi * i / around));
+            body.vertices.push_back(0.7 * std::sin(polar) * std::sin(2 * pi * i / around));
+            body.vertices.push_back(0.5 * std::cos(polar));
+        }
+    }
+    const int last = rings * around + 1;
+    for (int i = 0; i < around; ++i) {
+        const int next = (i + 1) % around, bottom = last - around;
+        const int caps[6] = {0, 1 + i, 1 + next, last, bottom + next, bottom + i};
+        body.triangles.insert(body.triangles.end(), caps, caps + 6);
+        for (int ring = 1; ring < rings; ++ring) {
+            const int above = 1 + (ring - 1) * around, below = above + around;
+            const int two[6] = {above + i, below + i, below + next, above + i, below + next, above + next};
+            body.triangles.insert(body.triangles.end(), two, two + 6);
+        }
+    }
+    return body;
+}
+
+Body box()
+{
+    static const int sides[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    Body body;
+    for (int v = 0; v < 8; ++v) {
+        for (int axis = 0; axis < 3; ++axis) {
+            body.vertices.push_back((v >> axis & 1) == 0 ? -0.5 : 0.5);
+        }
+    }
+    for (int side = 0; side < 6; ++side) {
+        const int* q = sides + 4 * side;
+        const int two[6] = {q[0], q[1], q[2], q[0], q[2], q[3]};
+        body.triangles.insert(body.triangles.end(), two, two + 6);
+    }
+    return body;
+}
+
+/* Where object i is at a step: on an orbit of its own, turning. */
+void place(int i, int count, double turn, SWIFT_Real* R, SWIFT_Real* T)
+{
+    const double angle = turn * (i % 7 + 1), c = std::cos(angle), s = std::sin(angle);
+    const double rows[9] = {c, -s, 0, s, c, 0, 0, 0, 1};
+    std::copy(rows, rows + 9, R);
+    if (count == 2) {
+        T[0] = i == 0 ? 0 : 2.2 * c;
+        T[1] = i == 0 ? 0 : 2.2 * s;
+        T[2] = 0;
+    } else {
+        T[0] = 2 * (i % 10) + 0.1 * s;
+        T[1] = 2 * (i / 10 % 10) + 0.1 * c;
+        T[2] = 2 * (i / 100);
+    }
+}
+
+struct Task {
+    Body body;
+    int count;
+    bool asks_contacts;
+    double tolerance;
+    double turn; /* a step */
+};
+
+double by_legacy(const Task& task, int steps)
+{
+    SWIFT_Scene scene(false);
+    int id;
+    for (int i = 0; i < task.count; ++i) {
+        if (i == 0) {
+            scene.Add_Convex_Object(&task.body.vertices[0], &task.body.triangles[0], static_cast<int>(task.body.vertices.size() / 3),
+                                    static_cast<int>(task.body.triangles.size() / 3), id);
+        } else {
+            scene.Copy_Object(0, id);
+        }
+    }
+    double sum = 0;
+    for (int step = 0; step < steps; ++step) {
+        SWIFT_Real R[9], T[3];
+        for (int i = 0; i < task.count; ++i) {
+            place(i, task.count, step * task.turn, R, T);
+            scene.Set_Object_Transformation(i, R, T);
+        }
+        int pairs, *ids;
+        SWIFT_Real *distances, *points, *normals;
+        if (task.asks_contacts) {
+            int* counts;
+            scene.Query_Contact_Determination(false, task.tolerance, pairs, &ids, &counts, &distances, &points, &normals);
+            for (int k = 0; k < pairs; ++k) {
+                sum += distances[k] + points[6 * k] + normals[3 * k] + ids[2 * k];
+            }
+        } else {
+            scene.Query_Exact_Distance(false, task.tolerance, pairs, &ids, &distances);
+            for (int k = 0; k < pairs; ++k) {
+                sum += distances[k] + ids[2 * k];
+            }
+        }
+    }
+    return sum;
+}
+
+void must(swiftprox_status status)
+{
+    if (status != SWIFTPROX_OK) {
+        std::fprintf(stderr, "%s\n", swiftprox_library_last_error_message());
+        std::exit(1);
+    }
+}
+
+double by_c(const Task& task, int steps)
+{
+    swiftprox_scene* scene;
+    must(swiftprox_scene_create(NULL, &scene));
+    std::vector<uint32_t> triangles(task.body.triangles.begin(), task.body.triangles.end());
+    std::vector<swiftprox_object_id> ids(static_cast<std::size_t>(task.count));
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        swiftprox_object_options options;
+        swiftprox_object_options_init(&options);
+        if (i == 0) {
+            must(swiftprox_scene_add_mesh(scene, &task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
+                                          triangles.size() / 3, NULL, &options, &ids[0]));
+        } else {
+            must(swiftprox_scene_copy_object(scene, ids[0], &ids[i]));
+            must(swiftprox_scene_set_user_data(scene, ids[i], i));
+        }
+    }
+    swiftprox_scene_query query;
+    swiftprox_scene_query_init(&query);
+    query.distance_tolerance = task.tolerance;
+    double sum = 0;
+    for (int step = 0; step < steps; ++step) {
+        SWIFT_Real R[9], T[3];
+        for (int i = 0; i < task.count; ++i) {
+            place(i, task.count, step * task.turn, R, T);
+            must(swiftprox_scene_set_transform(scene, ids[static_cast<std::size_t>(i)], R, T));
+        }
+        swiftprox_scene_answer answer;
+        must(task.asks_contacts ? swiftprox_scene_query_contacts(scene, &query, &answer)
+                                : swiftprox_scene_query_exact_distance(scene, &query, &answer));
+        for (std::size_t k = 0; k < answer.count; ++k) {
+            const swiftprox_pair_result& pair = answer.pairs[k];
+            sum += pair.answer.distance + static_cast<double>(pair.user_data1);
+            if (task.asks_contacts) {
+                sum += pair.answer.local1[0] + pair.answer.normal[0];
+            }
+        }
+    }
+    must(swiftprox_scene_destroy(scene));
+    return sum;
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    if (argc != 4 && argc != 5) {
+        std::fprintf(stderr, "legacy_cost pair|scene|near c|legacy STEPS [DEGREES]\n");
+        return 2;
+    }
+    const std::string what = argv[1], by = argv[2];
+    const int steps = std::atoi(argv[3]);
+    Task task;
+    task.body = what == "pair" ? ellipsoid() : box();
+    task.count = what == "pair" ? 2 : 1000;
+    task.asks_contacts = what != "scene";
+    const double pi = PI;
+    task.turn = (argc == 5 ? std::atof(argv[4]) : 1) * pi / 180;
+    task.tolerance = what == "near" ? 1.1 : 1e300;
+    std::printf("%.6f\n", by == "c" ? by_c(task, steps) : by_legacy(task, steps));
+    return 0;
+}

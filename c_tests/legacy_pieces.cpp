@@ -1,0 +1,377 @@
+/*
+ * Objects of several pieces: those of SWIFT 1.x, whose pairs of pieces are listed one by one, and decompositions of SWIFT++, which are one
+ * object with several contacts; copies of pieces, levels of detail, and decomposition files in all forms, damaged ones as well.
+ */
+#include <stdint.h>
+
+#include "legacy_test.h"
+
+namespace {
+
+const SWIFT_Translation left = {-2, 0, 0}, right = {2, 0, 0};
+
+void pieces(bool has_broad_phase, const Folder& folder)
+{
+    Messages messages;
+    const BoxMesh box(0.5, 0.5, 0.5);
+    const SWIFT_Real* vertices[2] = {box.vertices, box.vertices};
+    const int* faces[2] = {box.triangles, box.quads};
+    const int vertex_counts[2] = {8, 8}, face_counts[2] = {12, 6};
+    const int* valences[2] = {NULL, box.valences};
+    const SWIFT_Translation places[2] = {{-2, 0, 0}, {2, 0, 0}};
+    SWIFT_Scene scene(has_broad_phase);
+    int first = -1, second = -1, id = 33;
+    CHECK(scene.Add_Pieced_Object(vertices, faces, vertex_counts, face_counts, 2, first, false, DEFAULT_ORIENTATIONS, places,
+                                  DEFAULT_SCALES, DEFAULT_BOX_SETTINGS, DEFAULT_BOX_ENLARGE_RELS, DEFAULT_BOX_ENLARGE_ABSS, valences));
+    const std::string file = folder.write("piece.tri", box_file(box, false));
+    const char* names[2] = {file.c_str(), file.c_str()};
+    CHECK(scene.Add_Pieced_Object(names, 2, second, false, NULL, places));
+    CHECK(first == 0 && second == 1);
+    move_to(scene, second, 0, 3, 0);
+    int pairs, *ids, *pids;
+    SWIFT_Real *distances, *points, *normals;
+    CHECK(!scene.Query_Contact_Determination(false, 100, pairs, &ids, &distances, &points, &normals, &pids));
+    CHECK(pairs == 4);
+    for (int k = 0; k < 4; ++k) {
+        CHECK(ids[2 * k] == 0 && ids[2 * k + 1] == 1 && pids[2 * k] == k / 2 && pids[2 * k + 1] == k % 2);
+        const bool is_opposite = k == 0 || k == 3;
+        CHECK(is_near(distances[k], is_opposite ? 2 : std::sqrt(13.0)));
+    }
+    move_to(scene, second, 4, 0.75, 0);
+    CHECK(scene.Query_Intersection(false, pairs, &ids) && pairs == 1 && ids[0] == 0 && ids[1] == 1);
+    CHECK(scene.Query_Exact_Distance(false, 5, pairs, &ids, &distances) && pairs == 3);
+    CHECK(is_near(distances[0], 3) && is_near(distances[1], -1) && is_near(distances[2], 3));
+    int* counts;
+    CHECK(scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances));
+    CHECK(pairs == (has_broad_phase ? 1 : 4) && counts[has_broad_phase ? 0 : 2] == -1);
+    SWIFT_Real x, y, z;
+    scene.Get_Center_Of_Mass(first, x, y, z);
+    CHECK(is_near(x, 0) && is_near(y, 0) && is_near(z, 0));
+
+    /* The second piece alone, and a new object of copies: a piece that is there, and a mesh beside it. */
+    int copy = -1, both = -1;
+    CHECK(scene.Add_Object(NULL, NULL, 0, 0, copy, false, DEFAULT_ORIENTATION, DEFAULT_TRANSLATION, 1, 0, 0, 0, NULL, first, 1));
+    scene.Get_Center_Of_Mass(copy, x, y, z);
+    CHECK(copy == 2 && is_near(x, 2));
+    const int oids[2] = {first, -1}, piece_ids[2] = {-1, -1};
+    CHECK(scene.Add_Pieced_Object(vertices, faces, vertex_counts, face_counts, 2, both, false, NULL, NULL, NULL, NULL, NULL, NULL,
+                                  valences, oids, piece_ids));
+    scene.Get_Center_Of_Mass(both, x, y, z);
+    CHECK(both == 3 && is_near(x, -1));
+    CHECK(scene.Add_Pieced_Object(names, 2, both, true, NULL, NULL, NULL, NULL, NULL, NULL, oids) && both == 4);
+    CHECK(messages.take().empty());
+
+    /* What is wrong with a piece names it. */
+    const int bad_oids[2] = {-1, 9}, bad_pids[2] = {0, 2}, good_oids[2] = {-1, first}, settings[2] = {0, BOX_SETTING_COPY};
+    CHECK(!scene.Add_Pieced_Object(names, 2, id, false, NULL, NULL, NULL, NULL, NULL, NULL, bad_oids));
+    CHECK(messages.take() == "Error (Add_Object obj 5 piece 1): Invalid object id given to copy a piece: 9\n");
+    CHECK(!scene.Add_Pieced_Object(names, 2, id, false, NULL, NULL, NULL, NULL, NULL, NULL, good_oids, bad_pids));
+    CHECK(messages.take() == "Error (Add_Object obj 5 piece 1): Invalid piece id given to copy a piece: 2\n");
+    CHECK(!scene.Add_Pieced_Object(names, 2, id, false, NULL, NULL, NULL, settings));
+    CHECK(messages.take() == "Error (Add_Object obj 5 piece 1): Cannot set box type to COPY when copy is not done\n");
+    CHECK(!scene.Add_Pieced_Object(names, 0, id) && messages.has("the number of pieces is not positive"));
+    const int open_counts[2] = {12, 5};
+    CHECK(!scene.Add_Pieced_Object(vertices, faces, vertex_counts, open_counts, 2, id, false, NULL, NULL, NULL, NULL, NULL, NULL,
+                                   valences));
+    const std::string said = messages.take();
+    CHECK(said.find("Error: The mesh is not closed --\n") == 0);
+    CHECK(said.find("Error (Add_Object obj 5 piece 1): Mesh creation failed\n") != std::string::npos);
+    CHECK(!scene.Add_Pieced_Object(static_cast<const char* const*>(NULL), 1, id) && messages.has("Invalid filename given"));
+    CHECK(!scene.Add_Pieced_Object(NULL, NULL, NULL, NULL, 1, id) && messages.has("no vertices or no faces are given"));
+    CHECK(id == 33);
+}
+
+void levels(const Folder& folder)
+{
+    Messages messages;
+    const BoxMesh box(0.5, 0.5, 0.5);
+    const SWIFT_Real* vertices[2] = {box.vertices, box.vertices};
+    const int* faces[2] = {box.triangles, box.triangles};
+    const int vertex_counts[33] = {8, 8}, face_counts[33] = {12, 12};
+    const SWIFT_Real scales[2] = {2, 3};
+    const SWIFT_Translation places[2] = {{1, 0, 0}, {5, 5, 5}};
+    SWIFT_Scene scene(false);
+    int first = -1, second = -1, third = -1, fourth = -1, id = 33;
+    /* The coarser level is moved onto the finer one; distances are those of the finest, each level's transform its own. */
+    CHECK(scene.Add_Hierarchical_Object(vertices, faces, vertex_counts, face_counts, 2, first, false, DEFAULT_ORIENTATIONS, places,
+                                        scales));
+    const std::string tri = folder.write("level.tri", box_file(box, false)), poly = folder.write("level.poly", box_file(box, true));
+    const char* names[2] = {tri.c_str(), poly.c_str()};
+    CHECK(scene.Add_Hierarchical_Object(names, 2, second));
+    move_to(scene, second, 4, 0, 0);
+    int pairs, *ids, *pids;
+    SWIFT_Real* distances;
+    CHECK(!scene.Query_Exact_Distance(false, SWIFT_INFINITY, pairs, &ids, &distances) && pairs == 1 && is_near(distances[0], 1.5));
+    SWIFT_Real x, y, z;
+    scene.Get_Center_Of_Mass(first, x, y, z);
+    CHECK(is_near(x, 1));
+
+    /* With pieces: the first comes with two levels, the second without. */
+    const SWIFT_Real* const* piece_vertices[2] = {vertices, vertices};
+    const int* const* piece_faces[2] = {faces, faces};
+    const int* const piece_vertex_counts[2] = {vertex_counts, vertex_counts};
+    const int* const piece_face_counts[2] = {face_counts, face_counts};
+    const int level_counts[2] = {2, 0};
+    const SWIFT_Translation left_places[2] = {{-2, 0, 0}, {-2, 0, 0}}, right_places[2] = {{2, 0, 0}, {2, 0, 0}};
+    const SWIFT_Translation* const piece_places[2] = {left_places, right_places};
+    CHECK(scene.Add_Hierarchical_Pieced_Object(piece_vertices, piece_faces, piece_vertex_counts, piece_face_counts, level_counts, 2,
+                                               third, false, DEFAULT_ORIENTATIONSS, piece_places));
+    const char* const* piece_names[2] = {names, names};
+    CHECK(scene.Add_Hierarchical_Pieced_Object(piece_names, level_counts, 2, fourth, false, NULL, piece_places));
+    CHECK(third == 2 && fourth == 3);
+    scene.Deactivate();
+    scene.Activate(third, fourth);
+    move_to(scene, fourth, 0, 2, 0);
+    CHECK(!scene.Query_Contact_Determination(false, 2, pairs, &ids, &distances, NULL, NULL, &pids));
+    CHECK(pairs == 2 && is_near(distances[0], 1) && is_near(distances[1], 1) && pids[0] == 0 && pids[1] == 0 && pids[3] == 1);
+    SWIFT_Real* errors;
+    CHECK(!scene.Query_Approximate_Distance(false, 2, 1, pairs, &ids, &distances, &errors) && pairs == 2);
+    CHECK(distances[0] <= 1 && distances[0] + errors[0] >= 1);
+
+    /* Copies of a piece with levels, with a transform as well. */
+    const Rotation quarter(2, 2 * std::atan(1.0));
+    CHECK(scene.Add_Object(NULL, NULL, 0, 0, id, false, quarter.m, DEFAULT_TRANSLATION, 1, 0, 0, 0, NULL, third, 0) && id == 4);
+    scene.Get_Center_Of_Mass(id, x, y, z);
+    CHECK(is_near(x, 0) && is_near(y, -2));
+    CHECK(messages.take().empty());
+    CHECK(!scene.Add_Hierarchical_Object(vertices, faces, vertex_counts, face_counts, 0, id));
+    CHECK(messages.has("Invalid number of levels given (must be positive): 0"));
+    CHECK(!scene.Add_Hierarchical_Object(names, -1, id) && messages.has("Invalid number of levels given (must be positive): -1"));
+    CHECK(!scene.Add_Hierarchical_Object(vertices, faces, vertex_counts, face_counts, 33, id));
+    CHECK(messages.has("Invalid number of levels given (must be less than or equal to 32): 33"));
+    const int bad_counts[2] = {1, -1};
+    CHECK(!scene.Add_Hierarchical_Pieced_Object(piece_names, bad_counts, 2, id));
+    CHECK(messages.has("Error (Add_Object obj 5 piece 1): Invalid number of levels given (must be positive): -1"));
+    CHECK(!scene.Add_Hierarchical_Pieced_Object(static_cast<const char* const* const*>(NULL), bad_counts, 1, id));
+    CHECK(messages.has("Invalid filename given to read file") && id == 4);
+}
+
+/* A file of SWIFT++'s decomposer. */
+class Decomposition {
+public:
+    bool is_big_endian, is_float, has_maps;
+
+    Decomposition(bool big_endian, bool floats, bool maps) : is_big_endian(big_endian), is_float(floats), has_maps(maps) {}
+
+    /*
+     * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles there,
+     * which are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i.
+     */
+    std::string text(int piece_count, const char* magic = "Convex_Decomposition") const
+    {
+        std::ostringstream out;
+        out << magic << " binary " << (is_big_endian ? "big_endian" : "little_endian") << " real " << (is_float ? "float" : "double")
+            << " vertices 12 faces 20 map_vids " << (has_maps ? 12 : 0) << " map_fids " << (has_maps ? 20 : 0) << " pieces "
+            << piece_count << "\n";
+        for (int v = 0; v < 12; ++v) {
+            /* Three rows of four around the x axis: x = -1, 0, 1. */
+            const int row = v / 4, corner = v % 4;
+            real(out, row - 1);
+            real(out, corner == 1 || corner == 2 ? 1 : 0);
+            real(out, corner >= 2 ? 1 : 0);
+        }
+        static const int corners[60] = {0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3,  7, 2,  7,  6, 3, 0, 4, 3, 4, 7,
+                                        4, 5, 9, 4, 9, 8, 5, 6, 10, 5, 10, 9, 6, 7, 11, 6, 11, 10, 7, 4, 8, 7, 8, 11, 8, 9, 10, 8, 10, 11};
+        for (int i = 0; i < 60; ++i) {
+            integer(out, corners[i]);
+        }
+        for (int i = 0; has_maps && i < 12; ++i) {
+            integer(out, 10 + i);
+        }
+        for (int i = 0; has_maps && i < 20; ++i) {
+            integer(out, 20 + i);
+        }
+        for (int i = 0; i < 20; ++i) {
+            integer(out, i / 10);
+        }
+        for (int i = 0; i < 2; ++i) {
+            integer(out, 10);
+        }
+        for (int i = 0; i < 2; ++i) {
+            integer(out, 2);
+        }
+        for (int i = 0; i < 20; ++i) {
+            integer(out, i);
+        }
+        static const int closing[12] = {4, 5, 6, 4, 6, 7, 4, 6, 5, 4, 7, 6};
+        for (int i = 0; i < 12; ++i) {
+            integer(out, closing[i]);
+        }
+        return out.str();
+    }
+
+private:
+    template <class Number> void put(std::ostringstream& out, Number number) const
+    {
+        char bytes[sizeof number];
+        std::memcpy(bytes, &number, sizeof number);
+        const uint16_t one = 1;
+        char low;
+        std::memcpy(&low, &one, 1);
+        if (is_big_endian == (low == 1)) {
+            std::reverse(bytes, bytes + sizeof number);
+        }
+        out.write(bytes, sizeof number);
+    }
+
+    void real(std::ostringstream& out, double number) const
+    {
+        if (is_float) {
+            put(out, static_cast<float>(number));
+        } else {
+            put(out, number);
+        }
+    }
+
+    void integer(std::ostringstream& out, int number) const
+    {
+        put(out, static_cast<int32_t>(number));
+    }
+};
+
+void decompositions(const Folder& folder)
+{
+    const BoxMesh box(0.5, 0.5, 0.5);
+    for (int form = 0; form < 8; ++form) {
+        const Decomposition file((form & 1) != 0, (form & 2) != 0, (form & 4) != 0);
+        const std::string path = folder.write("rod.dcp", file.text(2));
+        SWIFT_Scene scene(false);
+        int rod = -1, other = -1;
+        CHECK(scene.Add_General_Object(path.c_str(), rod) && rod == 0);
+        CHECK(box.add(scene, other));
+        SWIFT_Real x, y, z;
+        scene.Get_Center_Of_Mass(rod, x, y, z);
+        CHECK(is_near(x, 0) && is_near(y, 0.5) && is_near(z, 0.5));
+        /* One object, one pair: the pieces are 2.5 and 1.5 away, each contact nearer than the last. */
+        move_to(scene, other, 3, 0.25, 0.75);
+        int pairs, *ids, *counts, *types, *feature_ids;
+        SWIFT_Real *distances, *points, *normals;
+        CHECK(!scene.Query_Exact_Distance(false, SWIFT_INFINITY, pairs, &ids, &distances) && pairs == 1 && is_near(distances[0], 1.5));
+        CHECK(!scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals, &types,
+                                                 &feature_ids));
+        CHECK(pairs == 1 && counts[0] == 2 && is_near(distances[0], 2.5) && is_near(distances[1], 1.5));
+        CHECK(is_near(points[0], 0) && is_near(points[6], 1) && is_near3(normals + 3, -1, 0, 0));
+        CHECK(scene.Get_Answer(1) != NULL && scene.Get_Answer(2) == NULL);
+        /* Numbers of the mesh that was decomposed; the face between the pieces has none. */
+        int at = 0;
+        for (int i = 0; i < 4; ++i) {
+            const int offset = file.has_maps ? 10 : 0;
+            if (i % 2 == 0 && types[i] == SWIFT_FACE) {
+                CHECK(i == 0 ? feature_ids[at] == -1 : feature_ids[at] >= 2 * offset + 18);
+            } else if (i % 2 == 0) {
+                CHECK(feature_ids[at] >= offset + (i == 0 ? 4 : 8) && feature_ids[at] < offset + (i == 0 ? 8 : 12));
+            }
+            at += types[i] == SWIFT_EDGE ? 2 : 1;
+        }
+        int* pids;
+        CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &distances, NULL, NULL, &pids) && pairs == 1 && pids[0] == 0);
+        CHECK(is_near(distances[0], 1.5));
+        move_to(scene, other, 1.25, 0.25, 0.75);
+        CHECK(scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals, &types,
+                                                &feature_ids));
+        CHECK(pairs == 1 && counts[0] == -1 && is_same(distances[0], -1));
+        CHECK(scene.Query_Intersection(false, pairs, &ids) && pairs == 1);
+        CHECK(scene.Query_Tolerance_Verification(false, 3, pairs, &ids) && pairs == 1);
+
+        /* Beside an object of pieces, and a copy of it; with an input transform. */
+        const SWIFT_Real* vertices[2] = {box.vertices, box.vertices};
+        const int* faces[2] = {box.triangles, box.triangles};
+        const int eight[2] = {8, 8}, twelve[2] = {12, 12};
+        const SWIFT_Translation places[2] = {{3, 0.25, 0.75}, {-4, 0.25, 0.75}};
+        int several = -1, copy = -1, turned = -1;
+        CHECK(scene.Add_Pieced_Object(vertices, faces, eight, twelve, 2, several, false, NULL, places));
+        CHECK(scene.Copy_Object(rod, copy) && copy == 3);
+        scene.Deactivate();
+        scene.Activate(rod, several);
+        CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &distances, NULL, NULL, &pids) && pairs == 2);
+        CHECK(is_near(distances[0], 1.5) && is_near(distances[1], 2.5) && pids[1] == 0 && pids[3] == 1 && pids[2] == 0);
+        CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &counts, &distances) && pairs == 2);
+        CHECK(counts[0] == 2 && counts[1] == 1);
+        const Rotation quarter(2, 2 * std::atan(1.0));
+        CHECK(scene.Add_General_Object(path.c_str(), turned, true, quarter.m, right, 2, GAP, BOX_SETTING_CHOOSE, 0, 0));
+        scene.Get_Center_Of_Mass(turned, x, y, z);
+        CHECK(is_near(x, 1) && is_near(y, 0) && is_near(z, 1));
+        CHECK(scene.Add_Object(NULL, NULL, 0, 0, copy, false, quarter.m, left, 1, 0, 0, 0, NULL, turned));
+        scene.Get_Center_Of_Mass(copy, x, y, z);
+        CHECK(is_near(x, -2) && is_near(y, 1) && is_near(z, 1));
+    }
+}
+
+void refused_decompositions(const Folder& folder)
+{
+    Messages messages;
+    SWIFT_Scene scene(false);
+    int id = 44;
+    const std::string good = Decomposition(false, false, true).text(2);
+    const std::size_t header = good.find('\n') + 1;
+    /* However much is missing, and one byte too much. */
+    for (std::size_t length = 0; length < good.size(); length += length < header ? 7 : 61) {
+        CHECK(!scene.Add_General_Object(folder.write("cut.dcp", good.substr(0, length)).c_str(), id) && !messages.take().empty());
+    }
+    CHECK(!scene.Add_General_Object(folder.write("more.dcp", good + "x").c_str(), id));
+    CHECK(messages.has("damaged: there are more bytes than its header says"));
+    CHECK(!scene.Add_General_Object(folder.write("order.dcp", Decomposition(true, false, true).text(2).replace(28, 3, "lit")).c_str(), id));
+    CHECK(messages.has("damaged: the byte order is missing"));
+    /* The bytes of the other order: numbers of vertices that there are not. */
+    std::string swapped = good;
+    swapped.replace(swapped.find("little"), 6, "big");
+    CHECK(!scene.Add_General_Object(folder.write("swapped.dcp", swapped).c_str(), id) && messages.has("damaged: "));
+    const struct {
+        const char* what;
+        const char* by;
+        const char* message;
+    } changes[] = {
+        {"real double", "real half", "the kind of its real numbers is missing"},
+        {"vertices 12", "vertices -1", "the number of vertices is missing"},
+        {"faces 20", "fences 20", "the number of faces is missing"},
+        {"map_vids 12", "map_vids 11", "its maps have other lengths"},
+        {"pieces 2", "pieces 0", "it has no vertices, faces or pieces"},
+        {"pieces 2\n", "pieces 2 ", "the header does not end in a new line"},
+        {"vertices 12", "vertices 2000000000", "its maps have other lengths"},
+        {"pieces 2", "pieces 1", "a face is in a piece that there is not"},
+        {"faces 20 map_vids 12 map_fids 20", "faces 19 map_vids 12 map_fids 19", "damaged: "},
+    };
+    for (std::size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
+        std::string bad = good;
+        bad.replace(bad.find(changes[i].what), std::strlen(changes[i].what), changes[i].by);
+        CHECK(!scene.Add_General_Object(folder.write("changed.dcp", bad).c_str(), id));
+        const std::string said = messages.take();
+        if (!CHECK(said.find(changes[i].message) != std::string::npos)) {
+            std::printf("%s: %s", changes[i].by, said.c_str());
+        }
+    }
+    /* A face in another piece than its list says, and a vertex without a value. */
+    std::string other = good;
+    const std::size_t pieces_at = header + 8 * 36 + 4 * (60 + 12 + 20);
+    other[pieces_at] = 1;
+    CHECK(!scene.Add_General_Object(folder.write("other.dcp", other).c_str(), id));
+    CHECK(messages.has("face 0 is in piece 1 and listed in piece 0"));
+    other = good;
+    other.replace(header, 8, 8, static_cast<char>(-1));
+    CHECK(!scene.Add_General_Object(folder.write("nan.dcp", other).c_str(), id) && messages.has("vertex 0 is not finite"));
+    /* What is not convex, and what is not read, is told where to go. */
+    std::ostringstream dented;
+    BoxMesh box(1, 1, 1);
+    box.vertices[0] = box.vertices[1] = box.vertices[2] = static_cast<SWIFT_Real>(0.5);
+    CHECK(!scene.Add_General_Object(folder.write("dented.tri", box_file(box, false)).c_str(), id));
+    const std::string said = messages.take();
+    CHECK(said.find("outside of its plane") != std::string::npos && said.find("decomposition file (Convex_Decomposition)") != std::string::npos);
+    CHECK(!scene.Add_General_Object(folder.write("hulls.chr", Decomposition(false, true, false).text(2, "Convex_Hierarchy")).c_str(), id));
+    CHECK(messages.has("give the decomposition file (Convex_Decomposition) that it was made from"));
+    CHECK(!scene.Add_General_Object(NULL, id) && messages.has("Error: Invalid filename given to read file"));
+    CHECK(id == 44);
+    CHECK(scene.Add_General_Object(folder.write("good.dcp", good).c_str(), id) && id == 0);
+}
+
+} // namespace
+
+int main(int argc, char** argv)
+{
+    const Folder folder(argc, argv);
+    pieces(false, folder);
+    pieces(true, folder);
+    levels(folder);
+    decompositions(folder);
+    refused_decompositions(folder);
+    return check_report("legacy_pieces");
+}

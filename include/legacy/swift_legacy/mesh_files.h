@@ -1,0 +1,152 @@
+/* The readers for TRI, POLY and OBJ. Whatever a file holds, what comes back is whole, or a message says what is wrong. */
+#ifndef SWIFT_LEGACY_MESH_FILES_H
+#define SWIFT_LEGACY_MESH_FILES_H
+
+#include <algorithm>
+#include <cstdlib>
+#include <locale>
+
+#include "../SWIFT_fileio.h"
+#include "messages.h"
+
+namespace swift_legacy {
+
+/* What a reader has read so far. Vectors grow with the file, so that a wrong count asks for no memory. */
+struct FileMesh {
+    std::vector<SWIFT_Real> vertices;
+    std::vector<int> corners;
+    std::vector<int> valences;
+
+    template <class Value> static Value* new_array(const std::vector<Value>& values)
+    {
+        Value* array = new Value[values.empty() ? 1 : values.size()];
+        std::copy(values.begin(), values.end(), array);
+        return array;
+    }
+
+    /* Hands the arrays over, all or none. */
+    void give(SWIFT_Real*& vs, int*& fs, int& vn, int& fn, int*& fv) const
+    {
+        vs = new_array(vertices);
+        try {
+            fs = new_array(corners);
+            fv = std::count(valences.begin(), valences.end(), 3) == static_cast<std::ptrdiff_t>(valences.size())
+                     ? NULL
+                     : new_array(valences);
+        } catch (...) {
+            delete[] fs;
+            delete[] vs;
+            vs = NULL, fs = NULL;
+            throw;
+        }
+        vn = static_cast<int>(vertices.size() / 3);
+        fn = static_cast<int>(valences.size());
+    }
+};
+
+/* A word of a file as a whole number; false if it is none. */
+inline bool parse_int(const std::string& word, int& value)
+{
+    std::istringstream stream(word);
+    stream.imbue(std::locale::classic());
+    return (stream >> value) && stream.peek() == std::istringstream::traits_type::eof();
+}
+
+} // namespace swift_legacy
+
+inline bool SWIFT_Basic_File_Reader::Read(std::ifstream& fin, SWIFT_Real*& vs, int*& fs, int& vn, int& fn, int*& fv)
+{
+    fin.imbue(std::locale::classic());
+    std::string magic;
+    fin >> magic;
+    const std::string about = "Error (" + magic + " file): ";
+    if (magic != "TRI" && magic != "POLY") {
+        swift_legacy::report("Error: The file begins with \"" + magic + "\", not with TRI or POLY");
+        return false;
+    }
+    int vertex_count = 0, face_count = 0;
+    if (!(fin >> vertex_count >> face_count) || vertex_count <= 0 || face_count <= 0) {
+        swift_legacy::report(about + "the numbers of vertices and faces are missing or not positive");
+        return false;
+    }
+    swift_legacy::FileMesh mesh;
+    for (int v = 0; v < vertex_count; ++v) {
+        SWIFT_Real x, y, z;
+        if (!(fin >> x >> y >> z)) {
+            swift_legacy::report(about + "vertex " + swift_legacy::text(v) + " is missing or no number");
+            return false;
+        }
+        mesh.vertices.push_back(x), mesh.vertices.push_back(y), mesh.vertices.push_back(z);
+    }
+    for (int face = 0; face < face_count; ++face) {
+        int valence = 3;
+        bool is_read = magic == "TRI" || (fin >> valence && valence >= 3);
+        for (int corner = 0; is_read && corner < valence; ++corner) {
+            int vertex = 0;
+            is_read = fin >> vertex && vertex >= 0 && vertex < vertex_count;
+            mesh.corners.push_back(vertex);
+        }
+        if (!is_read) {
+            swift_legacy::report(about + "face " + swift_legacy::text(face) + " is missing or has a vertex that there is not");
+            return false;
+        }
+        mesh.valences.push_back(valence);
+    }
+    mesh.give(vs, fs, vn, fn, fv);
+    return true;
+}
+
+inline bool SWIFT_Obj_File_Reader::Read(std::ifstream& fin, SWIFT_Real*& vs, int*& fs, int& vn, int& fn, int*& fv)
+{
+    swift_legacy::FileMesh mesh;
+    std::string line;
+    for (int number = 1; std::getline(fin, line); ++number) {
+        const std::string about = "Error (OBJ file): line " + swift_legacy::text(number) + ": ";
+        std::istringstream words(line);
+        words.imbue(std::locale::classic());
+        std::string word;
+        words >> word;
+        const int vertex_count = static_cast<int>(mesh.vertices.size() / 3);
+        if (word == "v") {
+            SWIFT_Real x, y, z;
+            if (!(words >> x >> y >> z)) {
+                swift_legacy::report(about + "a vertex has fewer than three coordinates");
+                return false;
+            }
+            mesh.vertices.push_back(x), mesh.vertices.push_back(y), mesh.vertices.push_back(z);
+        } else if (word == "f") {
+            int valence = 0;
+            while (words >> word) {
+                int vertex = 0;
+                bool is_read = swift_legacy::parse_int(word.substr(0, word.find('/')), vertex);
+                vertex = vertex < 0 ? vertex_count + vertex : vertex - 1;
+                is_read = is_read && vertex >= 0;
+                if (!is_read) {
+                    swift_legacy::report(about + "\"" + word + "\" is no vertex");
+                    return false;
+                }
+                mesh.corners.push_back(vertex);
+                ++valence;
+            }
+            if (valence < 3) {
+                swift_legacy::report(about + "a face has fewer than three corners");
+                return false;
+            }
+            mesh.valences.push_back(valence);
+        }
+    }
+    if (mesh.vertices.empty() || mesh.valences.empty()) {
+        swift_legacy::report("Error (OBJ file): there are no vertices or no faces");
+        return false;
+    }
+    const int most = *std::max_element(mesh.corners.begin(), mesh.corners.end());
+    if (static_cast<std::size_t>(most) >= mesh.vertices.size() / 3) {
+        swift_legacy::report("Error (OBJ file): a face names vertex " + swift_legacy::text(most + 1) + " of " +
+                             swift_legacy::text(mesh.vertices.size() / 3));
+        return false;
+    }
+    mesh.give(vs, fs, vn, fn, fv);
+    return true;
+}
+
+#endif

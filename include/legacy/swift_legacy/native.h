@@ -1,0 +1,217 @@
+/* What is asked of swiftprox, in one place: shapes from meshes, and what its options and queries are filled with. */
+#ifndef SWIFT_LEGACY_NATIVE_H
+#define SWIFT_LEGACY_NATIVE_H
+
+#include <algorithm>
+#include <cstring>
+#include <limits>
+#include <swiftprox.h>
+#include <swiftprox_tuning.h>
+
+#include "mesh.h"
+
+namespace swift_legacy {
+
+/* How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text files. */
+const double CONVEXITY_TOLERANCE = 1e-6;
+
+/* How many levels of detail a caller may give: a limit of SWIFT 1.x. */
+const int MOST_LEVELS = 32;
+
+enum Convexity {
+    CONVEXITY_REQUIRED, /* the mesh is to be convex, flat ones included */
+    CONVEXITY_BY_HULL   /* of another mesh the convex hull counts */
+};
+
+/* How levels of detail are made for a body that comes without. */
+struct LevelOptions {
+    int least_triangles;
+    double ratio;
+
+    LevelOptions(int min_tri_count, SWIFT_Real qslim_tri_ratio)
+        : least_triangles(min_tri_count), ratio(qslim_tri_ratio)
+    {
+    }
+
+    bool are_asked_for() const
+    {
+#ifdef SWIFT_HIERARCHY
+        return least_triangles != 50 || ratio < 0.25 || ratio > 0.25;
+#else
+        return false;
+#endif
+    }
+};
+
+inline swiftprox_mesh native_mesh(const Mesh& mesh)
+{
+    swiftprox_mesh native;
+    native.vertices = mesh.vertices.empty() ? NULL : &mesh.vertices[0];
+    native.vertex_count = mesh.vertex_count();
+    native.indices = mesh.indices.empty() ? NULL : &mesh.indices[0];
+    native.valences = mesh.valences.empty() ? NULL : &mesh.valences[0];
+    native.face_count = mesh.face_count;
+    return native;
+}
+
+/* A shape, or null after a failure, which swiftprox_library_last_error_message explains. levels[0] is the body. */
+inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const LevelOptions& level_options)
+{
+    swiftprox_shape_options options;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_FLAT;
+    options.convexity_tolerance = CONVEXITY_TOLERANCE;
+    swiftprox_shape_tuning tuning;
+    swiftprox_shape_tuning_init(&tuning);
+    const swiftprox_shape* shape = NULL;
+    swiftprox_status status;
+    if (levels.size() > 1) {
+        std::vector<swiftprox_mesh> native;
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            native.push_back(native_mesh(levels[i]));
+        }
+        status = swiftprox_shape_create_from_levels(&native[0], native.size(), &options, &shape);
+    } else {
+        if (level_options.are_asked_for()) {
+            tuning.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
+            if (level_options.ratio > 0 && level_options.ratio < 1) {
+                tuning.decimation = level_options.ratio;
+            }
+            if (level_options.least_triangles >= 0) {
+                tuning.minimum_triangles = static_cast<std::size_t>(level_options.least_triangles);
+            }
+            options.tuning = &tuning;
+        }
+        const swiftprox_mesh body = native_mesh(levels[0]);
+        status = swiftprox_shape_create_from_mesh(body.vertices, body.vertex_count, body.indices, body.valences,
+                                                  body.face_count, &options, &shape);
+    }
+    return status == SWIFTPROX_OK ? shape : NULL;
+}
+
+/* The convex hull of a mesh's vertices, which may be flat; null after a failure. */
+inline const swiftprox_shape* make_hull(const Mesh& mesh)
+{
+    swiftprox_shape_options options;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_HULL;
+    const swiftprox_shape* shape = NULL;
+    const swiftprox_status status =
+        swiftprox_shape_create_from_points(&mesh.vertices[0], mesh.vertex_count(), &options, &shape);
+    return status == SWIFTPROX_OK ? shape : NULL;
+}
+
+/* Numbers as doubles: as they are, or converted into `room`. */
+inline const double* doubles(const double* numbers, double*, std::size_t)
+{
+    return numbers;
+}
+
+inline const double* doubles(const float* numbers, double* room, std::size_t count)
+{
+    if (numbers == NULL) {
+        return NULL;
+    }
+    std::copy(numbers, numbers + count, room);
+    return room;
+}
+
+inline std::size_t room_for(const double*, std::size_t)
+{
+    return 1;
+}
+
+inline std::size_t room_for(const float*, std::size_t count)
+{
+    return count;
+}
+
+inline swiftprox_status set_transform(swiftprox_scene* scene, swiftprox_object_id id, const SWIFT_Real* rotation,
+                                      const SWIFT_Real* translation)
+{
+    double R[9], T[3];
+    return swiftprox_scene_set_transform(scene, id, doubles(rotation, R, 9), doubles(translation, T, 3));
+}
+
+inline swiftprox_status set_pose(swiftprox_scene* scene, swiftprox_object_id id, const SWIFT_Real* pose)
+{
+    double RT[12];
+    return swiftprox_scene_set_pose(scene, id, doubles(pose, RT, 12));
+}
+
+inline swiftprox_status set_all_transforms(swiftprox_scene* scene, const SWIFT_Real* rotations, const SWIFT_Real* translations,
+                                           std::size_t count)
+{
+    std::vector<double> R(room_for(rotations, 9 * count)), T(room_for(translations, 3 * count));
+    return swiftprox_scene_set_all_transforms(scene, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
+                                              count);
+}
+
+inline swiftprox_status set_all_poses(swiftprox_scene* scene, const SWIFT_Real* poses, std::size_t count)
+{
+    std::vector<double> RT(room_for(poses, 12 * count));
+    return swiftprox_scene_set_all_poses(scene, doubles(poses, &RT[0], 12 * count), count);
+}
+
+/* The largest double below a positive one. */
+inline double next_below(double x)
+{
+    uint64_t bits;
+    std::memcpy(&bits, &x, sizeof bits);
+    --bits;
+    std::memcpy(&x, &bits, sizeof bits);
+    return x;
+}
+
+/* Whether pairs at exactly the tolerance count: in SWIFT 1.x they do, in SWIFT++ they do not. */
+enum Bound { BOUND_INCLUDED, BOUND_EXCLUDED };
+
+/* As swiftprox takes it. Negative ones are 0, SWIFT_INFINITY is none. */
+inline double native_tolerance(SWIFT_Real tolerance, Bound bound)
+{
+    if (tolerance >= SWIFT_INFINITY) {
+        return std::numeric_limits<double>::infinity();
+    }
+    const double value = tolerance;
+    if (value <= 0) {
+        return 0;
+    }
+    return bound == BOUND_EXCLUDED ? next_below(value) : value;
+}
+
+inline double native_error(SWIFT_Real error)
+{
+    const double value = error;
+    return value < 0 ? 0 : value;
+}
+
+typedef swiftprox_status (*NativeQuery)(swiftprox_scene*, const swiftprox_scene_query*, swiftprox_scene_answer*);
+
+/* What a scene is asked. */
+struct Question {
+    NativeQuery ask;
+    bool early_exit;
+    double tolerance;
+    double absolute_error;
+    double relative_error;
+
+    Question(NativeQuery query, bool exits_early, double distance_tolerance)
+        : ask(query), early_exit(exits_early), tolerance(distance_tolerance), absolute_error(0), relative_error(0)
+    {
+    }
+};
+
+/* The last failure of swiftprox, after what failed. */
+inline void report_failure(const std::string& what)
+{
+    report(what + swiftprox_library_last_error_message());
+}
+
+inline void report_failure_of(const char* method)
+{
+    report_failure("Error (" + std::string(method) + "): ");
+}
+
+} // namespace swift_legacy
+
+#endif

@@ -1,0 +1,273 @@
+/* The objects of a scene: dense ids that are used again, the last deleted one first, order of creation, boxes. */
+#ifndef SWIFT_LEGACY_OBJECTS_H
+#define SWIFT_LEGACY_OBJECTS_H
+
+#include <algorithm>
+
+#include "geometry.h"
+
+namespace swift_legacy {
+
+/* How a part's box is made: a cube that holds the part however it turns, or the tight box. */
+enum BoxKind { BOX_CUBE, BOX_TIGHT };
+
+/*
+ * What queries list: a convex piece, or several that count as one (of a decomposition). With the broad phase on, its enlarged box
+ * says whether a query without a tolerance lists it.
+ */
+struct Part {
+    std::vector<Piece> pieces;
+    BoxKind box;
+    double enlargement_relative;
+    double enlargement_absolute;
+    double centre[3];
+    double radius;
+    double lower[3]; /* the box in the world, where Object::has_boxes */
+    double upper[3];
+
+    Part() : box(BOX_CUBE), enlargement_relative(0), enlargement_absolute(0), radius(0)
+    {
+        std::fill(centre, centre + 3, 0.0);
+        std::fill(lower, lower + 3, 0.0);
+        std::fill(upper, upper + 3, 0.0);
+    }
+
+    double enlargement() const
+    {
+        return enlargement_relative * radius + enlargement_absolute;
+    }
+
+    /* Once the pieces stand. */
+    void measure()
+    {
+        SurfaceCentroid centroid;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            centroid.add(pieces[i]->body());
+        }
+        radius = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            centre[axis] = centroid[axis];
+        }
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            for (std::size_t v = 0; v < pieces[i]->body().vertex_count(); ++v) {
+                radius = std::max(radius, std::sqrt(pieces[i]->square_distance(static_cast<uint32_t>(v), centre)));
+            }
+        }
+    }
+
+    void place_box(const double* pose)
+    {
+        place(pose, centre, lower);
+        std::copy(lower, lower + 3, upper);
+        double margin = enlargement();
+        if (box == BOX_CUBE) {
+            margin += radius;
+        } else {
+            double point[3];
+            for (std::size_t i = 0; i < pieces.size(); ++i) {
+                const std::vector<double>& vertices = pieces[i]->body().vertices;
+                for (std::size_t v = 0; v < vertices.size(); v += 3) {
+                    place(pose, &vertices[v], point);
+                    for (int axis = 0; axis < 3; ++axis) {
+                        lower[axis] = std::min(lower[axis], point[axis]);
+                        upper[axis] = std::max(upper[axis], point[axis]);
+                    }
+                }
+            }
+        }
+        for (int axis = 0; axis < 3; ++axis) {
+            lower[axis] -= margin;
+            upper[axis] += margin;
+        }
+    }
+
+private:
+    static void place(const double* pose, const double* v, double* image)
+    {
+        for (int i = 0; i < 3; ++i) {
+            image[i] = pose[4 * i] * v[0] + pose[4 * i + 1] * v[1] + pose[4 * i + 2] * v[2] + pose[4 * i + 3];
+        }
+    }
+};
+
+inline bool overlap(const Part& a, const Part& b)
+{
+    bool are_apart = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        are_apart = are_apart || a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
+    }
+    return !are_apart;
+}
+
+struct Object {
+    swiftprox_object_id native;
+    bool is_live;
+    bool is_fixed;
+    std::vector<Part> parts;
+    std::vector<Piece> pieces; /* of all parts, in the order in which the scene has them */
+    std::vector<int> part_of;  /* the part of each piece */
+    bool has_boxes;
+
+    Object() : native(), is_live(false), is_fixed(false), has_boxes(false) {}
+
+    /* Whether a part is made of several pieces. */
+    bool is_united() const
+    {
+        return pieces.size() > parts.size();
+    }
+
+    void take(std::vector<Part>& from)
+    {
+        parts.swap(from);
+        for (std::size_t part = 0; part < parts.size(); ++part) {
+            pieces.insert(pieces.end(), parts[part].pieces.begin(), parts[part].pieces.end());
+            part_of.insert(part_of.end(), parts[part].pieces.size(), static_cast<int>(part));
+        }
+    }
+
+    void place_boxes(const double* pose)
+    {
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            parts[i].place_box(pose);
+        }
+        has_boxes = true;
+    }
+};
+
+class Objects {
+public:
+    Objects() : united_(0), moving_(0), are_ranked_(true) {}
+
+    bool has(int id) const
+    {
+        return id >= 0 && static_cast<std::size_t>(id) < objects_.size() && objects_[static_cast<std::size_t>(id)].is_live;
+    }
+
+    /* Null where there is none. */
+    Object* find(int id)
+    {
+        Object* object = id >= 0 && static_cast<std::size_t>(id) < objects_.size() ? &objects_[static_cast<std::size_t>(id)] : NULL;
+        return object != NULL && object->is_live ? object : NULL;
+    }
+
+    Object& operator[](int id)
+    {
+        return objects_[static_cast<std::size_t>(id)];
+    }
+
+    const Object& operator[](int id) const
+    {
+        return objects_[static_cast<std::size_t>(id)];
+    }
+
+    /* The id that the next object gets. */
+    int next_id() const
+    {
+        return free_.empty() ? static_cast<int>(objects_.size()) : free_.back();
+    }
+
+    /* Room for one more, so that nothing can fail once the scene has it. */
+    void reserve()
+    {
+        if (free_.empty()) {
+            objects_.push_back(Object());
+            free_.push_back(static_cast<int>(objects_.size()) - 1);
+        }
+        free_.reserve(objects_.size());
+        created_.reserve(objects_.size());
+    }
+
+    void add(int id, swiftprox_object_id native, bool is_fixed, std::vector<Part>& parts)
+    {
+        Object& object = (*this)[id];
+        object.native = native;
+        object.is_live = true;
+        object.is_fixed = is_fixed;
+        object.has_boxes = false;
+        object.take(parts);
+        free_.pop_back();
+        created_.push_back(id);
+        united_ += object.is_united() ? 1 : 0;
+        moving_ += is_fixed ? 0 : 1;
+        are_ranked_ = false;
+    }
+
+    void remove(int id)
+    {
+        Object& object = (*this)[id];
+        united_ -= object.is_united() ? 1 : 0;
+        moving_ -= object.is_fixed ? 0 : 1;
+        object = Object();
+        free_.push_back(id);
+        created_.erase(std::find(created_.begin(), created_.end(), id));
+        are_ranked_ = false;
+    }
+
+    /* The ids in order of creation. */
+    const std::vector<int>& created() const
+    {
+        return created_;
+    }
+
+    /* Of those that are not fixed. */
+    std::size_t moving_count() const
+    {
+        return moving_;
+    }
+
+    bool any_is_united() const
+    {
+        return united_ > 0;
+    }
+
+    void forget_boxes()
+    {
+        for (std::size_t i = 0; i < objects_.size(); ++i) {
+            objects_[i].has_boxes = false;
+        }
+    }
+
+    void rank()
+    {
+        if (!are_ranked_) {
+            ranks_.resize(objects_.size());
+            for (std::size_t i = 0; i < created_.size(); ++i) {
+                ranks_[static_cast<std::size_t>(created_[i])] = static_cast<int>(i);
+            }
+            are_ranked_ = true;
+        }
+    }
+
+    /* The place of an object in the order of creation, once they are ranked. */
+    int rank_of(int id) const
+    {
+        return ranks_[static_cast<std::size_t>(id)];
+    }
+
+    /* No two parts whose boxes overlap are farther apart. */
+    double farthest_with_overlapping_boxes() const
+    {
+        double half = 0;
+        for (std::size_t i = 0; i < created_.size(); ++i) {
+            const std::vector<Part>& parts = (*this)[created_[i]].parts;
+            for (std::size_t part = 0; part < parts.size(); ++part) {
+                half = std::max(half, parts[part].radius + std::max(0.0, parts[part].enlargement()));
+            }
+        }
+        /* Of each the diagonal, 2 * sqrt(3) * half, and more for the rounding. */
+        return 7 * half;
+    }
+
+private:
+    std::vector<Object> objects_; /* by id */
+    std::vector<int> free_;       /* the next one last */
+    std::vector<int> created_;
+    std::vector<int> ranks_;
+    int united_;
+    std::size_t moving_;
+    bool are_ranked_;
+};
+
+} // namespace swift_legacy
+
+#endif

@@ -1,0 +1,194 @@
+/* SWIFT_Scene: queries. */
+#ifndef SWIFT_LEGACY_SCENE_QUERIES_H
+#define SWIFT_LEGACY_SCENE_QUERIES_H
+
+#include "../SWIFT.h"
+
+/* Drops the pairs whose boxes do not overlap; those that intersect stay. */
+inline void SWIFT_Scene::keep_overlapping_boxes()
+{
+    std::vector<swift_legacy::Entry>& listed = results_.listed();
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < listed.size(); ++i) {
+        const swift_legacy::Found& found = *listed[i].found;
+        const swift_legacy::Part& part1 = placed_part(found.user_data1, found.piece1);
+        const swift_legacy::Part& part2 = placed_part(found.user_data2, found.piece2);
+        if (swift_legacy::is_intersecting(found) || swift_legacy::overlap(part1, part2)) {
+            listed[kept++] = listed[i];
+        }
+    }
+    listed.resize(kept);
+}
+
+/* The part of a piece, its box where the object is now. */
+inline const swift_legacy::Part& SWIFT_Scene::placed_part(uint64_t id, uint32_t piece)
+{
+    swift_legacy::Object& object = objects_[static_cast<int>(id)];
+    if (!object.has_boxes) {
+        swiftprox_object_info info;
+        info.struct_size = sizeof info;
+        check(swiftprox_scene_get_object_info(scene_, object.native, &info), "Query");
+        object.place_boxes(info.pose);
+    }
+    return object.parts[static_cast<std::size_t>(object.part_of[piece])];
+}
+
+/* Asks, and lists what is found; true if a tested pair intersects. After a failure nothing is listed. */
+inline bool SWIFT_Scene::ask(const swift_legacy::Question& question, int& num_pairs, int** oids)
+{
+    query_.early_exit = question.early_exit ? 1 : 0;
+    query_.distance_tolerance = question.tolerance;
+    query_.absolute_error = question.absolute_error;
+    query_.relative_error = question.relative_error;
+#ifdef SWIFT_LEGACY_ALL_PAIRS
+    const bool lists_by_boxes = false;
+#else
+    const bool lists_by_boxes = has_broad_phase_ && question.tolerance > DBL_MAX;
+#endif
+    if (lists_by_boxes) {
+        query_.distance_tolerance = objects_.farthest_with_overlapping_boxes();
+    }
+    swiftprox_scene_answer answer;
+    answer.pairs = NULL;
+    answer.count = 0;
+    answer.intersecting = 0;
+    answer.found = NULL;
+    check(question.ask(scene_, &query_, &answer), "Query");
+    objects_.rank();
+    results_.take(answer, objects_);
+    if (lists_by_boxes) {
+        keep_overlapping_boxes();
+    }
+    if (objects_.any_is_united()) {
+        results_.unite_parts(objects_);
+    }
+    num_pairs = results_.count();
+    if (oids != NULL) {
+        *oids = results_.write_ids();
+    }
+    return answer.intersecting != 0;
+}
+
+inline bool SWIFT_Scene::Query_Intersection(bool early_exit, int& num_pairs, int** oids)
+{
+    const swift_legacy::Question question(swiftprox_scene_query_intersection, early_exit, 0);
+    const bool intersects = ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    return intersects;
+}
+
+inline bool SWIFT_Scene::Query_Tolerance_Verification(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids)
+{
+    /* It ends early at pairs that are near, too: swiftprox looks at all of them. */
+    const swift_legacy::Question question(swiftprox_scene_query_tolerance, false,
+                                          swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
+    ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    const bool is_any_near = num_pairs > 0;
+    if (early_exit) {
+        results_.clear();
+        num_pairs = 0;
+    }
+    return is_any_near;
+}
+
+inline bool SWIFT_Scene::Query_Exact_Distance(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids,
+                                              SWIFT_Real** distances)
+{
+    const swift_legacy::Bound bound = SWIFT_LEGACY_VERSION == 2 ? swift_legacy::BOUND_EXCLUDED : swift_legacy::BOUND_INCLUDED;
+    const swift_legacy::Question question(swiftprox_scene_query_exact_distance, early_exit,
+                                          swift_legacy::native_tolerance(tolerance, bound));
+    const bool intersects = ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    if (distances != NULL) {
+        *distances = results_.write_distances();
+    }
+    return intersects;
+}
+
+#if SWIFT_LEGACY_VERSION != 2
+inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real distance_tolerance, SWIFT_Real error_tolerance,
+                                                    int& num_pairs, int** oids, SWIFT_Real** distances, SWIFT_Real** errors)
+{
+    swift_legacy::Question question(swiftprox_scene_query_approximate_distance, early_exit,
+                                    swift_legacy::native_tolerance(distance_tolerance, swift_legacy::BOUND_INCLUDED));
+    question.absolute_error = swift_legacy::native_error(error_tolerance);
+    const bool intersects = ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    SWIFT_Real* lower_ends = results_.write_lower_ends(errors);
+    if (distances != NULL) {
+        *distances = lower_ends;
+    }
+    return intersects;
+}
+
+inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids,
+                                                     SWIFT_Real** distances, SWIFT_Real** nearest_pts, SWIFT_Real** normals,
+                                                     int** pids, int** feature_types, int** feature_ids)
+{
+    const swift_legacy::Question question(swiftprox_scene_query_contacts, early_exit,
+                                          swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_INCLUDED));
+    const bool intersects = ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    if (pids != NULL) {
+        *pids = results_.write_parts(objects_);
+    }
+    write_contacts(swift_legacy::INTERSECTING_TAKE_NEEDED, distances, nearest_pts, normals, feature_types, feature_ids);
+    return intersects;
+}
+#endif
+
+#if SWIFT_LEGACY_VERSION != 1
+inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real tolerance, SWIFT_Real abs_error,
+                                                    SWIFT_Real rel_error, int& num_pairs, int** oids, SWIFT_Real** distances)
+{
+    swift_legacy::Question question(swiftprox_scene_query_approximate_distance, early_exit,
+                                    swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
+    question.absolute_error = swift_legacy::native_error(abs_error);
+    question.relative_error = swift_legacy::native_error(rel_error);
+    const bool intersects = ask(question, num_pairs, oids);
+    results_.keep_nearest();
+    if (distances != NULL) {
+        *distances = results_.write_distances();
+    }
+    return intersects;
+}
+
+inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids,
+                                                     int** num_contacts, SWIFT_Real** distances, SWIFT_Real** nearest_pts,
+                                                     SWIFT_Real** normals, int** feature_types, int** feature_ids)
+{
+    const swift_legacy::Question question(swiftprox_scene_query_contacts, early_exit,
+                                          swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
+    const bool intersects = ask(question, num_pairs, oids);
+    if (num_contacts != NULL) {
+        *num_contacts = results_.write_counts();
+    }
+    write_contacts(swift_legacy::INTERSECTING_TAKE_FOUR, distances, nearest_pts, normals, feature_types, feature_ids);
+    return intersects;
+}
+#endif
+
+inline void SWIFT_Scene::write_contacts(swift_legacy::IntersectingFeatures intersecting, SWIFT_Real** distances,
+                                        SWIFT_Real** nearest_pts, SWIFT_Real** normals, int** feature_types, int** feature_ids)
+{
+    if (distances != NULL) {
+        *distances = results_.write_distances();
+    }
+    if (nearest_pts != NULL) {
+        *nearest_pts = results_.write_points();
+    }
+    if (normals != NULL) {
+        *normals = results_.write_normals();
+    }
+    if (feature_types != NULL || feature_ids != NULL) {
+        results_.write_features(objects_, intersecting, feature_types, feature_ids);
+    }
+}
+
+inline const swiftprox_pair_answer* SWIFT_Scene::Get_Answer(int k) const
+{
+    return results_.answer(k);
+}
+
+#endif

@@ -1,0 +1,154 @@
+//! What a pair remembers of its depth: the shell that proved it, packed. Here alone it is packed and unpacked.
+
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+use crate::polyhedron::Polyhedron;
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Frame;
+use crate::solve::shell::{Shell, Start, half_edge, triangle_of};
+
+/// Vertices of a shell that is kept.
+pub const MOST_VERTICES: usize = 64;
+
+/// Triangles of a shell that is kept: a closed surface without holes and handles of so many vertices has no more.
+pub const MOST_TRIANGLES: usize = 124;
+
+/// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
+/// which of several least directions is said; never the verdict, and no depth beyond its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub struct DepthCache {
+    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first shell came to.
+    counts: [u8; 4],
+    /// Where no shell is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
+    direction: [u32; 3],
+    /// The vertices. Coordinates are computed anew: what is stored could lie.
+    pairs: [VertexPair; MOST_VERTICES],
+    triangles: [PackedTriangle; MOST_TRIANGLES],
+}
+
+/// Three corners, three neighbouring triangles, and which side of each is the common one, in two bits each.
+type PackedTriangle = [u8; 7];
+
+impl Default for DepthCache {
+    fn default() -> Self {
+        DepthCache {
+            counts: [0; 4],
+            direction: [0; 3],
+            pairs: [[0; 2]; MOST_VERTICES],
+            triangles: [[0; 7]; MOST_TRIANGLES],
+        }
+    }
+}
+
+impl DepthCache {
+    /// Puts the kept shell into an empty one, its positions computed for the pair's poses, and says where to begin. The shell stays
+    /// empty where none is kept, or what is kept is no closed surface over vertices that the bodies have.
+    #[inline(always)]
+    pub fn unpack<L: Lanes>(&self, frame: &Frame<L>, shell: &mut Shell) -> Start {
+        let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
+        let mut start = Start { triangle: None, direction: self.direction(frame), first_triangles };
+        let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
+        if !(is_kept && self.are_vertices(frame.polyhedra(), vertices)) {
+            return start;
+        }
+        if !self.unpack_triangles(shell, vertices, triangles) {
+            return start;
+        }
+        shell.vertex_count = vertices;
+        shell.triangle_count = triangles;
+        if !shell.is_closed() {
+            shell.clear();
+            return start;
+        }
+        let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
+        for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
+            let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
+            shell.positions[index] = difference.to_array();
+        }
+        shell.pairs[..vertices].copy_from_slice(&self.pairs[..vertices]);
+        start.triangle = Some(if best < triangles { best } else { 0 });
+        start
+    }
+
+    fn direction<L: Lanes>(&self, frame: &Frame<L>) -> Option<Vector> {
+        let [x, y, z] = self.direction.map(|bits| f64::from(f32::from_bits(bits)));
+        let direction = frame.bodies[0].rotate(&Vector::new(x, y, z)).to_vector();
+        let square = direction.norm_squared();
+        // False for a NaN.
+        (square > 0.25 && square < 4.0).then_some(direction)
+    }
+
+    /// Whether the bodies have the vertices.
+    #[inline(always)]
+    fn are_vertices(&self, polyhedra: [&Polyhedron; 2], vertices: usize) -> bool {
+        let [count1, count2] = polyhedra.map(|polyhedron| polyhedron.vertices.len());
+        let pairs = self.pairs[..vertices].iter();
+        pairs.fold(true, |all, &[v, w]| all & ((v as usize) < count1) & ((w as usize) < count2))
+    }
+
+    /// Whether all corners are vertices.
+    #[inline(always)]
+    fn unpack_triangles(&self, shell: &mut Shell, vertices: usize, triangles: usize) -> bool {
+        let mut largest = 0;
+        let packed = self.triangles[..triangles].iter();
+        for ((corners, twins), &[a, b, c, x, y, z, sides]) in
+            shell.corners.iter_mut().zip(&mut *shell.twins).zip(packed)
+        {
+            *corners = [a, b, c, 0];
+            largest = largest.max(a).max(b).max(c);
+            let side = |place: u32| usize::from(sides >> (2 * place) & 3);
+            let [first, second, third] = [(x, side(0)), (y, side(1)), (z, side(2))];
+            let twin = |(triangle, k): (u8, usize)| half_edge(usize::from(triangle), k);
+            *twins = [twin(first), twin(second), twin(third), 0];
+        }
+        usize::from(largest) < vertices
+    }
+
+    /// The shell that it holds stays, with another direction of least overlap.
+    #[inline(always)]
+    pub fn keep<L: Lanes>(&mut self, frame: &Frame<L>, triangle: usize, direction: &Vector) {
+        self.remember(frame, direction);
+        self.counts[2] = triangle.min(255) as u8;
+    }
+
+    #[inline(always)]
+    fn remember<L: Lanes>(&mut self, frame: &Frame<L>, direction: &Vector) {
+        let own = frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector();
+        self.direction = [(own.x as f32).to_bits(), (own.y as f32).to_bits(), (own.z as f32).to_bits()];
+    }
+
+    /// Keeps a shell, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
+    #[inline(always)]
+    pub fn pack<L: Lanes>(
+        &mut self,
+        frame: &Frame<L>,
+        shell: &Shell,
+        triangle: usize,
+        direction: &Vector,
+        first_triangles: usize,
+    ) {
+        self.remember(frame, direction);
+        let (vertices, triangles) = (shell.vertex_count, shell.triangle_count);
+        let is_small = vertices <= MOST_VERTICES && (4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles;
+        if !is_small {
+            self.counts = [0, 0, 0, 0];
+            return;
+        }
+        let byte = |count: usize| count.min(255) as u8;
+        self.counts = [byte(vertices), byte(triangles), byte(triangle), byte(first_triangles)];
+        self.pairs[..vertices].copy_from_slice(&shell.pairs[..vertices]);
+        let surface = shell.corners.iter().zip(&*shell.twins);
+        for (packed, (corners, twins)) in self.triangles[..triangles].iter_mut().zip(surface) {
+            let [x, y, z, _] = *twins;
+            let sides = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
+            let [first, second, third] = [x, y, z].map(|twin| triangle_of(twin) as u8);
+            *packed = [corners[0], corners[1], corners[2], first, second, third, sides as u8];
+        }
+    }
+
+    /// Whether a shell is kept.
+    pub fn holds_shell(&self) -> bool {
+        self.counts[1] > 0
+    }
+}

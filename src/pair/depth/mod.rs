@@ -1,0 +1,294 @@
+//! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
+//!
+//! Floating point searches and proves, `solve/shell/`; integers decide what rounding hides at the ends: objects that touch, flat
+//! ones, objects that hardly overlap.
+
+mod answer;
+mod cache;
+
+use crate::base::error::Result;
+use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
+use crate::base::simd::environment::with_default;
+use crate::base::simd::{self, Kernel, Lanes, Work};
+use crate::pair::answer::Outcome;
+use crate::pair::contact;
+use crate::pair::placed::Placed;
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+use crate::solve::decide::combinations;
+use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
+use crate::solve::frame::Frame;
+use crate::solve::shell::{self, Ending, Expansion, Start, Storage, Wanted, Witness};
+pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
+pub use cache::DepthCache;
+use cache::{MOST_TRIANGLES, MOST_VERTICES};
+
+/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them than
+/// a normal that separates them: [`crate::pair::distance`] tells how far apart they are.
+///
+/// # Errors
+/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`], and
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and `cache`
+/// are as they were.
+pub fn depth(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &mut DepthCache,
+    config: &DepthConfig,
+    answer: &mut DepthAnswer,
+) -> Result<()> {
+    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    with_default(|| answer_query(bodies, cache, config, answer))
+}
+
+fn answer_query(
+    bodies: [Placed; 2],
+    cache: &mut DepthCache,
+    config: &DepthConfig,
+    answer: &mut DepthAnswer,
+) -> Result<()> {
+    config.check()?;
+    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config, cache });
+    if found.is_none() {
+        poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
+    }
+    fill(answer, polyhedra, poses, found.as_ref());
+    Ok(())
+}
+
+/// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing.
+pub(super) fn deepest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> DepthAnswer {
+    let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
+    let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config: &config, cache: &mut cache });
+    fill(&mut answer, polyhedra, poses, found.as_ref());
+    answer
+}
+
+/// The search in floating point, compiled for the machine's vector units; it keeps the shell.
+struct Search<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    config: &'a DepthConfig,
+    cache: &'a mut DepthCache,
+}
+
+/// What the search found.
+struct Found {
+    expansion: Expansion,
+    witness: Witness,
+    triangles: u32,
+}
+
+impl Kernel for Search<'_> {
+    /// None of a pair that floating point is not for.
+    type Output = Option<Found>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<Found> {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
+        if !frame.usual {
+            return None;
+        }
+        let mut storage = Storage::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
+        let mut shell = storage.shell();
+        let start = self.cache.unpack(&frame, &mut shell);
+        let found = self.search(&frame, &mut shell, &start);
+        if found.expansion.ending == Ending::Stuck {
+            let start = Start { triangle: None, direction: None, ..start };
+            return Some(L::out_of_line(&mut InLarge { search: self, frame: &frame, start }));
+        }
+        Some(found)
+    }
+}
+
+impl Search<'_> {
+    #[inline(always)]
+    fn search<L: Lanes>(&mut self, frame: &Frame<L>, shell: &mut shell::Shell, start: &Start) -> Found {
+        let DepthConfig { absolute_error, relative_error, step_budget, .. } = *self.config;
+        let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget, lower: 0.0 };
+        let expansion = shell::expand(frame, shell, start, &wanted);
+        if shell.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
+            *self.cache = DepthCache::default();
+            let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
+            return Found { expansion, witness, triangles: 0 };
+        }
+        let (witness, triangle) = shell::witness(frame, shell, &expansion);
+        if expansion.is_as_kept {
+            self.cache.keep(frame, triangle, &expansion.direction);
+        } else {
+            self.cache.pack(frame, shell, triangle, &expansion.direction, expansion.first_triangles);
+        }
+        Found { expansion, witness, triangles: shell.triangle_count as u32 }
+    }
+}
+
+/// The search from the beginning, with more room: of bodies that are nearly as deep in each other everywhere.
+struct InLarge<'a, 'b, L> {
+    search: &'a mut Search<'b>,
+    frame: &'a Frame<'a, L>,
+    start: Start,
+}
+
+impl<L: Lanes> Work for InLarge<'_, '_, L> {
+    type Output = Found;
+
+    #[inline(always)]
+    fn run(&mut self) -> Found {
+        let mut storage = Storage::<255, 508>::empty();
+        self.search.search(self.frame, &mut storage.shell(), &self.start)
+    }
+}
+
+/// Answers by what the search found, and where that leaves the verdict open by integers.
+fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
+    let Some(found) = found else { return decide(answer, polyhedra, poses, None) };
+    let Found { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } = *found;
+    answer.statistics = DepthStatistics { steps, supports, triangles, exact_iterations: 0 };
+    if ending == Ending::Separated {
+        return fill_separated(answer, DepthEnding::Separated, &-direction);
+    }
+    if !(lower > 0.0) {
+        return decide(answer, polyhedra, poses, Some(found));
+    }
+    answer.ending = match ending {
+        Ending::Spent => DepthEnding::Budget,
+        Ending::Stuck | Ending::Flat => DepthEnding::Stalled,
+        Ending::Narrow | Ending::Separated => DepthEnding::Narrow,
+    };
+    fill_overlapping(answer, polyhedra, poses, found);
+}
+
+fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Found) {
+    let Found { expansion: Expansion { lower, upper, direction, .. }, witness, .. } = found;
+    answer.outcome = Outcome::Intersecting;
+    (answer.lower, answer.upper) = (*lower, *upper);
+    answer.depth = clamp(witness.depth, *lower, *upper);
+    fill_points(answer, polyhedra, poses, &witness.pairs[..witness.count], &witness.weights, &-direction);
+}
+
+/// Decides in integers, with what the search has found.
+#[cold]
+#[inline(never)]
+fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
+    let hint = found.map_or(&[][..], |found| &found.witness.pairs[..found.witness.count]);
+    let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
+    answer.ending = DepthEnding::Integers;
+    match position {
+        Position::Separated(apart) => {
+            answer.statistics.exact_iterations = apart.iterations;
+            fill_separated(answer, DepthEnding::Integers, &apart.direction);
+        }
+        Position::Touching { normal, common } => {
+            answer.outcome = Outcome::Intersecting;
+            (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, 0.0);
+            fill_common(answer, polyhedra, poses, &common, &normal);
+        }
+        Position::Overlapping(common) => match found {
+            Some(found) if found.expansion.upper < f64::INFINITY && found.triangles > 0 => {
+                fill_overlapping(answer, polyhedra, poses, found);
+                answer.statistics.exact_iterations = common.iterations;
+            }
+            _ => {
+                let (upper, normal) = exact::overlap_along_axes(polyhedra, poses);
+                answer.outcome = Outcome::Intersecting;
+                (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
+                fill_common(answer, polyhedra, poses, &common, &normal);
+            }
+        },
+    }
+}
+
+/// Of objects that are apart only a normal is said.
+fn fill_separated(answer: &mut DepthAnswer, ending: DepthEnding, normal: &Vector) {
+    let statistics = answer.statistics;
+    *answer = DepthAnswer {
+        outcome: Outcome::Separated,
+        ending,
+        depth: 0.0,
+        lower: 0.0,
+        upper: 0.0,
+        normal: contact::normalised(normal),
+        statistics,
+        ..DepthAnswer::default()
+    };
+}
+
+/// A common point.
+fn fill_common(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    common: &ExactAnswer,
+    normal: &Vector,
+) {
+    answer.statistics.exact_iterations = common.iterations;
+    let mut weights = [0.0; 4];
+    for (weight, exact) in weights.iter_mut().zip(&common.weights) {
+        *weight = *exact;
+    }
+    fill_points(answer, polyhedra, poses, &common.pairs, &weights, normal);
+}
+
+fn fill_points(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pairs: &[VertexPair],
+    weights: &[f64; 4],
+    normal: &Vector,
+) {
+    let points = combinations(polyhedra, pairs, weights);
+    let features = contact::features_of_pairs(polyhedra, poses, pairs, &points, normal);
+    let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+    [answer.local1, answer.local2] = local;
+    [answer.world1, answer.world2] = world;
+    answer.normal = contact::normalised(normal);
+    [answer.feature1, answer.feature2] = [0, 1].map(|i| contact::label(polyhedra[i], features[i], &points[i]));
+}
+
+/// Where a proof of a depth is looked for.
+pub(super) enum ProofFrom<'a> {
+    /// The shell that a cache holds.
+    Cache(&'a DepthCache),
+    /// A search like that of a query whose shell is too large to be kept, for a lower end of at least so much.
+    Search(f64),
+}
+
+/// The triangles of a shell in the pair's poses; none where there is no shell.
+pub(super) fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
+    simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from })
+}
+
+struct Proof<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    from: ProofFrom<'a>,
+}
+
+impl Kernel for Proof<'_> {
+    type Output = Vec<[VertexPair; 3]>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Self::Output {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        if !frame.usual {
+            return Vec::new();
+        }
+        let mut storage = Storage::<255, 508>::empty();
+        let mut shell = storage.shell();
+        match self.from {
+            ProofFrom::Cache(cache) => {
+                cache.unpack(&frame, &mut shell);
+            }
+            ProofFrom::Search(lower) => {
+                let start = Start { triangle: None, direction: None, first_triangles: 0 };
+                let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
+                shell::expand(&frame, &mut shell, &start, &wanted);
+            }
+        }
+        (0..shell.triangle_count).map(|triangle| shell.pairs_of(triangle)).collect()
+    }
+}

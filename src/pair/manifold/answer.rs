@@ -1,0 +1,127 @@
+//! What a manifold query is asked for, answers and remembers: plain data, laid out for C.
+
+use crate::base::error::{Result, check_range};
+use crate::base::math::ROTATION_LIMIT;
+use crate::pair::answer::{Feature, Outcome};
+use crate::pair::cache::PairCache;
+use crate::pair::depth::DepthCache;
+
+/// What a manifold query is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ManifoldConfig {
+    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
+    pub rotation_limit: f64,
+    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default.
+    pub margin: f64,
+    /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the line
+    /// between. None is moved. By default all are.
+    pub reduces: bool,
+}
+
+impl Default for ManifoldConfig {
+    fn default() -> Self {
+        ManifoldConfig { rotation_limit: ROTATION_LIMIT, margin: 0.0, reduces: false }
+    }
+}
+
+impl ManifoldConfig {
+    /// Refuses what is out of range.
+    ///
+    /// # Errors
+    /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
+    pub(super) fn check(&self) -> Result<()> {
+        check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
+        check_range("margin", self.margin, 0.0..=f64::MAX)
+    }
+}
+
+/// What a pair remembers of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of several
+/// least directions is said, and which of two faces that are about as parallel to it is the reference.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct ManifoldCache {
+    /// Of the distance.
+    pub(super) pair: PairCache,
+    /// Of the depth.
+    pub(super) depth: DepthCache,
+    /// 1 or 2: the object whose face was the reference; its face.
+    pub(super) reference: [u32; 2],
+}
+
+/// One contact point: a point of each object, in line along the normal.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct ManifoldPoint {
+    /// On object 1, in its local frame.
+    pub local1: [f64; 3],
+    /// On object 2, in its local frame.
+    pub local2: [f64; 3],
+    /// On object 1, in the world frame.
+    pub world1: [f64; 3],
+    /// On object 2, in the world frame.
+    pub world2: [f64; 3],
+    /// How far the first is from the second along the normal, at least; less than 0 where the objects overlap there.
+    pub gap_lower: f64,
+    /// … and at most.
+    pub gap_upper: f64,
+    /// What holds the point on object 1, in the caller's numbering.
+    pub feature1: Feature,
+    /// What holds the point on object 2.
+    pub feature2: Feature,
+    /// A number made of the two features: while they stay it stays.
+    pub id: u64,
+}
+
+/// Nothing is said.
+impl Default for ManifoldPoint {
+    fn default() -> Self {
+        const UNSAID: [f64; 3] = [f64::NAN; 3];
+        ManifoldPoint {
+            local1: UNSAID,
+            local2: UNSAID,
+            world1: UNSAID,
+            world2: UNSAID,
+            gap_lower: f64::NAN,
+            gap_upper: f64::NAN,
+            feature1: Feature::default(),
+            feature2: Feature::default(),
+            id: 0,
+        }
+    }
+}
+
+/// Where two objects meet, or nearly do.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct Manifold {
+    /// [`Outcome::Intersecting`], [`Outcome::Separated`] within the margin, or [`Outcome::Beyond`] it.
+    pub outcome: Outcome,
+    /// 1 or 2: the object whose face is the reference; 0 where no face is, and the manifold has but one point.
+    pub reference: u32,
+    /// The distance of the objects is at least this; of overlapping ones their depth is at most minus this.
+    pub lower: f64,
+    /// The distance is at most this; the depth at least minus this.
+    pub upper: f64,
+    /// Unit normal in the world frame, from object 2 to object 1: along which they are as far apart, or overlap as little, as the
+    /// interval says.
+    pub normal: [f64; 3],
+    /// Points written.
+    pub point_count: u32,
+    /// Points found, before any were left out.
+    pub found_count: u32,
+}
+
+/// Nothing is said.
+impl Default for Manifold {
+    fn default() -> Self {
+        Manifold {
+            outcome: Outcome::None,
+            reference: 0,
+            lower: f64::NAN,
+            upper: f64::NAN,
+            normal: [f64::NAN; 3],
+            point_count: 0,
+            found_count: 0,
+        }
+    }
+}

@@ -1,0 +1,207 @@
+//! The outline of a face seen along the normal of a contact, or of a body that has no faces.
+
+use crate::base::math::{Pose, Vector, divisor};
+use crate::polyhedron::Polyhedron;
+
+/// Axes of a contact: two across its normal, and that.
+#[derive(Debug, Clone, Copy)]
+pub struct Axes {
+    pub across: [Vector; 2],
+    pub normal: Vector,
+}
+
+impl Axes {
+    /// For a unit normal; the first axis is turned away from a direction by an angle that has nothing to do with it, as edges along
+    /// the second axis would stand upright.
+    pub fn new(normal: &Vector, beside: &Vector) -> Axes {
+        let part = beside - normal * normal.dot(beside);
+        let aside = if part.norm() > 1e-6 * beside.norm() { part } else { normal.cross(&least_axis(normal)) };
+        let first = aside.normalize();
+        let second = normal.cross(&first);
+        let (cosine, sine) = (0.823_7, 0.567_020_026_8);
+        let turned = (first * cosine + second * sine).normalize();
+        Axes { across: [turned, normal.cross(&turned)], normal: *normal }
+    }
+
+    /// A point of the world from its coordinates.
+    pub fn point(&self, spot: &Vector) -> Vector {
+        self.across[0] * spot.x + self.across[1] * spot.y + self.normal * spot.z
+    }
+
+    fn spot(&self, point: &Vector) -> Vector {
+        Vector::new(self.across[0].dot(point), self.across[1].dot(point), self.normal.dot(point))
+    }
+}
+
+fn least_axis(v: &Vector) -> Vector {
+    let mut axis = Vector::zeros();
+    axis[v.iamin()] = 1.0;
+    axis
+}
+
+/// A polygon of a placed body: a face, or the segment or point that the body is. Everything is measured from the centred origin of
+/// body 2.
+pub struct Outline<'a> {
+    pub polyhedron: &'a Polyhedron,
+    pub pose: &'a Pose,
+    /// Where the body's own centred origin is.
+    pub offset: Vector,
+    pub axes: &'a Axes,
+    /// The face; `None` for a body without faces.
+    pub face: Option<u32>,
+    pub count: usize,
+    /// Whether its corners go around counter-clockwise, seen against the normal.
+    is_counter_clockwise: bool,
+}
+
+impl<'a> Outline<'a> {
+    pub fn new(
+        polyhedron: &'a Polyhedron,
+        pose: &'a Pose,
+        offset: Vector,
+        axes: &'a Axes,
+        face: Option<u32>,
+    ) -> Outline<'a> {
+        let count = match face {
+            Some(face) => polyhedron.faces[face as usize].side_count as usize,
+            None => polyhedron.vertices.len().min(2),
+        };
+        let mut outline = Outline { polyhedron, pose, offset, axes, face, count, is_counter_clockwise: true };
+        outline.is_counter_clockwise = outline.facing() >= 0.0;
+        outline
+    }
+
+    /// The cosine between the face's normal and the contact's; 0 without a face.
+    pub fn facing(&self) -> f64 {
+        let Some(face) = self.face else { return 0.0 };
+        let towards = self.pose.rotate_back(&self.axes.normal);
+        self.polyhedron.faces[face as usize].normal.dot(&towards)
+    }
+
+    /// The vertex at a corner.
+    pub fn vertex(&self, corner: usize) -> u32 {
+        let Some(face) = self.face else { return corner as u32 };
+        let record = &self.polyhedron.faces[face as usize];
+        let edge = &self.polyhedron.edges[self.polyhedron.side(record, corner as u32) as usize];
+        if edge.left() == face { edge.tail() } else { edge.head() }
+    }
+
+    /// Where a corner is: two coordinates across the normal, and the height along it.
+    pub fn spot(&self, corner: usize) -> Vector {
+        let position = self.polyhedron.vertices[self.vertex(corner) as usize].position;
+        self.axes.spot(&(self.pose.rotate(&position) + self.offset))
+    }
+
+    /// The caller's indices of the ends of the side from a corner to the next.
+    pub fn side_labels(&self, side: usize) -> [u32; 2] {
+        match self.face {
+            Some(face) => {
+                let record = &self.polyhedron.faces[face as usize];
+                self.polyhedron.edges[self.polyhedron.side(record, side as u32) as usize].labels
+            }
+            None => [self.polyhedron.vertex_labels[0], self.polyhedron.vertex_labels[self.count - 1]],
+        }
+    }
+
+    /// How high it is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a face on
+    /// edge.
+    pub fn height_at(&self, x: f64, y: f64, rounding: f64) -> Option<(f64, f64)> {
+        let Some(face) = self.face else {
+            let (from, to) = (self.spot(0), self.spot(self.count - 1));
+            let along = to - from;
+            let share =
+                ((x - from.x) * along.x + (y - from.y) * along.y) / divisor(along.x * along.x + along.y * along.y);
+            return Some((from.z + along.z * share.clamp(0.0, 1.0), rounding));
+        };
+        let face = &self.polyhedron.faces[face as usize];
+        // The normal in the world, up to its length: (R⁻¹)ᵀ·n is R·n where R is orthonormal up to rounding.
+        let inverse = self.pose.rotation().try_inverse()?;
+        let normal = self.axes.spot(&(inverse.transpose() * face.normal));
+        if !(normal.z.abs() > STEEPEST * normal.norm()) {
+            return None;
+        }
+        let corner = self.spot(0);
+        let rise = (normal.x * (x - corner.x) + normal.y * (y - corner.y)) / normal.z;
+        let error = (face.slack + rounding) * normal.norm() / normal.z.abs();
+        Some((corner.z - rise, 2.0 * error))
+    }
+
+    /// A point in the body's frame, in centred coordinates.
+    pub fn local(&self, spot: &Vector) -> Option<Vector> {
+        let inverse = self.pose.rotation().try_inverse()?;
+        Some(inverse * (self.axes.point(spot) - self.offset))
+    }
+
+    /// The corners of least and of greatest first coordinate.
+    fn ends(&self) -> [usize; 2] {
+        let (mut ends, mut reaches) = ([0; 2], [f64::INFINITY, f64::NEG_INFINITY]);
+        for corner in 0..self.count {
+            let x = self.spot(corner).x;
+            if x < reaches[0] {
+                (ends[0], reaches[0]) = (corner, x);
+            }
+            if x > reaches[1] {
+                (ends[1], reaches[1]) = (corner, x);
+            }
+        }
+        ends
+    }
+
+    /// The lower and the upper chain, from left to right.
+    pub fn chains(&'a self) -> [Chain<'a>; 2] {
+        let [left, right] = self.ends();
+        let (forward, backward) = (1, self.count - 1);
+        let steps = if self.is_counter_clockwise { [forward, backward] } else { [backward, forward] };
+        steps.map(|step| {
+            let left_to_right = right + self.count - left;
+            let segments = if step == 1 { left_to_right } else { 2 * self.count - left_to_right } % self.count;
+            let first = self.spot(left);
+            Chain { outline: self, step, segments, corner: left, from: first, to: first, has_begun: false }
+        })
+    }
+}
+
+/// A face whose normal is flatter to the contact's than this has no height over a point.
+const STEEPEST: f64 = 1e-3;
+
+/// One side of an outline, from its leftmost corner to its rightmost.
+#[derive(Clone, Copy)]
+pub struct Chain<'a> {
+    outline: &'a Outline<'a>,
+    /// From corner to corner, around.
+    step: usize,
+    /// Segments still to come.
+    pub segments: usize,
+    /// The corner at `to`.
+    pub corner: usize,
+    /// The ends of the segment; at first both are the leftmost corner.
+    pub from: Vector,
+    pub to: Vector,
+    pub has_begun: bool,
+}
+
+impl Chain<'_> {
+    /// Whether it has a further event: the corner at `to`.
+    pub fn advance(&mut self) -> bool {
+        if self.segments == 0 {
+            return false;
+        }
+        self.segments -= 1;
+        self.corner = (self.corner + self.step) % self.outline.count;
+        (self.from, self.to) = (self.to, self.outline.spot(self.corner));
+        self.has_begun = true;
+        true
+    }
+
+    /// The side that the segment is.
+    pub fn side(&self) -> usize {
+        if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
+    }
+
+    /// The segment's point over a first coordinate.
+    pub fn at(&self, x: f64) -> Vector {
+        let along = self.to - self.from;
+        let t = (x - self.from.x) / divisor(along.x);
+        self.from + along * t.clamp(0.0, 1.0)
+    }
+}

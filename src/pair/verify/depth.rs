@@ -1,0 +1,303 @@
+//! The independent check of a depth: from above by the support along the normal, over all vertices; from below by a closed shell of
+//! triangles, each at least so far from the origin, that surrounds it.
+//!
+//! Whoever proposes the shell is not trusted. That it is closed is seen by its edges, how far a triangle is by double-double
+//! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as in
+//! the search.
+
+use super::bounds::Bounds;
+use super::{Witness, allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
+use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::simd::environment::with_default;
+use crate::pair::answer::Outcome;
+use crate::pair::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
+use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
+use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
+use std::cmp::Ordering;
+
+/// Re-checks an answer of [`crate::pair::depth`] for the same shapes and poses; `cache` is that of the query, which holds the proof,
+/// or any other.
+///
+/// Verdict and interval are proved for the exact objects R·v + T, without tolerance:
+///
+/// | outcome | what is proved, d the depth |
+/// |---|---|
+/// | [`Outcome::Intersecting`] | the objects have a common point; `lower` ≤ d ≤ `upper`; `upper` is 0 just if d is |
+/// | [`Outcome::Separated`] | they have none; all of the interval is 0 |
+///
+/// `lower` ≤ `depth` ≤ `upper` holds. What else is said is rounded, so it holds up to the allowance of [`super::verify`]: points
+/// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
+///
+/// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
+///
+/// # Errors
+/// As of [`super::verify`].
+pub fn verify_depth(
+    shape1: &Shape,
+    pose1: &Pose,
+    shape2: &Shape,
+    pose2: &Pose,
+    cache: &DepthCache,
+    answer: &DepthAnswer,
+) -> Result<()> {
+    let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
+    with_default(|| {
+        [pose1, pose2].iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
+        match answer.outcome {
+            Outcome::Intersecting => check_overlapping(polyhedra, [pose1, pose2], cache, answer),
+            Outcome::Separated => check_separated(polyhedra, [pose1, pose2], answer),
+            _ => Err(Error::Argument("the answer holds no depth".into())),
+        }
+    })
+}
+
+fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &DepthAnswer) -> Result<()> {
+    if (answer.lower, answer.depth, answer.upper) != (0.0, 0.0, 0.0) {
+        return Err(unverified("a depth of objects that are said to be separated".into()));
+    }
+    let witnesses = witnesses(polyhedra, poses, answer);
+    if super::are_said(&witnesses) {
+        return Err(unverified("points or features of objects that are said to be separated".into()));
+    }
+    let normal = Vector::from(answer.normal);
+    check_unit(&normal)?;
+    let bounds = Bounds::new(polyhedra, poses);
+    if bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&normal), &normal, 0.0)) {
+        return Ok(());
+    }
+    if exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]).is_zero() {
+        return Err(unverified("the objects have a common point".into()));
+    }
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
+    check_normal(polyhedra, poses, &normal, &between, -allowed)
+}
+
+fn check_overlapping(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    cache: &DepthCache,
+    answer: &DepthAnswer,
+) -> Result<()> {
+    let DepthAnswer { lower, depth, upper, .. } = *answer;
+    if !(0.0 <= lower && lower <= depth && depth <= upper && upper < f64::INFINITY) {
+        return Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")));
+    }
+    let normal = Vector::from(answer.normal);
+    check_unit(&normal)?;
+    let facts = Facts::new(polyhedra, poses);
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
+    check_upper(&facts, &normal, upper, allowed)?;
+    if lower > 0.0 {
+        prove_lower(&facts, cache, lower)?;
+    } else {
+        check_position(polyhedra, poses, upper)?;
+    }
+    let witnesses = witnesses(polyhedra, poses, answer);
+    for witness in &witnesses {
+        witness.check_point(allowed, &[])?;
+        witness.check_on_feature(allowed + (upper - lower))?;
+    }
+    let apart = super::difference_of(polyhedra, poses, &witnesses);
+    let off = length(&(apart + normal * depth));
+    if off <= allowed + (upper - lower) {
+        return Ok(());
+    }
+    Err(unverified(format!("the witness points are {off:e} off the translation by {depth:e} along the normal")))
+}
+
+/// Of a lower end of 0 only the position is left to be proved.
+fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) -> Result<()> {
+    match exact::locate(polyhedra, poses, &[], Supports::OfAll) {
+        Position::Separated(_) => Err(unverified("the objects have no common point".into())),
+        Position::Touching { .. } if upper > 0.0 => Err(unverified("an overlap of objects that only touch".into())),
+        Position::Overlapping(_) if upper == 0.0 => Err(unverified("no overlap of objects that overlap".into())),
+        Position::Touching { .. } | Position::Overlapping(_) => Ok(()),
+    }
+}
+
+/// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded.
+fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Result<()> {
+    let most = if upper > 0.0 { upper } else { allowed };
+    if facts.bounds.as_ref().is_some_and(|bounds| bounds.prove_overlap(&bounds.gap(normal), normal, most)) {
+        return Ok(());
+    }
+    match facts.exact.overlap_along(normal) {
+        Some(overlap) if overlap.compare(most).is_gt() => {
+            let (least, _) = overlap.bounds();
+            Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &DepthAnswer) -> [Witness<'a>; 2] {
+    let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
+    std::array::from_fn(|i| {
+        let (local, world, feature) = said[i];
+        let (polyhedron, pose) = (polyhedra[i], poses[i]);
+        Witness { object: i + 1, polyhedron, pose, local: local.into(), world: world.into(), feature }
+    })
+}
+
+type Triangle = [VertexPair; 3];
+
+/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for, as a query does or until it proves it.
+fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
+    let mut why = Ok(());
+    for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
+        let shell = proof(facts.polyhedra, facts.poses, from);
+        why = encloses_ball(facts, &shell, lower);
+        if why.is_ok() {
+            return Ok(());
+        }
+    }
+    why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
+}
+
+/// Whether a shell encloses the ball of a radius around the origin, or why it may not.
+fn encloses_ball(facts: &Facts, shell: &[Triangle], radius: f64) -> std::result::Result<(), &'static str> {
+    if shell.is_empty() {
+        return Err("there is no shell around the origin");
+    }
+    if !is_closed(shell) {
+        return Err("the shell is not closed");
+    }
+    if !shell.iter().all(|triangle| facts.is_beyond(triangle, radius)) {
+        return Err("a triangle of the shell is nearer");
+    }
+    if !surrounds_origin(facts, shell) {
+        return Err("the shell does not surround the origin");
+    }
+    Ok(())
+}
+
+/// Every edge is walked as often one way as the other.
+fn is_closed(shell: &[Triangle]) -> bool {
+    let mut edges = Vec::with_capacity(3 * shell.len());
+    for triangle in shell {
+        for k in 0..3 {
+            let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
+            match tail.cmp(&head) {
+                Ordering::Less => edges.push((tail, head, 1)),
+                Ordering::Greater => edges.push((head, tail, -1)),
+                Ordering::Equal => {}
+            }
+        }
+    }
+    edges.sort_unstable();
+    edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
+}
+
+/// Rays tried before a shell is taken for one that does not surround the origin: one that meets an edge tells nothing.
+const RAYS: usize = 16;
+
+/// Whether the shell's degree about the origin is not 0: the sum of the signs with which a ray crosses it. No triangle holds the
+/// origin.
+fn surrounds_origin(facts: &Facts, shell: &[Triangle]) -> bool {
+    let crossing_of = |ray: &Vector| {
+        let mut degree = 0;
+        for triangle in shell {
+            degree += facts.crossing(triangle, ray)?;
+        }
+        Some(degree)
+    };
+    let rays = (0..RAYS).map(|attempt| {
+        let triangle = &shell[attempt * 7919 % shell.len()];
+        let [p, q, r] = triangle.map(|pair| facts.position(pair));
+        // Beside the middle, so that no symmetry leads it through an edge.
+        p * 0.31 + q * 0.3301 + r * 0.3599
+    });
+    rays.filter_map(|ray| crossing_of(&ray)).next().is_some_and(|degree| degree != 0)
+}
+
+/// What is known of vertex differences, for sure.
+struct Facts<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    exact: Differences<'a>,
+    bounds: Option<Bounds<'a>>,
+}
+
+impl<'a> Facts<'a> {
+    fn new(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2]) -> Facts<'a> {
+        Facts { polyhedra, poses, exact: Differences::new(polyhedra, poses), bounds: Bounds::new(polyhedra, poses) }
+    }
+
+    /// A difference, rounded; 0 of pairs whose magnitudes are beyond double-double arithmetic.
+    fn position(&self, pair: VertexPair) -> Vector {
+        self.bounds.as_ref().map_or_else(Vector::zeros, |bounds| narrow(&bounds.difference(pair)))
+    }
+
+    /// Whether a triangle is at least so far from the origin.
+    fn is_beyond(&self, triangle: &Triangle, radius: f64) -> bool {
+        if self.bounds.as_ref().is_some_and(|bounds| plane_is_beyond(bounds, triangle, radius)) {
+            return true;
+        }
+        self.exact.distance_of_hull(triangle).is_some_and(|distance| distance.compare(radius).is_ge())
+    }
+
+    /// How a ray from the origin crosses a triangle: 1 from behind, −1 from before, 0 not at all; `None` if it meets its rim, or
+    /// the plane of it passes through the origin.
+    fn crossing(&self, triangle: &Triangle, ray: &Vector) -> Option<i32> {
+        let corners = triangle.map(|pair| self.position(pair));
+        let [a, b, c] = &corners;
+        let side = |p: &Vector, q: &Vector| clear_sign(ray, p, q);
+        let sides = [(0, side(a, b)), (1, side(b, c)), (2, side(c, a))].map(|(k, clear)| {
+            clear.unwrap_or_else(|| self.exact.side_of_ray(ray, [triangle[k], triangle[(k + 1) % 3]]))
+        });
+        if sides.contains(&Ordering::Less) && sides.contains(&Ordering::Greater) {
+            return Some(0);
+        }
+        if sides.contains(&Ordering::Equal) {
+            return None;
+        }
+        // All on one side: the line of the ray crosses the triangle, the ray itself where its orientation is the same.
+        let orientation = clear_sign(a, b, c).unwrap_or_else(|| self.exact.orientation(*triangle));
+        if orientation == Ordering::Equal {
+            return None;
+        }
+        Some(if orientation == sides[0] { orientation as i32 } else { 0 })
+    }
+}
+
+/// The sign of a determinant of columns right to u each, where it is clear: products and sums err by 6u of what their magnitudes make.
+fn clear_sign(a: &Vector, b: &Vector, c: &Vector) -> Option<Ordering> {
+    let value = a.dot(&b.cross(c));
+    let is_clear = value.abs() > 16.0 * U * length(a) * length(b) * length(c) + f64::MIN_POSITIVE;
+    is_clear.then(|| value.total_cmp(&0.0))
+}
+
+/// Whether the triangle's plane, or another through its nearest point, proves it to be so far from the origin: for any m that is
+/// at least min m·v/|m|.
+fn plane_is_beyond(bounds: &Bounds, triangle: &Triangle, radius: f64) -> bool {
+    let corners = triangle.map(|pair| bounds.difference(pair));
+    let edge = |k: usize| [0, 1, 2].map(|axis| corners[k][axis] - corners[0][axis]);
+    let normal = narrow(&wide_cross(&edge(1), &edge(2)));
+    let rounded = [0, 1, 2].map(|k| narrow(&corners[k]));
+    let candidates = [normal, nearest_on_side(&rounded)];
+    candidates.iter().any(|normal| {
+        let scale = normal.amax();
+        if !(scale > 0.0 && scale < f64::INFINITY) {
+            return false;
+        }
+        let unit = normal / scale;
+        // Square root and its argument are right to 3u.
+        let needed = radius * unit.norm() * (1.0 + 8.0 * U);
+        corners.iter().all(|corner| bounds.is_more(wide_dot(&widen(&unit), corner), needed))
+    })
+}
+
+/// The point of a triangle's sides nearest to the origin, about.
+fn nearest_on_side(corners: &[Vector; 3]) -> Vector {
+    let nearest = |k: usize| {
+        let (from, along) = (corners[k], corners[(k + 1) % 3] - corners[k]);
+        from + along * clamp(-from.dot(&along) / along.norm_squared(), 0.0, 1.0)
+    };
+    let nearer = |a: Vector, b: Vector| if b.norm_squared() < a.norm_squared() { b } else { a };
+    nearer(nearer(nearest(0), nearest(1)), nearest(2))
+}

@@ -1,0 +1,56 @@
+//! Facts about the differences of vertex pairs, in integers: what a proof of depth rests on, looked at one by one.
+
+use std::cmp::Ordering;
+
+use super::dyadic::{DyadicVector, IntVector, cross, dot};
+use super::{DifferenceBody, ExactDistance, VertexPair, nearest_of_hull};
+use crate::base::math::{Pose, Vector};
+use crate::polyhedron::Polyhedron;
+use crate::solve::exact::body::Body;
+use crate::solve::exact::boundary::Supports;
+use dashu_int::IBig;
+
+/// The differences of the vertices of two placed bodies.
+pub struct Differences<'a>(DifferenceBody<'a>);
+
+impl<'a> Differences<'a> {
+    /// For any finite poses.
+    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Differences<'a> {
+        Differences(DifferenceBody { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) })
+    }
+
+    fn components(&self, pair: VertexPair) -> IntVector {
+        self.0.corner(pair).position.components
+    }
+
+    /// On which side of the plane through the origin, a ray and the first difference the second one lies: the sign of det(ray, p, q).
+    pub fn side_of_ray(&self, ray: &Vector, [p, q]: [VertexPair; 2]) -> Ordering {
+        let ray = DyadicVector::from_doubles((*ray).into()).components;
+        dot(&ray, &cross(&self.components(p), &self.components(q))).cmp(&IBig::ZERO)
+    }
+
+    /// On which side of a triangle the origin is: the sign of the determinant of its corners, positive seen clockwise from there.
+    pub fn orientation(&self, [p, q, r]: [VertexPair; 3]) -> Ordering {
+        let [p, q, r] = [p, q, r].map(|pair| self.components(pair));
+        dot(&p, &cross(&q, &r)).cmp(&IBig::ZERO)
+    }
+
+    /// How far the hull of a few differences is from the origin.
+    pub fn distance_of_hull(&self, pairs: &[VertexPair]) -> Option<ExactDistance> {
+        let corners = self.0.corners(pairs);
+        let simplex = nearest_of_hull(corners.first()?.clone(), &corners);
+        let square = dot(&simplex.direction, &simplex.direction);
+        Some(ExactDistance { exponent: simplex.exponent(), square, height: simplex.height })
+    }
+
+    /// By how much the bodies overlap along a direction from body 2 to body 1, over all vertices; `None` if they do not.
+    pub fn overlap_along(&self, direction: &Vector) -> Option<ExactDistance> {
+        let against = DyadicVector::from_doubles((-direction).into()).components;
+        let farthest = self.0.farthest([0, 0], &against, Supports::OfAll).position;
+        let height = dot(&against, &farthest.components);
+        (height >= IBig::ZERO).then(|| {
+            let square = dot(&against, &against);
+            ExactDistance { height, square, exponent: farthest.exponent }
+        })
+    }
+}

@@ -1,0 +1,48 @@
+//! Whether the degree of a shell about the origin is positive for sure.
+//!
+//! It is the sum of the signs with which a ray from the origin crosses triangles. The proof is about the computed corners; the
+//! exact ones are off by no more than the difference's error, and every triangle is farther from the origin than that, so that
+//! none meets it on the way from the one cycle to the other.
+
+use super::Rounding;
+use super::storage::Shell;
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+
+/// All planes of the shell are known to be at a positive distance. If all determinants are positive the solid angles sum up to more
+/// than 0. Otherwise a ray through a certainly positive triangle does, if it certainly misses the uncertain ones.
+#[inline(always)]
+pub fn is_positive(shell: &Shell, rounding: &Rounding) -> bool {
+    let certain = &shell.certain[..shell.triangle_count];
+    certain.iter().fold(1, |all, certain| all & certain) == 1 || ray_proves(shell, rounding)
+}
+
+#[cold]
+fn ray_proves(shell: &Shell, rounding: &Rounding) -> bool {
+    let triangles = 0..shell.triangle_count;
+    let certain = triangles.clone().filter(|&t| shell.certain[t] == 1);
+    // A large one that is far away.
+    let weight = |t: usize| {
+        let [p, q, r] = shell.positions_of(t);
+        (q - p).cross(&(r - p)).norm() * shell.distances[t]
+    };
+    let Some(through) = certain.reduce(|a, b| if weight(b) > weight(a) { b } else { a }) else { return false };
+    let ray = shell.positions_of(through).iter().sum::<Vector>() / 3.0;
+    let length = ray.norm();
+    triangles.filter(|&t| shell.certain[t] == 0).all(|t| {
+        let corners = shell.positions_of(t);
+        // A ray into the cone of a triangle is on one side of the three planes through the origin and its sides.
+        let (mut left, mut right) = (false, false);
+        for k in 0..3 {
+            let (p, q) = (&corners[k], &corners[(k + 1) % 3]);
+            let side = ray.dot(&p.cross(q));
+            let error = 16.0 * U * length * p.norm() * q.norm() + f64::MIN_POSITIVE;
+            left |= side > error;
+            right |= side < -error;
+        }
+        // Or it goes the other way: the whole triangle is behind the origin, or beyond a plane that the ray leaves behind. A
+        // product with the ray errs by 3u of the lengths, and the corners are at most 1/10u times `determinant` long.
+        let is_behind = corners.iter().all(|corner| ray.dot(corner) < -length * rounding.determinant);
+        let leaves = shell.distances[t] > 0.0 && shell.normal(t).dot(&ray) < -8.0 * U * length;
+        (left && right) || is_behind || leaves
+    })
+}

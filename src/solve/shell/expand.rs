@@ -1,0 +1,379 @@
+//! The search: from the last shell, or a first one, until both bounds meet.
+
+use super::planes::{evaluate, nearest};
+use super::sliver::{sharpen, straighten};
+use super::storage::{NO_PLANE, Shell, half_edge, next, triangle_of};
+use super::support::{Support, support};
+use super::surgery::{Demand, replace};
+use super::{Rounding, centre_of_differences, degree, first};
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Frame;
+
+/// Steps made with a shell of an earlier query before it is given up for a first one.
+const WARM_STEPS: u32 = 48;
+
+/// Steps in all, whatever the budget; on the hard cases 231 were the most.
+const MOST_STEPS: u32 = 400;
+
+/// A shell with more triangles than this that are nearer than they should be is given up at once: so many expansions take as
+/// long as a first shell.
+const MOST_STALE: usize = 8;
+
+/// A shell with more triangles than this, and than twice those that the last first shell came to, is given up, too: each query takes
+/// time in proportion to them.
+const MOST_KEPT: usize = 72;
+
+/// The first shell is still so coarse that the tables know better where to climb from.
+const COARSE: usize = 16;
+
+/// What a search is to come to.
+#[derive(Debug, Clone, Copy)]
+pub struct Wanted {
+    /// How wide the interval may be; at least [`Rounding::provable`] counts.
+    pub width: f64,
+    /// Or how wide as a multiple of its lower end.
+    pub relative: f64,
+    /// How many steps it may take.
+    pub steps: u32,
+    /// What the lower end is to come to, if it can: 0 but for a search for a proof.
+    pub lower: f64,
+}
+
+/// Where a search begins.
+#[derive(Debug, Clone, Copy)]
+pub struct Start {
+    /// The triangle of the shell whose normal was the direction of least overlap, if there is a shell.
+    pub triangle: Option<usize>,
+    /// A direction of small overlap, where no shell is known.
+    pub direction: Option<Vector>,
+    /// Triangles that the last first shell came to.
+    pub first_triangles: usize,
+}
+
+/// How a search ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// A direction separates the bodies.
+    Separated,
+    /// The interval is as narrow as was wanted.
+    Narrow,
+    /// The steps were spent.
+    Spent,
+    /// No triangle could be added where one is needed: the room is full, or rounding hides where.
+    Stuck,
+    /// The differences are flat as far as rounding lets one see.
+    Flat,
+}
+
+/// What a search found.
+#[derive(Debug, Clone, Copy)]
+pub struct Expansion {
+    /// How it ended.
+    pub ending: Ending,
+    /// The depth of intersecting bodies is at least this; more than 0 only if they intersect for sure.
+    pub lower: f64,
+    /// Along `direction` the bodies overlap by at most this; negative: they are so far apart at least.
+    pub upper: f64,
+    /// The unit vector, from the inside of the difference body to the boundary, along which the bodies overlap least.
+    pub direction: Vector,
+    /// The vertices that reach farthest along it.
+    pub farthest: VertexPair,
+    /// Triangles that the last first shell came to.
+    pub first_triangles: usize,
+    /// Whether the shell is the one that the search began with.
+    pub is_as_kept: bool,
+    /// Expansions.
+    pub steps: u32,
+    /// Support vertices asked for.
+    pub supports: u32,
+}
+
+/// The search in a shell that is closed, with its positions computed, or empty.
+#[inline(always)]
+pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, wanted: &Wanted) -> Expansion {
+    let rounding = Rounding::of(frame);
+    let mut search = Search {
+        frame,
+        rounding,
+        share: 1.0 - 1.0 / (1.0 + wanted.relative),
+        width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
+        best: Best { upper: f64::INFINITY, beyond: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
+        lower: wanted.lower,
+        demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE, grows: true },
+        steps: 0,
+        supports: 0,
+        first_triangles: start.first_triangles,
+        is_as_kept: false,
+    };
+    let ending = search.run(shell, start, wanted.steps.min(MOST_STEPS));
+    let is_sure = ending != Ending::Separated && shell.triangle_count > 0;
+    let lower = if is_sure { nearest::<L>(shell).1 } else { 0.0 };
+    let lower = if lower > 0.0 && degree::is_positive(shell, &rounding) { lower } else { 0.0 };
+    Expansion {
+        ending,
+        lower: if lower < search.best.upper { lower } else { search.best.upper.max(0.0) },
+        upper: search.best.upper,
+        direction: search.best.direction,
+        farthest: search.best.farthest,
+        first_triangles: search.first_triangles,
+        is_as_kept: search.is_as_kept,
+        steps: search.steps,
+        supports: search.supports,
+    }
+}
+
+/// The least upper bound so far.
+struct Best {
+    upper: f64,
+    /// What of it is owed to ties at the support vertices, which no expansion makes less.
+    beyond: f64,
+    direction: Vector,
+    farthest: VertexPair,
+}
+
+struct Search<'a, L> {
+    frame: &'a Frame<'a, L>,
+    rounding: Rounding,
+    /// How wide the interval may be …
+    width: f64,
+    /// … or as a share of its upper end.
+    share: f64,
+    /// See [`Wanted::lower`].
+    lower: f64,
+    best: Best,
+    demand: Demand,
+    steps: u32,
+    supports: u32,
+    first_triangles: usize,
+    is_as_kept: bool,
+}
+
+/// What a step came to.
+enum Step {
+    /// Go on.
+    On,
+    /// Nothing can be done about the nearest triangle.
+    Stuck,
+    /// The bodies are separated.
+    Separated,
+}
+
+impl<L: Lanes> Search<'_, L> {
+    #[inline(always)]
+    fn run(&mut self, shell: &mut Shell, start: &Start, most_steps: u32) -> Ending {
+        let mut is_warm = self.takes_over(shell, start);
+        self.is_as_kept = is_warm;
+        if self.best.upper < 0.0 {
+            return Ending::Separated;
+        }
+        loop {
+            if !is_warm {
+                self.is_as_kept = false;
+                // No direction of an earlier query but one that was not kept with its shell: as a start it saves two steps of 17.
+                let known = start.direction.as_ref().filter(|_| start.triangle.is_none());
+                let made = first::make(self.frame, shell, &self.rounding, known, &mut self.supports);
+                let Some(centre) = made else { return Ending::Flat };
+                self.demand = Demand { centre, about_origin: false, ..self.demand };
+            }
+            let limit = if is_warm { WARM_STEPS.min(most_steps) } else { most_steps };
+            let ending = self.grow(shell, limit, is_warm);
+            if is_warm && matches!(ending, Ending::Stuck | Ending::Spent) && self.steps < most_steps {
+                is_warm = false;
+                continue;
+            }
+            if !is_warm {
+                self.first_triangles = shell.triangle_count;
+            }
+            return ending;
+        }
+    }
+
+    /// Whether the shell of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
+    #[inline(always)]
+    fn takes_over(&mut self, shell: &mut Shell, start: &Start) -> bool {
+        let count = shell.triangle_count;
+        let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
+        let least = evaluate::<L>(shell, &self.rounding, &self.demand.centre, 0, count);
+        if shell.distances[triangle] > NO_PLANE {
+            let [pair, ..] = shell.pairs_of(triangle);
+            self.ask(&shell.normal(triangle), Some(pair));
+            if self.best.upper < 0.0 {
+                return true;
+            }
+        }
+        if !(least.height > self.rounding.plane) {
+            if !(least.distance > 0.0) {
+                return false;
+            }
+            self.demand.about_origin = true;
+        }
+        let target = self.target();
+        let stale = shell.distances[..count].iter().filter(|distance| **distance < target).count();
+        stale <= MOST_STALE && count <= MOST_KEPT.max(2 * self.first_triangles)
+    }
+
+    /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where
+    /// that can be proved.
+    #[inline(always)]
+    fn target(&self) -> f64 {
+        let reach = self.best.upper - self.best.beyond;
+        let share = self.share * reach;
+        let target = reach - if share > self.width { share } else { self.width };
+        let provable = reach - self.rounding.provable;
+        let least = if provable > 0.0 { f64::MIN_POSITIVE } else { provable };
+        let target = if target > least { target } else { least };
+        // Where the bounds meet the planes' error still is between the distance of a triangle and the reach beyond it, twice.
+        let lower = self.lower.min(reach - 2.0 * self.rounding.plane);
+        if target > lower { target } else { lower }
+    }
+
+    /// Asks for a support, and takes its direction if the bodies overlap less along it.
+    #[inline(always)]
+    fn ask(&mut self, direction: &Vector, from: Option<VertexPair>) -> Support {
+        self.supports += 1;
+        let found = support(self.frame, &self.rounding, direction, from);
+        if found.upper < self.best.upper {
+            let Support { upper, beyond, pair, .. } = found;
+            self.best = Best { upper, beyond, direction: *direction, farthest: pair };
+        }
+        found
+    }
+
+    /// Expands until the interval is narrow enough.
+    #[inline(always)]
+    fn grow(&mut self, shell: &mut Shell, most_steps: u32, is_warm: bool) -> Ending {
+        let mut straightened = None;
+        loop {
+            let (triangle, distance) = nearest::<L>(shell);
+            if distance >= self.target() && self.best.upper < f64::INFINITY {
+                return Ending::Narrow;
+            }
+            if self.steps >= most_steps {
+                return Ending::Spent;
+            }
+            if self.is_as_kept {
+                shell.count_uses();
+                self.is_as_kept = false;
+            }
+            self.steps += 1;
+            match self.step(shell, triangle, is_warm, &mut straightened) {
+                Step::On => {}
+                Step::Separated => return Ending::Separated,
+                Step::Stuck => return Ending::Stuck,
+            }
+        }
+    }
+
+    /// Expands beyond the nearest triangle; where that fails it gives it a better plane. `straightened` is the triangle that got
+    /// one last.
+    #[inline(always)]
+    fn step(&mut self, shell: &mut Shell, triangle: usize, is_warm: bool, straightened: &mut Option<usize>) -> Step {
+        if shell.distances[triangle] > NO_PLANE {
+            let normal = shell.normal(triangle);
+            let height = |corner: &u8| normal.dot(&shell.position(*corner));
+            let corners = shell.corners_of(triangle);
+            let highest = corners.iter().fold(corners[0], |a, b| if height(b) > height(&a) { *b } else { a });
+            let highest_reach = height(&highest);
+            let is_coarse = !is_warm && shell.triangle_count < COARSE;
+            let from = (!is_coarse).then_some(shell.pairs[usize::from(highest)]);
+            let found = self.ask(&normal, from);
+            if self.best.upper < 0.0 {
+                return Step::Separated;
+            }
+            if shell.distances[triangle] >= self.target() {
+                return Step::On;
+            }
+            if found.reach - highest_reach > self.rounding.plane && self.insert(shell, triangle, &found) {
+                *straightened = None;
+                return Step::On;
+            }
+            if *straightened != Some(triangle) {
+                *straightened = Some(triangle);
+                if straighten(self.frame, shell, &self.rounding, triangle) {
+                    return Step::On;
+                }
+            }
+        }
+        let direction = (self.best.upper < f64::INFINITY).then_some(&self.best.direction);
+        if sharpen(shell, &self.rounding, triangle, direction) { Step::On } else { Step::Stuck }
+    }
+
+    /// Inserts a support vertex beyond a triangle; a vertex that the shell has already by a flip, or by taking a corner of the
+    /// triangle out. Flips have to raise the least distance, so that they cannot go round in circles.
+    #[inline(always)]
+    fn insert(&mut self, shell: &mut Shell, triangle: usize, found: &Support) -> bool {
+        let known = shell.find(found.pair);
+        let Some(apex) = known.or_else(|| shell.add_vertex(found.pair, found.position)) else { return false };
+        let before = shell.distances[triangle];
+        let is_flip = known.is_some();
+        let raised = before + self.rounding.plane;
+        self.demand.least = if is_flip && before > 0.0 { raised + 1e-9 * raised } else { NO_PLANE };
+        self.demand.grows = true;
+        let mut region = shell.begin_region();
+        shell.add_to_region(&mut region, triangle);
+        if !shell.flood(&mut region, apex, &self.rounding) {
+            return false;
+        }
+        if replace::<L>(shell, region, apex, &self.rounding, &self.demand) {
+            return true;
+        }
+        is_flip && shell.corners_of(triangle).into_iter().any(|corner| self.take_out(shell, corner))
+    }
+
+    /// Takes a vertex of few triangles out: the hole is filled by a fan from one of its neighbours, the nearest first.
+    #[inline(always)]
+    fn take_out(&mut self, shell: &mut Shell, vertex: u8) -> bool {
+        let Some(ring) = Ring::around(shell, vertex) else { return false };
+        let from = shell.position(vertex);
+        let mut by_distance: [(f64, u8); MOST_AROUND] = [(f64::INFINITY, 0); MOST_AROUND];
+        for (entry, &neighbour) in by_distance.iter_mut().zip(&ring.neighbours[..ring.count]) {
+            *entry = ((shell.position(neighbour) - from).norm_squared(), neighbour);
+        }
+        by_distance[..ring.count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
+        self.demand.grows = false;
+        by_distance[..ring.count.min(3)].iter().any(|(_, neighbour)| {
+            let mut region = shell.begin_region();
+            for &triangle in &ring.triangles[..ring.count] {
+                shell.add_to_region(&mut region, usize::from(triangle));
+            }
+            replace::<L>(shell, region, *neighbour, &self.rounding, &self.demand)
+        })
+    }
+}
+
+/// A vertex with more triangles around it is not taken out.
+const MOST_AROUND: usize = 10;
+
+/// The triangles around a vertex.
+struct Ring {
+    triangles: [u16; MOST_AROUND],
+    neighbours: [u8; MOST_AROUND],
+    count: usize,
+}
+
+impl Ring {
+    fn around(shell: &Shell, vertex: u8) -> Option<Ring> {
+        let triangles = 0..shell.triangle_count;
+        let corner =
+            |t: usize| shell.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
+        let first = triangles.into_iter().find_map(corner)?;
+        let mut ring = Ring { triangles: [0; MOST_AROUND], neighbours: [0; MOST_AROUND], count: 0 };
+        let mut at = first;
+        loop {
+            if ring.count == MOST_AROUND {
+                return None;
+            }
+            ring.triangles[ring.count] = triangle_of(at) as u16;
+            ring.neighbours[ring.count] = shell.tail(next(at));
+            ring.count += 1;
+            at = shell.twin(next(next(at)));
+            if at == first {
+                break;
+            }
+        }
+        // Where the surface is pinched there are more triangles than around one side of it.
+        (ring.count >= 3 && ring.count == usize::from(shell.uses[usize::from(vertex)])).then_some(ring)
+    }
+}

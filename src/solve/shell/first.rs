@@ -1,0 +1,157 @@
+//! The first shell of a pair: from supports in a few directions.
+
+use super::planes::evaluate;
+use super::storage::{Shell, half_edge};
+use super::support::{Support, support};
+use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+use crate::solve::frame::Frame;
+
+/// How far the three sides of the bipyramid lean towards its tip. (Equatorial ones leave 23 steps where these leave 17.)
+const LEAN: f64 = 1.4;
+
+/// In general position to anything a model or a scene is likely to be aligned with.
+const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
+
+/// Makes the first shell. Returns the point inside from which to look at it; `None` where the differences are flat as far as rounding
+/// lets one see.
+#[inline(always)]
+pub fn make<L: Lanes>(
+    frame: &Frame<L>,
+    shell: &mut Shell,
+    rounding: &Rounding,
+    direction: Option<&Vector>,
+    supports: &mut u32,
+) -> Option<Vector> {
+    let centre = centre_of_differences(frame);
+    // Nearest is mostly the side on which the origin is.
+    let away = -centre;
+    let tip = match direction {
+        Some(direction) => *direction,
+        None if away.norm() > 1e-6 * frame.size => away,
+        None => GENERIC,
+    };
+    if bipyramid(frame, shell, rounding, &centre, &tip, supports) {
+        return Some(centre);
+    }
+    tetrahedron(frame, shell, rounding, &tip, supports)
+}
+
+/// Adds a vertex; whether it is a new one.
+fn add(shell: &mut Shell, found: &Support) -> bool {
+    if shell.pairs[..shell.vertex_count].contains(&found.pair) {
+        return false;
+    }
+    shell.pairs[shell.vertex_count] = found.pair;
+    shell.positions[shell.vertex_count] = found.position;
+    shell.vertex_count += 1;
+    true
+}
+
+/// Two tips and three vertices around the line between them. No if two of them are one, or the centre is not inside.
+#[inline(always)]
+fn bipyramid<L: Lanes>(
+    frame: &Frame<L>,
+    shell: &mut Shell,
+    rounding: &Rounding,
+    centre: &Vector,
+    tip: &Vector,
+    supports: &mut u32,
+) -> bool {
+    shell.clear();
+    let tip = tip.normalize();
+    let axis = if tip.x.abs() < 0.6 { Vector::x() } else { Vector::y() };
+    let side = tip.cross(&axis).normalize();
+    let across = tip.cross(&side);
+    let half_root = 0.75_f64.sqrt();
+    let around = [side, side * -0.5 + across * half_root, side * -0.5 - across * half_root];
+    let [a, b, c] = around.map(|direction| (direction + tip * LEAN).normalize());
+    for direction in [tip, a, b, c, -tip] {
+        *supports += 1;
+        if !add(shell, &support(frame, rounding, &direction, None)) {
+            return false;
+        }
+    }
+    for i in 0..3 {
+        let (own, following) = (1 + i as u8, 1 + ((i + 1) % 3) as u8);
+        shell.corners[i] = [0, own, following, 0];
+        shell.corners[3 + i] = [4, following, own, 0];
+        shell.join(half_edge(i, 1), half_edge(3 + i, 1));
+        shell.join(half_edge(i, 2), half_edge((i + 1) % 3, 0));
+        shell.join(half_edge(3 + i, 0), half_edge(3 + (i + 1) % 3, 2));
+    }
+    shell.triangle_count = 6;
+    shell.count_uses();
+    evaluate::<L>(shell, rounding, centre, 0, 6).height > rounding.plane
+}
+
+/// Four differences far from each other, and their mean.
+#[inline(always)]
+fn tetrahedron<L: Lanes>(
+    frame: &Frame<L>,
+    shell: &mut Shell,
+    rounding: &Rounding,
+    tip: &Vector,
+    supports: &mut u32,
+) -> Option<Vector> {
+    let mut both = |direction: &Vector| {
+        *supports += 2;
+        let direction = direction.normalize();
+        [direction, -direction].map(|direction| support(frame, rounding, &direction, None))
+    };
+    let least = 4.0 * rounding.difference;
+    let position = |found: &Support| Vector::new(found.position[0], found.position[1], found.position[2]);
+    // A line …
+    let axes = [*tip, Vector::x(), Vector::y(), Vector::z()];
+    let ends = axes.iter().map(&mut both).find(|ends| (position(&ends[0]) - position(&ends[1])).norm() > least)?;
+    let [first, second] = ends.map(|end| position(&end));
+    let along = (second - first).normalize();
+    // … a triangle …
+    let mut axis = Vector::zeros();
+    axis[along.iamin()] = 1.0;
+    let across = along.cross(&axis).normalize();
+    let off_line = |found: &Support| {
+        let off = position(found) - first;
+        (off - along * along.dot(&off)).norm()
+    };
+    let sides: [[Support; 2]; 2] = [both(&across), both(&along.cross(&across))];
+    let third = sides.into_iter().flatten().reduce(|a, b| if off_line(&b) > off_line(&a) { b } else { a })?;
+    if !(off_line(&third) > 2.0 * least) {
+        return None;
+    }
+    let normal = (second - first).cross(&(position(&third) - first));
+    if !(normal.norm() > SHORTEST_NORMAL) {
+        return None;
+    }
+    // … and what is farthest from its plane.
+    let normal = normal.normalize();
+    let height = |found: &Support| normal.dot(&(position(found) - first));
+    let [above, below] = both(&normal);
+    let is_above = height(&above) >= -height(&below);
+    let fourth = if is_above { above } else { below };
+    if !(height(&fourth).abs() > 2.0 * least) {
+        return None;
+    }
+    shell.clear();
+    for found in [&ends[0], &ends[1], &third, &fourth] {
+        add(shell, found);
+    }
+    if shell.vertex_count < 4 {
+        return None;
+    }
+    let [y, z] = if is_above { [2, 1] } else { [1, 2] };
+    let corners = [[0, y, z], [y, 0, 3], [z, y, 3], [0, z, 3]];
+    for (own, [a, b, c]) in shell.corners.iter_mut().zip(corners) {
+        *own = [a, b, c, 0];
+    }
+    for [triangle, k, other, side] in
+        [[0, 0, 1, 0], [0, 1, 2, 0], [0, 2, 3, 0], [1, 1, 3, 2], [1, 2, 2, 1], [2, 2, 3, 1]]
+    {
+        shell.join(half_edge(triangle, k), half_edge(other, side));
+    }
+    shell.triangle_count = 4;
+    shell.count_uses();
+    let centre = (0..4).map(|vertex| shell.position(vertex)).sum::<Vector>() * 0.25;
+    (evaluate::<L>(shell, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
+}

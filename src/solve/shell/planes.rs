@@ -1,0 +1,97 @@
+//! The planes of triangles, four at a time: the pass that takes most of a query's time.
+
+use super::storage::{NO_PLANE, Shell};
+use super::{Rounding, SHORTEST_NORMAL};
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+
+/// The least values over some triangles.
+#[derive(Debug, Clone, Copy)]
+pub struct Least {
+    /// Of [`Shell::distances`].
+    pub distance: f64,
+    /// Of [`Shell::heights`].
+    pub height: f64,
+}
+
+/// Computes the planes of triangles `from..to`, which are not none, as seen from the `centre`.
+#[inline(always)]
+pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vector, from: usize, to: usize) -> Least {
+    let [plane_error, determinant_error] = [L::splat(rounding.plane), L::splat(rounding.determinant)];
+    let [centre_x, centre_y, centre_z] = [L::splat(centre.x), L::splat(centre.y), L::splat(centre.z)];
+    let (shortest, none, one) = (L::splat(SHORTEST_NORMAL), L::splat(NO_PLANE), L::splat(1.0));
+    let [mut least_distance, mut least_height] = [L::splat(f64::INFINITY); 2];
+    let last = to - 1;
+    let mut first = from;
+    while first < to {
+        let four = [
+            &shell.corners[first],
+            &shell.corners[(first + 1).min(last)],
+            &shell.corners[(first + 2).min(last)],
+            &shell.corners[(first + 3).min(last)],
+        ];
+        let p: [L; 3] = components(shell.positions, &four, 0);
+        let q: [L; 3] = components(shell.positions, &four, 1);
+        let r: [L; 3] = components(shell.positions, &four, 2);
+        let [ex, ey, ez] = [q[0].sub(p[0]), q[1].sub(p[1]), q[2].sub(p[2])];
+        let [gx, gy, gz] = [r[0].sub(p[0]), r[1].sub(p[1]), r[2].sub(p[2])];
+        let nx = ez.negated_mul_add(gy, ey.mul(gz));
+        let ny = ex.negated_mul_add(gz, ez.mul(gx));
+        let nz = ey.negated_mul_add(gx, ex.mul(gy));
+        let length = nx.mul_add(nx, ny.mul_add(ny, nz.mul(nz))).sqrt();
+        let inverse = one.div(length.max(shortest));
+        let [ux, uy, uz] = [nx.mul(inverse), ny.mul(inverse), nz.mul(inverse)];
+        let above = |v: &[L; 3]| ux.mul_add(v[0], uy.mul_add(v[1], uz.mul(v[2])));
+        let [over_p, over_q, over_r] = [above(&p), above(&q), above(&r)];
+        let distance = over_p.min(over_q).min(over_r).sub(plane_error);
+        let height = over_p.sub(above(&[centre_x, centre_y, centre_z]));
+        let distance = distance.where_greater(length, shortest, none);
+        let height = height.where_greater(length, shortest, none);
+        least_distance = least_distance.min(distance);
+        least_height = least_height.min(height);
+        // The determinant is length·(over_p + …), see `Rounding::determinant`; the distance has been lessened by its rounding.
+        let edges = ex.mul_add(ex, ey.mul_add(ey, ez.mul(ez))).mul(gx.mul_add(gx, gy.mul_add(gy, gz.mul(gz))));
+        let certain = distance.mul(length).greater(determinant_error.mul(edges.sqrt()));
+        // What is written beyond the last is overwritten before it is used.
+        shell.normals[0][first..first + 4].copy_from_slice(&ux.to_array());
+        shell.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
+        shell.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
+        shell.distances[first..first + 4].copy_from_slice(&distance.to_array());
+        shell.heights[first..first + 4].copy_from_slice(&height.to_array());
+        let bit = |lane: u32| (certain >> lane & 1) as u8;
+        shell.certain[first..first + 4].copy_from_slice(&[bit(0), bit(1), bit(2), bit(3)]);
+        first += 4;
+    }
+    Least { distance: least_distance.least().0, height: least_height.least().0 }
+}
+
+/// The coordinates of a corner of four triangles. (Mapping an array would call a closure that is compiled without the lanes'
+/// instructions.)
+#[inline(always)]
+fn components<L: Lanes>(positions: &[[f64; 4]], [a, b, c, d]: &[&[u8; 4]; 4], corner: usize) -> [L; 3] {
+    L::components(&[
+        L::load(&positions[usize::from(a[corner])]),
+        L::load(&positions[usize::from(b[corner])]),
+        L::load(&positions[usize::from(c[corner])]),
+        L::load(&positions[usize::from(d[corner])]),
+    ])
+}
+
+/// The triangle of the least distance, and that; of several the first.
+#[inline(always)]
+pub fn nearest<L: Lanes>(shell: &Shell) -> (usize, f64) {
+    let distances = &shell.distances[..shell.triangle_count];
+    let mut least = L::splat(f64::INFINITY);
+    let (fours, rest) = distances.as_chunks::<4>();
+    for four in fours {
+        least = least.min(L::load(four));
+    }
+    let mut value = least.least().0;
+    for distance in rest {
+        if *distance < value {
+            value = *distance;
+        }
+    }
+    let place = distances.iter().position(|distance| *distance == value).unwrap_or(0);
+    (place, value)
+}

@@ -1,0 +1,160 @@
+//! Support vertices of the difference body, and the upper bound that they prove.
+
+use super::Rounding;
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::simd::Lanes;
+use crate::polyhedron::lookup::Table;
+use crate::polyhedron::{Polyhedron, clear_slope};
+use crate::solve::certificate;
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Frame;
+use crate::solve::voronoi::{Corner, Rule, STRICT, VertexTest, test_vertex};
+use crate::tables;
+
+/// A support vertex of the difference body.
+#[derive(Debug, Clone, Copy)]
+pub struct Support {
+    /// The vertices whose difference it is.
+    pub pair: VertexPair,
+    /// Where it is, as computed.
+    pub position: [f64; 4],
+    /// How far it reaches along the direction, as computed.
+    pub reach: f64,
+    /// How much farther the bodies may reach than these vertices.
+    pub beyond: f64,
+    /// An upper bound of the support of the exact bodies along the exact direction of unit length.
+    pub upper: f64,
+}
+
+/// Vertices that a body of so few are all looked at.
+const FEW: usize = 24;
+
+/// The support of the difference body along a direction of unit length as computed, climbed to from a pair of vertices or else from
+/// where the look-up tables say.
+#[inline(always)]
+pub fn support<L: Lanes>(
+    frame: &Frame<L>,
+    rounding: &Rounding,
+    direction: &Vector,
+    start: Option<VertexPair>,
+) -> Support {
+    let [body1, body2] = &frame.bodies;
+    let along = L::from_vector(direction);
+    let (vertex1, beyond1) = farthest(body1.polyhedron, body1.rotate_back(along), start.map(|pair| pair[0]));
+    let (vertex2, beyond2) = farthest(body2.polyhedron, body2.rotate_back(along).negate(), start.map(|pair| pair[1]));
+    let position = frame.difference(
+        &body1.polyhedron.vertices[vertex1 as usize].position,
+        &body2.polyhedron.vertices[vertex2 as usize].position,
+    );
+    let reach = along.dot(position);
+    let beyond = (beyond1 + beyond2) * (1.0 + 64.0 * U);
+    // `plane` covers the product and the length of the direction, as of the normal of a triangle; the sum is less than 8M.
+    let upper = reach + beyond + rounding.plane;
+    Support { pair: [vertex1, vertex2], position: position.to_array(), reach, beyond, upper }
+}
+
+/// A vertex farthest along a direction of about unit length, and how much farther the body may reach.
+#[inline(always)]
+fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
+    if polyhedron.vertices.len() <= FEW {
+        return farthest_of_few(polyhedron, towards);
+    }
+    let mut vertex = start.unwrap_or_else(|| look_up(polyhedron, &towards.to_vector()));
+    // Each step leads up for sure, so that no vertex comes twice.
+    for _ in 0..=polyhedron.vertices.len() {
+        let Some(corner) = Corner::of(polyhedron, vertex) else { break };
+        vertex = match test_vertex(Rule::Most, corner, towards, LENGTH, CLEARLY) {
+            VertexTest::Strict => return (vertex, 0.0),
+            VertexTest::Leaves { head, .. } => head,
+            VertexTest::Tied => match plateau(polyhedron, &towards.to_vector(), vertex) {
+                Plateau::Highest(vertex, beyond) => return (vertex, beyond),
+                Plateau::Up(head) => head,
+                Plateau::Large => break,
+            },
+        }
+    }
+    (vertex, certificate::of_vertex(polyhedron, vertex, &towards.to_vector()))
+}
+
+/// An upper bound of |RᵀU|.
+const LENGTH: f64 = 1.02;
+
+/// A computed slope beyond this has the right sign, see [`STRICT`].
+const CLEARLY: f64 = STRICT * LENGTH;
+
+/// Vertices of a plateau that are looked at.
+const LARGEST_PLATEAU: usize = 32;
+
+/// What is around a vertex that ties with neighbours of it.
+enum Plateau {
+    /// The highest of those that it ties with, and how much higher the body may be.
+    Highest(u32, f64),
+    /// From one of them this one is clearly up.
+    Up(u32),
+    /// Too many.
+    Large,
+}
+
+/// All vertices that one ties with, and that these tie with, and so on. From a vertex that is not farthest an edge leads up, be it by
+/// less than rounding shows: so if no edge leads clearly up, a farthest vertex is among them.
+#[cold]
+#[inline(never)]
+fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
+    let (mut tied, mut count, mut done) = ([vertex; LARGEST_PLATEAU], 1, 0);
+    let (rough, clear) = (towards.map(|d| d as f32).into(), clear_slope(LENGTH));
+    while done < count {
+        let from = tied[done];
+        done += 1;
+        for block in polyhedron.neighbour_blocks(from) {
+            for (slope, &head) in block.slopes(rough).into_iter().zip(&block.head) {
+                if slope < -clear || tied[..count].contains(&head) {
+                    continue;
+                }
+                let slope = polyhedron.direction_to(from, head).dot(towards);
+                if slope > CLEARLY {
+                    return Plateau::Up(head);
+                }
+                if slope >= -CLEARLY {
+                    if count == LARGEST_PLATEAU {
+                        return Plateau::Large;
+                    }
+                    tied[count] = head;
+                    count += 1;
+                }
+            }
+        }
+    }
+    let height = |v: u32| towards.dot(&polyhedron.vertices[v as usize].position);
+    let highest = tied[..count].iter().fold(vertex, |a, b| if height(*b) > height(a) { *b } else { a });
+    Plateau::Highest(highest, HEIGHTS * polyhedron.radius)
+}
+
+/// By how much the order of two heights, over the radius, may be wrong: each errs by 3u·|g|, and g by 6.2u.
+const HEIGHTS: f64 = 20.0 * U;
+
+/// Of few vertices, all are looked at.
+#[inline(always)]
+fn farthest_of_few<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) {
+    let towards = towards.to_vector();
+    let (mut best, mut highest, mut second) = (0, f64::NEG_INFINITY, f64::NEG_INFINITY);
+    for (index, vertex) in (0..).zip(&polyhedron.vertices) {
+        let height = towards.dot(&vertex.position);
+        if height > highest {
+            (best, second, highest) = (index, highest, height);
+        } else if height > second {
+            second = height;
+        }
+    }
+    let rounding = HEIGHTS * polyhedron.radius;
+    (best, if highest - second > rounding { 0.0 } else { rounding })
+}
+
+/// Where the look-up tables say.
+#[inline(always)]
+fn look_up(polyhedron: &Polyhedron, towards: &Vector) -> u32 {
+    match tables::table(polyhedron) {
+        Table::Shells(table) => table.farthest([towards.x as f32, towards.y as f32, towards.z as f32]),
+        Table::Spherical(table) => table.towards(towards),
+        Table::None => 0,
+    }
+}

@@ -1,0 +1,312 @@
+//! The one way in which a shell changes: a region of triangles gives way to the cone from a vertex over its rim.
+
+use super::Rounding;
+use super::planes::evaluate;
+use super::storage::{HalfEdge, NO_TRIANGLE, RimEdge, Shell, half_edge, next, triangle_of};
+use crate::base::math::Vector;
+use crate::base::simd::{Lanes, Work};
+use std::marker::PhantomData;
+
+/// What new triangles have to be.
+#[derive(Debug, Clone, Copy)]
+pub struct Demand {
+    /// The point inside from which the shell is looked at.
+    pub centre: Vector,
+    /// Whether they are to look away from the origin instead of from the centre.
+    pub about_origin: bool,
+    /// No plane is to be nearer to the origin than this.
+    pub least: f64,
+    /// Whether the region may grow: what stands behind a triangle that is not as demanded is taken in.
+    pub grows: bool,
+}
+
+const IN_REGION: u8 = 1 << 7;
+
+/// Triangles of a region beyond which surgery is given up.
+const LARGEST_REGION: usize = 200;
+
+/// Triangles of a region beyond which it does not grow for triangles that are not as demanded.
+const LARGEST_GROWN: usize = 60;
+
+impl Shell<'_> {
+    /// Begins a region.
+    #[inline(always)]
+    pub fn begin_region(&mut self) -> Region {
+        self.marks[..self.triangle_count].fill(0);
+        Region { size: 0 }
+    }
+
+    #[inline(always)]
+    pub fn is_in_region(&self, triangle: usize) -> bool {
+        self.marks[triangle] & IN_REGION != 0
+    }
+
+    /// Adds a triangle that is not in the region.
+    #[inline(always)]
+    pub fn add_to_region(&mut self, region: &mut Region, triangle: usize) {
+        self.marks[triangle] |= IN_REGION;
+        self.region[region.size] = triangle as u16;
+        region.size += 1;
+    }
+
+    /// Floods a region from its first triangle over all that look towards a vertex by more than rounding; whether it stayed small.
+    #[inline(always)]
+    pub fn flood(&mut self, region: &mut Region, apex: u8, rounding: &Rounding) -> bool {
+        let target = self.position(apex);
+        let mut done = 0;
+        while done < region.size {
+            let triangle = usize::from(self.region[done]);
+            done += 1;
+            for k in 0..3 {
+                let other = triangle_of(self.twins[triangle][k]);
+                if self.is_in_region(other) {
+                    continue;
+                }
+                let corner = self.position(self.corners[other][0]);
+                if self.normal(other).dot(&(target - corner)) > rounding.plane {
+                    if region.size >= LARGEST_REGION {
+                        return false;
+                    }
+                    self.add_to_region(region, other);
+                }
+            }
+        }
+        true
+    }
+
+    /// Walks the loops of edges around the region and lays out a new triangle on each.
+    #[inline(always)]
+    fn walk_rim(&mut self, region: &Region, apex: u8, is_known: bool) -> Rim {
+        let (mut edges, mut triangles) = (0, 0);
+        for place in 0..region.size {
+            self.marks[usize::from(self.region[place])] &= IN_REGION;
+        }
+        for place in 0..region.size {
+            for k in 0..3 {
+                let begin = half_edge(usize::from(self.region[place]), k);
+                if self.is_walked(begin) || self.is_in_region(triangle_of(self.twin(begin))) {
+                    continue;
+                }
+                let (first_edge, mut at, mut apexes) = (edges, begin, 0);
+                loop {
+                    self.marks[triangle_of(at)] |= 1 << (at & 3);
+                    let (tail, head, outer) = (self.tail(at), self.tail(next(at)), self.twin(at));
+                    let mut triangle = NO_TRIANGLE;
+                    apexes += u32::from(tail == apex);
+                    if tail != apex && head != apex {
+                        // A vertex of the shell must not come to be on both sides of an edge.
+                        if is_known && self.corners_of(triangle_of(outer)).contains(&apex) {
+                            return Rim::Grow(triangle_of(outer));
+                        }
+                        let new = self.triangle_count + triangles;
+                        if new >= self.triangle_room() {
+                            return Rim::Refused;
+                        }
+                        self.corners[new] = [tail, head, apex, 0];
+                        triangle = new as u16;
+                        triangles += 1;
+                    }
+                    if edges == self.rim.len() {
+                        return Rim::Refused;
+                    }
+                    self.rim[edges] = RimEdge { tail, head, ends_loop: false, outer, triangle };
+                    edges += 1;
+                    match self.following(at, region.size) {
+                        Some(following) if following == begin => break,
+                        Some(following) => at = following,
+                        None => return Rim::Refused,
+                    }
+                }
+                // The apex once on a loop: twice, and the cone would be pinched.
+                if edges - first_edge < 3 || apexes > 1 {
+                    return Rim::Refused;
+                }
+                self.rim[edges - 1].ends_loop = true;
+            }
+        }
+        if triangles == 0 { Rim::Refused } else { Rim::Closed { edges, triangles } }
+    }
+
+    fn is_walked(&self, at: HalfEdge) -> bool {
+        self.marks[triangle_of(at)] >> (at & 3) & 1 != 0
+    }
+
+    /// The half-edge that follows on the rim: turning around its head within the region, which has at most three half-edges a
+    /// triangle there.
+    #[inline(always)]
+    fn following(&self, at: HalfEdge, region_size: usize) -> Option<HalfEdge> {
+        let mut following = next(at);
+        for _ in 0..=3 * region_size {
+            let across = self.twin(following);
+            if !self.is_in_region(triangle_of(across)) {
+                return Some(following);
+            }
+            following = next(across);
+        }
+        None
+    }
+
+    /// Evaluates the new triangles.
+    #[inline(always)]
+    fn judge<L: Lanes>(&mut self, edges: usize, triangles: usize, rounding: &Rounding, demand: &Demand) -> Verdict {
+        let count = self.triangle_count;
+        let least = evaluate::<L>(self, rounding, &demand.centre, count, count + triangles);
+        let side = if demand.about_origin { least.distance } else { least.height };
+        if side > 0.0 && least.distance + rounding.plane > demand.least {
+            return Verdict::AsDemanded;
+        }
+        for edge in self.rim[..edges].iter().filter(|edge| edge.triangle != NO_TRIANGLE) {
+            let triangle = usize::from(edge.triangle);
+            let side = if demand.about_origin { self.distances[triangle] } else { self.heights[triangle] };
+            if !(side > 0.0) {
+                return Verdict::Grow(triangle_of(edge.outer));
+            }
+            if !(self.distances[triangle] + rounding.plane > demand.least) {
+                break;
+            }
+        }
+        Verdict::Refused
+    }
+
+    /// Joins the new triangles to each other and to what is around the region, and fills its place from the end.
+    #[inline(always)]
+    fn link(&mut self, region: &Region, edges: usize, triangles: usize, apex: u8) {
+        for place in 0..region.size {
+            for corner in self.corners_of(usize::from(self.region[place])) {
+                self.uses[usize::from(corner)] -= 1;
+            }
+        }
+        let mut first = 0;
+        while first < edges {
+            let length = 1 + self.rim[first..edges].iter().position(|edge| edge.ends_loop).unwrap_or(edges - first - 1);
+            for i in 0..length {
+                let edge = self.rim[first + i];
+                if edge.triangle == NO_TRIANGLE {
+                    continue;
+                }
+                for corner in [edge.tail, edge.head, apex] {
+                    self.uses[usize::from(corner)] += 1;
+                }
+                let triangle = usize::from(edge.triangle);
+                let after = self.rim[first + if i + 1 == length { 0 } else { i + 1 }];
+                let before = self.rim[first + if i == 0 { length - 1 } else { i - 1 }];
+                self.join(half_edge(triangle, 0), edge.outer);
+                // An edge that ends at the apex is the side of the cone itself.
+                let onward = if after.triangle == NO_TRIANGLE { after.outer } else { 4 * after.triangle + 2 };
+                let backward = if before.triangle == NO_TRIANGLE { before.outer } else { 4 * before.triangle + 1 };
+                self.join(half_edge(triangle, 1), onward);
+                self.join(half_edge(triangle, 2), backward);
+            }
+            first += length;
+        }
+        let grown = self.triangle_count + triangles;
+        self.marks[self.triangle_count..grown].fill(0);
+        self.triangle_count = grown;
+        for place in (0..region.size).rev() {
+            self.fill_hole(place);
+        }
+    }
+
+    /// Moves the last triangle that is not in the region to the place of the region's triangle; those after it are in it, and go.
+    #[inline(always)]
+    fn fill_hole(&mut self, place: usize) {
+        while self.triangle_count > 0 && self.is_in_region(self.triangle_count - 1) {
+            self.triangle_count -= 1;
+        }
+        let hole = usize::from(self.region[place]);
+        if hole >= self.triangle_count {
+            return;
+        }
+        let last = self.triangle_count - 1;
+        self.triangle_count = last;
+        self.corners[hole] = self.corners[last];
+        self.distances[hole] = self.distances[last];
+        self.heights[hole] = self.heights[last];
+        self.certain[hole] = self.certain[last];
+        for axis in &mut self.normals {
+            axis[hole] = axis[last];
+        }
+        self.marks[hole] = 0;
+        for k in 0..3 {
+            let twin = self.twins[last][k];
+            // Of a triangle that is its own neighbour both half-edges move.
+            let twin = if triangle_of(twin) == last { half_edge(hole, usize::from(twin & 3)) } else { twin };
+            self.join(half_edge(hole, k), twin);
+        }
+    }
+}
+
+/// Puts the cone from a vertex over the region's rim in the place of the region. Unless all new triangles are as demanded nothing is
+/// changed, but for the vertex itself, and the answer is no.
+#[inline(always)]
+pub fn replace<L: Lanes>(shell: &mut Shell, region: Region, apex: u8, rounding: &Rounding, demand: &Demand) -> bool {
+    L::out_of_line(&mut Replacement { shell, region, apex, rounding, demand, lanes: PhantomData::<L> })
+}
+
+/// Out of line, since it is much and asked for in two places.
+struct Replacement<'a, 'b, L> {
+    shell: &'a mut Shell<'b>,
+    region: Region,
+    apex: u8,
+    rounding: &'a Rounding,
+    demand: &'a Demand,
+    lanes: PhantomData<L>,
+}
+
+impl<L: Lanes> Work for Replacement<'_, '_, L> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run(&mut self) -> bool {
+        let Replacement { shell, region, apex, rounding, demand, .. } = self;
+        let is_known = shell.uses[usize::from(*apex)] > 0;
+        loop {
+            let verdict = match shell.walk_rim(region, *apex, is_known) {
+                Rim::Closed { edges, triangles } => match shell.judge::<L>(edges, triangles, rounding, demand) {
+                    Verdict::AsDemanded => {
+                        shell.link(region, edges, triangles, *apex);
+                        return true;
+                    }
+                    // Where the region has become large, growing on does not help.
+                    Verdict::Grow(triangle) if region.size <= LARGEST_GROWN => Verdict::Grow(triangle),
+                    Verdict::Grow(_) | Verdict::Refused => Verdict::Refused,
+                },
+                Rim::Grow(triangle) => Verdict::Grow(triangle),
+                Rim::Refused => Verdict::Refused,
+            };
+            // What is left has to be a surface, and the region is to fit in its list.
+            match verdict {
+                Verdict::Grow(triangle)
+                    if demand.grows && region.size + 4 < shell.triangle_count && region.size < LARGEST_REGION =>
+                {
+                    shell.add_to_region(region, triangle);
+                }
+                _ => return false,
+            }
+        }
+    }
+}
+
+/// A set of triangles: the first so many of [`Shell::region`].
+#[derive(Debug, Clone, Copy)]
+pub struct Region {
+    pub(super) size: usize,
+}
+
+/// What a walk around a region came to.
+enum Rim {
+    /// So many edges, and new triangles on them.
+    Closed { edges: usize, triangles: usize },
+    /// A triangle is to be taken into the region.
+    Grow(usize),
+    /// No rim for a cone.
+    Refused,
+}
+
+/// What the new triangles are.
+enum Verdict {
+    AsDemanded,
+    /// With this triangle in the region they may be.
+    Grow(usize),
+    Refused,
+}

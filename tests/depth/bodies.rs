@@ -1,0 +1,257 @@
+//! Random and adversarial pairs against the independent check.
+
+use std::f64::consts::TAU;
+
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, depth};
+use swiftprox::progress::Progress;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify_depth;
+
+use testkit::hard::families;
+use testkit::random::rotation;
+use testkit::shapes::{cuboid, hull};
+
+use crate::{Random, query};
+
+fn prepared(shape: Shape) -> Shape {
+    shape.prepare(&mut Progress::new(&mut |_| true)).unwrap();
+    shape
+}
+
+fn ellipsoid(random: &mut Random, count: usize, half_axes: [f64; 3]) -> Shape {
+    let points: Vec<Vector> = (0..count).map(|_| random.direction().component_mul(&Vector::from(half_axes))).collect();
+    prepared(hull(&points))
+}
+
+/// A prism over a regular polygon.
+fn prism(sides: usize, height: f64) -> Shape {
+    let corner = |k: usize, z: f64| {
+        let angle = TAU * k as f64 / sides as f64;
+        Vector::new(angle.cos(), angle.sin(), z)
+    };
+    let points: Vec<Vector> = (0..sides).flat_map(|k| [corner(k, -height), corner(k, height)]).collect();
+    prepared(hull(&points))
+}
+
+/// Bodies of many vertices, of many sizes.
+pub fn large(random: &mut Random) -> Vec<Shape> {
+    let mut shapes = vec![cuboid([0.5, 0.5, 0.5]), cuboid([1.0, 0.3, 0.05]), prism(5, 0.5), prism(64, 0.1)];
+    for (count, half_axes) in
+        [(30, [1.0, 1.0, 1.0]), (100, [1.0, 1.0, 0.1]), (300, [1.0, 1.0, 1.0]), (200, [1.0, 0.1, 0.1]), (20, [0.2; 3])]
+    {
+        shapes.push(ellipsoid(random, count, half_axes));
+    }
+    shapes
+}
+
+fn radius(shape: &Shape) -> f64 {
+    shape.polyhedron().radius
+}
+
+/// Poses in which bodies are likely to overlap: from concentric to barely, some in line with each other, some skewed, some far out.
+pub fn placed_deep(random: &mut Random, shapes: [&Shape; 2]) -> [Pose; 2] {
+    let reach = radius(shapes[0]).min(radius(shapes[1]));
+    let far = random.pick(&[0.0, 0.0, 0.0, 1e3, 1e7]);
+    let origin = random.vector() * far;
+    [0, 1].map(|i| {
+        let turn = match random.below(4) {
+            0 => random.quarter_turns(),
+            1 => random.quarter_turns() * rotation(&random.direction(), random.power(-50, -3)),
+            2 => random.rotation() + Matrix::from_fn(|_, _| random.signed()) * random.power(-40, -10),
+            _ => random.rotation(),
+        };
+        let away = random.direction() * reach * random.pick(&[0.0, 1e-9, 0.2, 0.5, 0.9]) * i as f64;
+        Pose::new(&turn, &(origin + away))
+    })
+}
+
+/// The width of an interval over what is promised: of ordinary pairs 2e-14 of their size or how far their origins are apart, of hard
+/// ones 1e-13 of the larger box and 2e-16 of the largest coordinate.
+fn width_of(shapes: [&Shape; 2], poses: [&Pose; 2], is_hard: bool, answer: &DepthAnswer) -> f64 {
+    let size = radius(shapes[0]) + radius(shapes[1]);
+    let apart = (poses[0].translation() - poses[1].translation()).norm();
+    let ordinary = 2e-14 * size.max(apart);
+    let diagonal = |shape: &Shape| (shape.polyhedron().mass.upper - shape.polyhedron().mass.lower).norm();
+    let largest = diagonal(shapes[0]).max(diagonal(shapes[1]));
+    let world = poses[0].translation().amax().max(poses[1].translation().amax()) + largest;
+    let promise = if is_hard { ordinary.max(1e-13 * (largest + 2e-3 * world)) } else { ordinary };
+    (answer.upper - answer.lower) / promise
+}
+
+/// What became of many queries.
+#[derive(Default)]
+struct Tally {
+    overlapping: usize,
+    /// Wider than promised, of those that did not stall, and the widest of them.
+    wide: usize,
+    widest: f64,
+    stalled: usize,
+}
+
+impl Tally {
+    fn add(&mut self, answer: &DepthAnswer, width: f64) {
+        if answer.outcome != Outcome::Intersecting {
+            return;
+        }
+        self.overlapping += 1;
+        // Where it is cut short the interval holds all the same.
+        if matches!(answer.ending, DepthEnding::Stalled | DepthEnding::Budget) {
+            self.stalled += 1;
+            return;
+        }
+        self.wide += usize::from(width > 1.0);
+        self.widest = self.widest.max(width);
+    }
+}
+
+fn check(shapes: [&Shape; 2], poses: [&Pose; 2], cache: &DepthCache, answer: &DepthAnswer) {
+    verify_depth(shapes[0], poses[0], shapes[1], poses[1], cache, answer)
+        .unwrap_or_else(|error| panic!("{error}: {poses:?} {answer:?}"));
+}
+
+/// Each pair in five poses.
+#[test]
+fn depths_of_random_pairs_hold() {
+    let mut random = Random::new(41);
+    let shapes = large(&mut random);
+    let mut tally = Tally::default();
+    for _ in 0..PAIRS {
+        let pair = [&shapes[random.below(shapes.len())], &shapes[random.below(shapes.len())]];
+        let mut poses = placed_deep(&mut random, pair);
+        let mut cache = DepthCache::default();
+        let step = random.power(-16, -1);
+        for _ in 0..5 {
+            let placed = [&poses[0], &poses[1]];
+            let answer = query(pair, placed, &mut cache);
+            check(pair, placed, &cache, &answer);
+            tally.add(&answer, width_of(pair, placed, false, &answer));
+            let turn = rotation(&random.direction(), step);
+            let moved = poses[1].translation() + random.vector() * step * radius(pair[1]);
+            poses[1] = Pose::new(&(turn * poses[1].rotation()), &moved);
+        }
+    }
+    let Tally { overlapping, wide, widest, stalled } = tally;
+    println!("{overlapping} overlap, {stalled} stalled, {wide} wide, the widest {widest:.2} of the promise");
+    assert!(overlapping > 4 * PAIRS && wide == 0 && stalled < PAIRS / 100, "{overlapping} {wide} {widest:e} {stalled}");
+}
+
+/// Fewer without optimisation.
+const PAIRS: usize = if cfg!(debug_assertions) { 6_000 } else { 60_000 };
+
+#[test]
+fn depths_of_hard_families_hold() {
+    let mut tally = Tally::default();
+    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    for family in families() {
+        for index in 0..family.sweep.min(8) {
+            let sequence = family.sequence(5, index);
+            let [Ok(first), Ok(second)] = [0, 1].map(|i| Shape::from_mesh(&sequence.bodies[i], &options)) else {
+                continue;
+            };
+            let pair = [&first, &second];
+            let mut cache = DepthCache::default();
+            for pose in sequence.poses.iter().step_by(1 + sequence.poses.len() / 60) {
+                let [first, second] = [0, 12].map(|at| Pose::from_row_major(pose[at..at + 12].try_into().unwrap()));
+                let placed = [&first, &second];
+                let answer = query(pair, placed, &mut cache);
+                check(pair, placed, &cache, &answer);
+                tally.add(&answer, width_of(pair, placed, true, &answer));
+            }
+        }
+    }
+    let Tally { overlapping, wide, widest, stalled } = tally;
+    println!("{overlapping} overlap, {stalled} stalled, {wide} wide, the widest {widest:.2} of the promise");
+    // Of dihedral angles of 1e-11 rounding hides the least direction, and integers find out no more than that the bodies overlap.
+    assert!(overlapping > 2_000 && wide <= 4 && stalled <= 40, "{overlapping} {wide} {widest:e} {stalled}");
+}
+
+/// Prisms over polygons of very many sides, in each other and side by side.
+#[test]
+fn depths_of_polygons_of_many_sides_hold() {
+    let prisms = [prism(5_000, 0.2), prism(5_000, 2.0)];
+    let mut random = Random::new(43);
+    for round in 0..24 {
+        let turn = if round % 2 == 0 { Matrix::identity() } else { random.rotation() };
+        let away = random.direction() * random.pick(&[0.0, 1e-6, 0.3, 1.2]);
+        let poses = [Pose::IDENTITY, Pose::new(&turn, &away)];
+        let (pair, placed) = ([&prisms[0], &prisms[round % 3 / 2]], [&poses[0], &poses[1]]);
+        let mut cache = DepthCache::default();
+        for _ in 0..2 {
+            let answer = query(pair, placed, &mut cache);
+            check(pair, placed, &cache, &answer);
+            assert!(answer.outcome == Outcome::Intersecting || away.norm() > 0.3, "{answer:?}");
+        }
+    }
+}
+
+/// As narrow as asked for, and no more steps than that takes; a budget ends in an interval that holds.
+#[test]
+fn errors_and_budgets_are_kept() {
+    let mut random = Random::new(44);
+    let shape = ellipsoid(&mut random, 300, [1.0, 0.8, 0.6]);
+    let pair = [&shape, &shape];
+    let mut steps = [0; 4];
+    for _ in 0..300 {
+        let poses = [Pose::IDENTITY, Pose::new(&random.rotation(), &(random.direction() * 0.7))];
+        let placed = [&poses[0], &poses[1]];
+        let asked = |config: DepthConfig| {
+            let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
+            depth(pair[0], placed[0], pair[1], placed[1], &mut cache, &config, &mut answer).unwrap();
+            check(pair, placed, &cache, &answer);
+            answer
+        };
+        for (k, error) in [0.0, 1e-6, 1e-3, 1e-1].into_iter().enumerate() {
+            let absolute = asked(DepthConfig { absolute_error: error, ..DepthConfig::default() });
+            steps[k] += absolute.statistics.steps;
+            assert!(absolute.upper - absolute.lower <= error.max(2e-14 * 2.0), "{error} {absolute:?}");
+            let relative = asked(DepthConfig { relative_error: error, ..DepthConfig::default() });
+            let most = (error * relative.lower).max(2e-14 * 2.0) * (1.0 + 1e-9);
+            assert!(relative.upper - relative.lower <= most, "{error} {relative:?}");
+        }
+        let short = asked(DepthConfig { step_budget: 3, ..DepthConfig::default() });
+        assert!(short.statistics.steps <= 3 && short.outcome != Outcome::None, "{short:?}");
+        let anything = asked(DepthConfig {
+            absolute_error: f64::INFINITY,
+            relative_error: f64::INFINITY,
+            ..DepthConfig::default()
+        });
+        assert!(anything.outcome != Outcome::None);
+    }
+    assert!(steps[0] >= steps[1] && steps[1] > steps[2] && steps[2] > steps[3], "{steps:?}");
+}
+
+#[test]
+fn what_is_no_pose_or_option_is_refused() {
+    let shape = cuboid([1.0; 3]);
+    let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
+    let mut asked = |pose: &Pose, config: &DepthConfig| {
+        depth(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, config, &mut answer)
+    };
+    let default = DepthConfig::default();
+    let at = |x: f64| Pose::new(&Matrix::identity(), &Vector::new(x, 0.0, 0.0));
+    assert!(asked(&at(f64::NAN), &default).is_err());
+    assert!(asked(&Pose::new(&(Matrix::identity() * -1.0), &Vector::zeros()), &default).is_err());
+    assert!(asked(&Pose::IDENTITY, &DepthConfig { absolute_error: -1.0, ..default }).is_err());
+    assert!(asked(&Pose::IDENTITY, &DepthConfig { relative_error: f64::NAN, ..default }).is_err());
+    assert!(asked(&Pose::IDENTITY, &DepthConfig { step_budget: 0, ..default }).is_err());
+    assert!(asked(&Pose::IDENTITY, &DepthConfig { rotation_limit: 0.5, ..default }).is_err());
+    assert!(asked(&at(1.0), &default).is_ok());
+    assert_eq!(answer.outcome, Outcome::Intersecting);
+}
+
+/// Magnitudes that double precision's bounds do not cover are decided in integers.
+#[test]
+fn any_magnitude_has_a_depth() {
+    for scale in [1e-300, 1e-80, 1e80, 1e300] {
+        let shape = cuboid([scale; 3]);
+        for x in [0.0, 1.5, 2.0, 2.5] {
+            let poses = [Pose::IDENTITY, Pose::new(&Matrix::identity(), &Vector::new(x * scale, 0.0, 0.0))];
+            let answer = query([&shape, &shape], [&poses[0], &poses[1]], &mut DepthCache::default());
+            let depth = (2.0 - x) * scale;
+            assert_eq!(answer.outcome == Outcome::Separated, x > 2.0, "{answer:?}");
+            assert!(answer.lower <= depth.max(0.0) && depth.max(0.0) <= answer.upper * (1.0 + 1e-15), "{answer:?}");
+            assert_eq!(answer.upper == 0.0, x >= 2.0, "{answer:?}");
+        }
+    }
+}

@@ -1,0 +1,187 @@
+//! Depths of small pairs against exact integers by another algorithm: the least support of the difference body over a set of
+//! directions that holds the normals of all its facets.
+
+use dashu_int::IBig;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
+use swiftprox::verify::verify_depth;
+
+use crate::{Random, query};
+use testkit::shapes::hull;
+
+type Integers = [i128; 3];
+
+/// Vertices are multiples of this, up to 1 in magnitude.
+const VERTEX_UNIT: f64 = 1.0 / 1024.0;
+/// Entries of rotations are multiples of this: these are as skewed as that makes them.
+const ROTATION_UNIT: f64 = 1.0 / 4096.0;
+/// World coordinates are multiples of this.
+const UNIT: f64 = VERTEX_UNIT * ROTATION_UNIT;
+
+fn minus(a: &Integers, b: &Integers) -> Integers {
+    [0, 1, 2].map(|k| a[k] - b[k])
+}
+
+fn dot(a: &Integers, b: &Integers) -> i128 {
+    (0..3).map(|k| a[k] * b[k]).sum()
+}
+
+fn cross(a: &Integers, b: &Integers) -> Integers {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// World vertices in units of [`UNIT`].
+fn placed(points: &[Vector], pose: &Pose) -> Vec<Integers> {
+    let integer = |x: f64, unit: f64| {
+        let value = x / unit;
+        assert_eq!(value, value.round(), "{x} is no multiple of {unit}");
+        value as i128
+    };
+    let place = |p: &Vector| {
+        [0, 1, 2].map(|k| {
+            let row = &pose.rows[k];
+            let rotated = (0..3).map(|j| integer(row[j], ROTATION_UNIT) * integer(p[j], VERTEX_UNIT)).sum::<i128>();
+            rotated + integer(row[3], UNIT)
+        })
+    };
+    points.iter().map(place).collect()
+}
+
+/// A support of the difference body: height/√square.
+struct Support {
+    height: i128,
+    square: i128,
+}
+
+impl Support {
+    fn about(&self) -> f64 {
+        self.height as f64 / (self.square as f64).sqrt() * UNIT
+    }
+
+    /// Whether it is at least, or at most, a number from 0 on, exactly; the support from 0 on, too.
+    fn is_at_least(&self, bound: f64) -> bool {
+        self.compare(bound).is_ge()
+    }
+
+    fn compare(&self, bound: f64) -> std::cmp::Ordering {
+        let bits = bound.to_bits();
+        let exponent = (bits >> 52) as i32;
+        let (mantissa, exponent) =
+            if exponent == 0 { (bits, -1074) } else { (bits & ((1 << 52) - 1) | 1 << 52, exponent - 1075) };
+        // height·2⁻²² / √square against mantissa·2^exponent.
+        let shift = 2 * (exponent + 22);
+        let left = IBig::from(self.height) * IBig::from(self.height);
+        let right = IBig::from(mantissa) * IBig::from(mantissa) * IBig::from(self.square);
+        if shift >= 0 { left.cmp(&(right << shift as usize)) } else { (left << -shift as usize).cmp(&right) }
+    }
+}
+
+/// The supports along all directions that may be normals of facets: of planes through three vertices of a body, and across lines
+/// through two vertices of each.
+fn supports(bodies: [&[Integers]; 2]) -> Vec<Support> {
+    let lines = bodies.map(|points| {
+        let mut lines = Vec::new();
+        for (i, p) in points.iter().enumerate() {
+            lines.extend(points[..i].iter().map(|q| minus(p, q)));
+        }
+        lines
+    });
+    let mut directions = Vec::new();
+    for own in &lines {
+        directions.extend(own.iter().enumerate().flat_map(|(i, e)| own[..i].iter().map(move |g| cross(e, g))));
+    }
+    directions.extend(lines[0].iter().flat_map(|e| lines[1].iter().map(move |g| cross(e, g))));
+    // Where the difference body is flat, those in its plane are what separates; where it is a line, that.
+    if let Some(normal) = directions.iter().find(|d| **d != [0; 3]).copied() {
+        let is_flat = directions.iter().all(|d| cross(d, &normal) == [0; 3]);
+        let in_plane = lines.iter().flatten().map(|e| cross(e, &normal));
+        directions.extend(in_plane.filter(|_| is_flat));
+    } else {
+        directions.extend(lines.iter().flatten());
+        directions.extend(lines.iter().flatten().flat_map(|e| [[1, 0, 0], [0, 1, 0], [0, 0, 1]].map(|x| cross(e, &x))));
+    }
+    directions.extend([[1, 0, 0], [0, 1, 0], [0, 0, 1]]);
+    let both = directions.into_iter().filter(|d| *d != [0; 3]).flat_map(|d| [d, d.map(|x| -x)]);
+    both.map(|direction| {
+        let high = bodies[0].iter().map(|p| dot(&direction, p)).max().unwrap();
+        let low = bodies[1].iter().map(|p| dot(&direction, p)).min().unwrap();
+        // It saturates for directions in flat difference bodies alone, whose depth is 0.
+        let square = direction.iter().fold(0_i128, |sum, x| sum.saturating_add(x.saturating_mul(*x)));
+        Support { height: high - low, square }
+    })
+    .collect()
+}
+
+fn points(random: &mut Random, kind: usize) -> Vec<Vector> {
+    let count = 1 + random.below(6);
+    let scale = Vector::from([[1.0, 1.0, 1.0], [1.0, 1.0, 0.0], [1.0, 1.0, 0.01], [1.0, 0.02, 0.02]][kind % 4]);
+    let coarse = kind.is_multiple_of(3);
+    let point = |random: &mut Random| match coarse {
+        true => random.lattice(2).component_mul(&scale.map(f64::ceil)) * 0.25,
+        false => random.vector().component_mul(&scale).map(|x| (x / VERTEX_UNIT).round() * VERTEX_UNIT),
+    };
+    (0..count.max(if kind.is_multiple_of(5) { 1 } else { 4 })).map(|_| point(random)).collect()
+}
+
+fn pose(random: &mut Random, kind: usize, reach: f64) -> Pose {
+    let rotation = match kind % 3 {
+        0 => random.quarter_turns(),
+        _ => random.rotation().map(|x| (x / ROTATION_UNIT).round() * ROTATION_UNIT),
+    };
+    let unit = if kind.is_multiple_of(3) { 0.125 } else { UNIT };
+    Pose::new(&rotation, &(random.vector() * reach).map(|x| (x / unit).round() * unit))
+}
+
+#[test]
+fn depths_of_small_pairs_hold_the_exact_ones() {
+    let mut random = Random::new(31);
+    let (mut overlapping, mut touching, mut separated, mut widest) = (0, 0, 0, 0.0_f64);
+    for round in 0..12_000 {
+        let bodies = [0, 1].map(|_| {
+            let kind = random.below(60);
+            points(&mut random, kind)
+        });
+        let kind = random.below(60);
+        let poses = [pose(&mut random, kind, 0.0), pose(&mut random, kind, 0.35)];
+        let shapes = [hull(&bodies[0]), hull(&bodies[1])];
+        let placed = [placed(&bodies[0], &poses[0]), placed(&bodies[1], &poses[1])];
+        let supports = supports([&placed[0], &placed[1]]);
+        let least = supports.iter().map(|support| support.height).min().unwrap();
+        let mut cache = DepthCache::default();
+        let answer: DepthAnswer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
+        let told = || format!("round {round}: {bodies:?} {poses:?} {answer:?}");
+        verify_depth(&shapes[0], &poses[0], &shapes[1], &poses[1], &cache, &answer)
+            .unwrap_or_else(|error| panic!("{error}: {}", told()));
+        if least < 0 {
+            separated += 1;
+            assert_eq!(answer.outcome, Outcome::Separated, "{}", told());
+            assert_eq!((answer.lower, answer.depth, answer.upper), (0.0, 0.0, 0.0));
+            continue;
+        }
+        assert_eq!(answer.outcome, Outcome::Intersecting, "{}", told());
+        assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{}", told());
+        if least == 0 {
+            touching += 1;
+            assert_eq!((answer.lower, answer.upper), (0.0, 0.0), "{}", told());
+        } else {
+            overlapping += 1;
+            assert!(answer.upper > 0.0, "{}", told());
+        }
+        let truth = supports.iter().map(Support::about).fold(f64::INFINITY, f64::min);
+        let near = |support: &&Support| support.about() <= truth * (1.0 + 1e-12);
+        let nearest: Vec<&Support> = supports.iter().filter(near).collect();
+        assert!(nearest.iter().all(|support| support.is_at_least(answer.lower)), "{truth:e} {}", told());
+        assert!(nearest.iter().any(|support| support.compare(answer.upper).is_le()), "{truth:e} {}", told());
+        let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
+        let apart = (poses[0].translation() - poses[1].translation()).norm();
+        let width = (answer.upper - answer.lower) / size.max(apart).max(f64::MIN_POSITIVE);
+        widest = widest.max(width);
+        assert!(width <= 2e-14, "{width:e} {truth:e} {}", told());
+        // Witness points: their difference is the translation.
+        let [x, y, n] = [answer.world1, answer.world2, answer.normal].map(Vector::from);
+        let off = (y - x - n * answer.depth).norm();
+        assert!(off <= 1e-13 * (size + apart), "{off:e} {}", told());
+    }
+    println!("{overlapping} overlapping, {touching} touching, {separated} separated, widest {widest:e}");
+    assert!(overlapping > 4500 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
+}

@@ -1,0 +1,260 @@
+//! Manifolds: what boxes on boxes and hulls on hulls have in common, and what of it stays from pose to pose.
+
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{
+    DepthAnswer, DepthCache, DepthConfig, FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
+    depth, manifold,
+};
+use swiftprox::shape::Shape;
+use testkit::random::{Random, rotation};
+use testkit::shapes::{at, cuboid, hull};
+
+const ALL: ManifoldConfig = ManifoldConfig { rotation_limit: 1e-2, margin: 0.0, reduces: false };
+const FOUR: ManifoldConfig = ManifoldConfig { reduces: true, ..ALL };
+
+fn query(
+    shapes: [&Shape; 2],
+    poses: [&Pose; 2],
+    cache: &mut ManifoldCache,
+    config: &ManifoldConfig,
+) -> (Manifold, Vec<ManifoldPoint>) {
+    let mut points = vec![ManifoldPoint::default(); 20_000];
+    let answer = manifold(shapes[0], poses[0], shapes[1], poses[1], cache, config, &mut points).unwrap();
+    points.truncate(answer.point_count as usize);
+    (answer, points)
+}
+
+fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
+    let mut ids: Vec<u64> = points.iter().map(|point| point.id).collect();
+    ids.sort_unstable();
+    ids
+}
+
+/// What holds of every manifold: the points are on their bodies and in line along the normal, the gaps those between them.
+fn check(shapes: [&Shape; 2], poses: [&Pose; 2], config: &ManifoldConfig, answer: &Manifold, points: &[ManifoldPoint]) {
+    let normal = Vector::from(answer.normal);
+    assert!((normal.norm() - 1.0).abs() < 1e-15);
+    assert!(!points.is_empty() && answer.lower <= answer.upper && answer.lower <= config.margin);
+    let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
+    let rounding = 1e-12 * (size + poses[1].translation().norm());
+    for point in points {
+        let [first, second] = [point.world1, point.world2].map(Vector::from);
+        let gap = normal.dot(&(first - second));
+        assert!(point.gap_lower - rounding <= gap && gap <= point.gap_upper + rounding, "{point:?} {gap:e}");
+        assert!(point.gap_upper - point.gap_lower <= 1e-9 * size, "{point:?}");
+        assert!(((first - second) - normal * gap).norm() <= rounding * 100.0, "{point:?}");
+        assert!(point.gap_lower <= config.margin && answer.lower <= point.gap_upper + rounding, "{answer:?} {point:?}");
+        for (i, local) in [point.local1, point.local2].into_iter().enumerate() {
+            let polyhedron = shapes[i].polyhedron();
+            let centred = Vector::from(local) - polyhedron.centre;
+            let out =
+                polyhedron.faces.iter().map(|face| face.planes.value(0, &centred)).fold(f64::NEG_INFINITY, f64::max);
+            assert!(out <= rounding * 100.0, "{out:e} {point:?}");
+        }
+    }
+    let distinct = ids(points);
+    assert!(distinct.windows(2).all(|pair| pair[0] != pair[1]), "{points:?}");
+}
+
+/// A box of half sides 1, 1, 0.25 over one of 2, 2, 0.5, with a gap.
+fn stacked(gap: f64, turn: f64) -> ([Shape; 2], [Pose; 2]) {
+    let shapes = [cuboid([1.0, 1.0, 0.25]), cuboid([2.0, 2.0, 0.5])];
+    let above = Pose::new(&rotation(&Vector::z(), turn), &Vector::new(0.0, 0.0, 0.75 + gap));
+    (shapes, [above, Pose::IDENTITY])
+}
+
+#[test]
+fn a_box_on_a_larger_box_stands_on_its_four_corners() {
+    for gap in [-0.125, -1e-6, 0.0, 1e-6, 0.03125] {
+        for turn in [0.0, 0.3, 0.785, 1.2] {
+            let ([upper, lower], poses) = stacked(gap, turn);
+            let config = ManifoldConfig { margin: 0.05, ..ALL };
+            let placed = [&poses[0], &poses[1]];
+            let mut cache = ManifoldCache::default();
+            let (answer, points) = query([&upper, &lower], placed, &mut cache, &config);
+            check([&upper, &lower], placed, &config, &answer, &points);
+            assert_eq!((points.len(), answer.found_count), (4, 4), "{gap} {turn} {points:?}");
+            assert!(points.iter().all(|point| point.feature1.kind == FeatureKind::Vertex));
+            assert!(points.iter().all(|point| point.feature2.kind == FeatureKind::Face));
+            assert!(points.iter().all(|point| (point.gap_lower - gap).abs() < 1e-12), "{gap} {points:?}");
+            assert_eq!(answer.outcome == Outcome::Intersecting, gap <= 0.0);
+            // The other way round the same.
+            let (other, mirrored) =
+                query([&lower, &upper], [placed[1], placed[0]], &mut ManifoldCache::default(), &config);
+            assert_eq!((mirrored.len(), other.found_count), (4, 4));
+            assert!((Vector::from(other.normal) + Vector::from(answer.normal)).norm() < 1e-14);
+        }
+    }
+}
+
+#[test]
+fn a_margin_opens_the_manifold_and_ends_it() {
+    let ([upper, lower], poses) = stacked(0.01, 0.2);
+    let placed = [&poses[0], &poses[1]];
+    let (answer, points) = query([&upper, &lower], placed, &mut ManifoldCache::default(), &ALL);
+    assert_eq!((answer.outcome, points.len(), answer.found_count), (Outcome::Beyond, 0, 0));
+    let config = ManifoldConfig { margin: 0.011, ..ALL };
+    let (answer, points) = query([&upper, &lower], placed, &mut ManifoldCache::default(), &config);
+    assert_eq!((answer.outcome, points.len()), (Outcome::Separated, 4));
+    // Tilted, the far corners are beyond the margin.
+    let tilted = Pose::new(&rotation(&Vector::y(), 0.05), &Vector::new(0.0, 0.0, 0.75 + 0.052));
+    let (answer, points) = query([&upper, &lower], [&tilted, placed[1]], &mut ManifoldCache::default(), &config);
+    check([&upper, &lower], [&tilted, placed[1]], &config, &answer, &points);
+    assert_eq!(points.len(), 2, "{points:?}");
+}
+
+/// Equal boxes in line with each other, and turned by 45°: the octagon.
+#[test]
+fn ties_and_crossings_are_told_once() {
+    let cube = cuboid([0.5; 3]);
+    let pair = [&cube, &cube];
+    for (turn, count) in [(0.0, 4), (std::f64::consts::FRAC_PI_4, 8), (0.01, 8)] {
+        for sink in [0.0, 1e-3, 0.25] {
+            let above = Pose::new(&rotation(&Vector::z(), turn), &Vector::new(0.0, 0.0, 1.0 - sink));
+            let placed = [&above, &Pose::IDENTITY];
+            let (answer, points) = query(pair, placed, &mut ManifoldCache::default(), &ALL);
+            check(pair, placed, &ALL, &answer, &points);
+            assert_eq!(points.len(), count, "{turn} {sink} {points:?}");
+            let (reduced, four) = query(pair, placed, &mut ManifoldCache::default(), &FOUR);
+            assert_eq!((reduced.found_count as usize, four.len()), (count, 4));
+            // Dropped, never moved.
+            assert!(four.iter().all(|point| points.contains(point)));
+        }
+    }
+    // Half over: two corners of each.
+    let placed = [&at(0.4, 0.3, 1.0), &at(0.0, 0.0, 0.0)];
+    let (answer, points) = query(pair, placed, &mut ManifoldCache::default(), &ALL);
+    check(pair, placed, &ALL, &answer, &points);
+    assert_eq!(points.len(), 4, "{points:?}");
+}
+
+#[test]
+fn crossing_edges_meet_in_one_point() {
+    let cube = cuboid([0.5; 3]);
+    let edge_down = Pose::new(&rotation(&Vector::x(), std::f64::consts::FRAC_PI_4), &Vector::new(0.0, 0.0, 1.4));
+    let edge_up = Pose::new(&rotation(&Vector::y(), std::f64::consts::FRAC_PI_4), &Vector::zeros());
+    let placed = [&edge_down, &edge_up];
+    let (answer, points) = query([&cube, &cube], placed, &mut ManifoldCache::default(), &ALL);
+    check([&cube, &cube], placed, &ALL, &answer, &points);
+    assert_eq!((answer.reference, points.len()), (0, 1));
+    assert_eq!([points[0].feature1.kind, points[0].feature2.kind], [FeatureKind::Edge; 2]);
+}
+
+/// While a box slides and rocks by less than its features change, the ids stay.
+#[test]
+fn ids_stay_over_small_motions() {
+    let ([upper, lower], _) = stacked(0.0, 0.0);
+    let mut random = Random::new(7);
+    let mut cache = ManifoldCache::default();
+    let mut known: Option<(Vec<u64>, [f64; 3])> = None;
+    for _ in 0..500 {
+        let turn = rotation(&Vector::z(), 0.3) * rotation(&random.direction(), 1e-7);
+        let above = Pose::new(&turn, &(Vector::new(0.1, -0.2, 0.75 - 1e-4) + random.vector() * 1e-5));
+        let placed = [&above, &Pose::IDENTITY];
+        let (answer, points) = query([&upper, &lower], placed, &mut cache, &FOUR);
+        check([&upper, &lower], placed, &FOUR, &answer, &points);
+        let (before, normal) = known.get_or_insert((ids(&points), answer.normal));
+        assert_eq!(*before, ids(&points));
+        assert!((Vector::from(*normal) - Vector::from(answer.normal)).norm() < 1e-6);
+    }
+}
+
+/// Of two boxes alike in size the reference stays the one it was, though rounding makes now this, now that one the more parallel.
+#[test]
+fn the_reference_stays() {
+    let cube = cuboid([0.5; 3]);
+    let mut random = Random::new(8);
+    let mut cache = ManifoldCache::default();
+    let mut first = None;
+    for _ in 0..300 {
+        let above = Pose::new(&rotation(&random.direction(), 1e-9), &Vector::new(0.1, 0.07, 0.999));
+        let (answer, _) = query([&cube, &cube], [&above, &Pose::IDENTITY], &mut cache, &ALL);
+        assert_eq!(*first.get_or_insert(answer.reference), answer.reference);
+        assert!(answer.reference > 0);
+    }
+}
+
+/// Random hulls, overlapping or near.
+#[test]
+fn hulls_on_hulls_have_points_on_both() {
+    let mut random = Random::new(9);
+    let (mut several, mut single) = (0, 0);
+    for round in 0..3_000 {
+        let shapes = [0, 1].map(|_| match random.below(3) {
+            0 => cuboid([0.5, 0.3, 0.4]),
+            1 => {
+                let points: Vec<Vector> = (0..6 + random.below(40)).map(|_| random.direction()).collect();
+                hull(&points)
+            }
+            _ => {
+                let count = 3 + random.below(30);
+                let corner = |k: usize| {
+                    let angle = std::f64::consts::TAU * (k / 2) as f64 / count as f64;
+                    Vector::new(angle.cos(), angle.sin(), if k.is_multiple_of(2) { -0.4 } else { 0.4 })
+                };
+                hull(&(0..2 * count).map(corner).collect::<Vec<_>>())
+            }
+        });
+        let pair = [&shapes[0], &shapes[1]];
+        let turn = if round % 2 == 0 { rotation(&Vector::z(), random.signed()) } else { random.rotation() };
+        let away = Vector::new(random.signed(), random.signed(), 0.8 * random.signed()) * 0.7;
+        let poses = [Pose::new(&turn, &away), Pose::new(&random.quarter_turns(), &Vector::zeros())];
+        let placed = [&poses[0], &poses[1]];
+        let config = ManifoldConfig { margin: 0.05, ..ALL };
+        let (answer, points) = query(pair, placed, &mut ManifoldCache::default(), &config);
+        if answer.outcome == Outcome::Beyond {
+            continue;
+        }
+        check(pair, placed, &config, &answer, &points);
+        several += usize::from(points.len() > 1);
+        single += usize::from(points.len() == 1);
+        let reduced = ManifoldConfig { reduces: true, ..config };
+        let (_, four) = query(pair, placed, &mut ManifoldCache::default(), &reduced);
+        assert!(four.len() <= 4 && four.iter().all(|point| points.contains(point)), "{four:?} {points:?}");
+        let deepest =
+            |points: &[ManifoldPoint]| points.iter().map(|point| point.gap_lower).fold(f64::INFINITY, f64::min);
+        assert_eq!(deepest(&four), deepest(&points));
+    }
+    assert!(several > 2_000 && single > 100, "{several} {single}");
+}
+
+/// 5,000-gons: the common part of both, in time in proportion to the corners.
+#[test]
+fn polygons_of_very_many_sides_are_clipped() {
+    let prism = |count: usize| {
+        let corner = |k: usize| {
+            let angle = std::f64::consts::TAU * (k / 2) as f64 / count as f64;
+            Vector::new(angle.cos(), angle.sin(), if k.is_multiple_of(2) { -0.4 } else { 0.4 })
+        };
+        hull(&(0..2 * count).map(corner).collect::<Vec<_>>())
+    };
+    let shapes = [prism(5_000), prism(4_999)];
+    let above = at(0.3, 0.2, 0.79);
+    let placed = [&above, &Pose::IDENTITY];
+    let (answer, points) = query([&shapes[0], &shapes[1]], placed, &mut ManifoldCache::default(), &ALL);
+    check([&shapes[0], &shapes[1]], placed, &ALL, &answer, &points);
+    // The lens of two discs: about as many corners as one of them has, and two crossings.
+    let crossings = points.iter().filter(|point| point.feature1.kind == FeatureKind::Edge).count();
+    assert!((3_000..5_000).contains(&points.len()), "{}", points.len());
+    assert_eq!(crossings, 2);
+}
+
+#[test]
+fn any_cache_gives_the_same_depth() {
+    let ([upper, lower], poses) = stacked(-0.1, 0.4);
+    let placed = [&poses[0], &poses[1]];
+    let mut cache = ManifoldCache::default();
+    let (clean, _) = query([&upper, &lower], placed, &mut cache, &ALL);
+    let mut answer = DepthAnswer::default();
+    let config = DepthConfig::default();
+    depth(&upper, placed[0], &lower, placed[1], &mut DepthCache::default(), &config, &mut answer).unwrap();
+    assert!(-answer.upper <= clean.upper && clean.lower <= -answer.lower);
+    // Another pair's.
+    let far = at(0.0, 0.0, 5.0);
+    query([&lower, &upper], [&far, placed[1]], &mut cache, &ALL);
+    let other = cuboid([0.2; 3]);
+    query([&other, &upper], [placed[1], &Pose::new(&Matrix::identity(), &Vector::zeros())], &mut cache, &ALL);
+    let (again, points) = query([&upper, &lower], placed, &mut cache, &ALL);
+    assert!(again.lower <= clean.upper && clean.lower <= again.upper);
+    assert_eq!(points.len(), 4);
+}
