@@ -1,11 +1,20 @@
 #!/bin/sh
-# Builds the tests of SWIFT.h with one compiler by one standard, every warning an error, and runs them.
+# Compiles the tests of SWIFT.h with one compiler by one standard, every warning an error. With flags of its own, which may change what
+# they do, it links and runs them, too.
 #
-#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]    SOURCE: the project's folder; LIBRARY: that of the library
+#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]
+#
+# SOURCE: the project's folder; LIBRARY: that of the library; FOLDER: for the programs.
 set -eu
 compiler=$1 standard=$2 source=$3 library=$4 folder=$5
 shift 5
 mkdir -p "$folder"
+
+compile() {
+    "$compiler" "-std=c++$standard" -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror \
+        "-I$source/include/legacy" "-I$source/include" "-I$source/c_tests" "$@"
+}
+
 for test in "$source"/c_tests/legacy_*.cpp; do
     name=$(basename "$test" .cpp)
     more=''
@@ -14,8 +23,10 @@ for test in "$source"/c_tests/legacy_*.cpp; do
     legacy_units) more=$source/c_tests/legacy_units_other.cpp ;;
     legacy_macros) more=-DSWIFT_LEGACY_VERSION=2 ;;
     esac
-    "$compiler" "-std=c++$standard" -O0 -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Werror "$@" \
-        -I"$source/include/legacy" -I"$source/include" -I"$source/c_tests" "$test" ${more:+"$more"} \
-        -L"$library" -lswiftprox -Wl,-rpath,"$library" -o "$folder/$name"
-    "$folder/$name" "$folder"
+    if [ $# -eq 0 ]; then
+        compile -fsyntax-only "$test" ${more:+"$more"}
+    else
+        compile "$@" "$test" ${more:+"$more"} -L"$library" -lswiftprox -Wl,-rpath,"$library" -o "$folder/$name"
+        "$folder/$name" "$folder"
+    fi
 done

@@ -3,9 +3,9 @@
  *
  *   legacy_cost pair|scene|near c|legacy STEPS [DEGREES]
  *
- * pair: contacts of two bodies of 1,002 vertices in orbit, DEGREES a step (1). scene: all distances of 1,000 boxes. near: pairs of them within a
- * tolerance that few are. Count instructions (valgrind --tool=callgrind) with two numbers of STEPS and take the difference: they
- * repeat exactly, and what making the scene takes is in both.
+ * pair: contacts of two bodies of 1,002 vertices in orbit, DEGREES a step (1). scene: all distances of 1,000 boxes. near: pairs
+ * of them within a tolerance that few are. Count instructions (valgrind --tool=callgrind) with two numbers of STEPS and take the
+ * difference: they repeat exactly, and what making the scene takes is in both.
  */
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,6 @@
 /*
- * Where SWIFT_ONLY_TRIS and SWIFT_REPORT_EDGE_IDS are defined an edge has one id, 3 * face + k; where SWIFT_HIERARCHY is, levels are built
- * for those who ask for them. Defined here as an old SWIFT_config.h would.
+ * Where SWIFT_ONLY_TRIS and SWIFT_REPORT_EDGE_IDS are defined an edge has one id, 3 * face + k; where SWIFT_HIERARCHY is, levels
+ * are built for those who ask for them. Defined here as an old SWIFT_config.h would.
  */
 #define SWIFT_ONLY_TRIS
 #define SWIFT_REPORT_EDGE_IDS

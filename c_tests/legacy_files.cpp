@@ -1,6 +1,6 @@
 /*
- * Two TRI files, one of which is never moved, and all that is asked about contacts within 2; readers of the program's own; files that are
- * damaged.
+ * Two TRI files, one of which is never moved, and all that is asked about contacts within 2; readers of the program's own; files
+ * that are damaged.
  */
 #include "legacy_test.h"
 

@@ -1,6 +1,6 @@
 /*
- * A program that passes a flat triangle with two faces, and one that has a POLY file beside it; and flat polygons of any position. Also
- * a fixed object with an input transform and face valences.
+ * A program that passes a flat triangle with two faces, and one that has a POLY file beside it; and flat polygons of any
+ * position. Also a fixed object with an input transform and face valences.
  */
 #include "legacy_test.h"
 

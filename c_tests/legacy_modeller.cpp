@@ -1,6 +1,7 @@
 /*
- * A modeller of polyhedra with a broad phase of its own: SWIFT++, bodies of polygons. At every step it deactivates all pairs, activates
- * the candidates and asks with early exit for all that there is about contacts; it takes one contact for each pair for granted.
+ * A modeller of polyhedra with a broad phase of its own: SWIFT++, bodies of polygons. At every step it deactivates all pairs,
+ * activates the candidates and asks with early exit for all that there is about contacts; it takes one contact for each pair for
+ * granted.
  */
 #include "legacy_test.h"
 
@@ -116,7 +117,10 @@ int main()
         }
         CHECK(oids[0] == 0 && oids[1] == 1 && oids[2] == 1 && oids[3] == 2);
         CHECK(is_near3(normals, -1, 0, 0) && is_near3(normals + 3, 0, 0, -1));
-        /* The first pair meets along two vertical edges, the second one at parallel faces: beside a face is a vertex, all the same. */
+        /*
+         * The first pair meets along two vertical edges, the second one at parallel faces: beside a face is a vertex, all the
+         * same.
+         */
         CHECK(types[0] != SWIFT_FACE && types[1] != SWIFT_FACE);
         CHECK(types[2] != SWIFT_FACE || types[3] == SWIFT_VERTEX);
         CHECK(types[3] != SWIFT_FACE || types[2] == SWIFT_VERTEX);

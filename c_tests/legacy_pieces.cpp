@@ -1,6 +1,7 @@
 /*
- * Objects of several pieces: those of SWIFT 1.x, whose pairs of pieces are listed one by one, and decompositions of SWIFT++, which are one
- * object with several contacts; copies of pieces, levels of detail, and decomposition files in all forms, damaged ones as well.
+ * Objects of several pieces: those of SWIFT 1.x, whose pairs of pieces are listed one by one, and decompositions of SWIFT++,
+ * which are one object with several contacts; copies of pieces, levels of detail, and decomposition files in all forms, damaged
+ * ones as well.
  */
 #include <stdint.h>
 
@@ -154,8 +155,8 @@ public:
     Decomposition(bool big_endian, bool floats, bool maps) : is_big_endian(big_endian), is_float(floats), has_maps(maps) {}
 
     /*
-     * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles there,
-     * which are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i.
+     * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles
+     * there, which are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i.
      */
     std::string text(int piece_count, const char* magic = "Convex_Decomposition") const
     {

@@ -88,6 +88,15 @@ void intervals()
         CHECK(answer != NULL && (answer->outcome == SWIFTPROX_OUTCOME_INTERSECTING) == (k == 0));
         CHECK(k == 0 || (answer->lower <= truth[k] && truth[k] <= answer->upper && is_near(answer->distance, distances[k])));
     }
+    /* How deep they are: the boxes of side 1 are half a side off. */
+    swiftprox_depth_answer depth;
+    CHECK(scene.Get_Depth(0, depth) && depth.lower <= 0.5 && depth.upper >= 0.5 && is_near(depth.depth, 0.5));
+    CHECK(is_near(depth.normal[0], -1) && is_near(depth.normal[1], 0));
+    CHECK(scene.Get_Depth(1, depth) && depth.outcome == SWIFTPROX_OUTCOME_SEPARATED);
+    Messages messages;
+    CHECK(!scene.Get_Depth(6, depth) && messages.has("Error (Get_Depth): the last query has no entry 6"));
+    scene.Delete_Object(0);
+    CHECK(!scene.Get_Depth(0, depth) && messages.has("Error (Get_Depth): "));
     CHECK(scene.Get_Answer(6) == NULL && scene.Get_Answer(-1) == NULL);
     CHECK(scene.Get_Native_Scene() != NULL);
     int32_t is_valid = 0;

@@ -1,6 +1,7 @@
 /*
  * A course project on rigid bodies: SWIFT 1.x with the broad phase, bodies from files and copies of them. It asks without a
- * tolerance, takes the result for a collision, and then moves the points of all listed pairs into the world in the scene's own arrays.
+ * tolerance, takes the result for a collision, and then moves the points of all listed pairs into the world in the scene's own
+ * arrays.
  */
 #include "legacy_test.h"
 

@@ -1,4 +1,7 @@
-/* Two units that include SWIFT.h link into one program, and it stands beside swiftprox.h: an old program that is moved call by call. */
+/*
+ * Two units that include SWIFT.h link into one program, and it stands beside swiftprox.h: an old program that is moved call by
+ * call.
+ */
 #include <SWIFT_array.h>
 #include <SWIFT_common.h>
 #include <SWIFT_config.h>

@@ -245,9 +245,159 @@ static void levels(void)
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
+/* Refuses pairs of which one has the user's id, and counts its calls. */
+struct refusal {
+    swiftprox_object_id id;
+    int calls;
+};
+
+static int32_t refuse(swiftprox_object_id object1, swiftprox_object_id object2, void *user)
+{
+    struct refusal *refusal = user;
+    ++refusal->calls;
+    return !is(object1, refusal->id) && !is(object2, refusal->id);
+}
+
+/* What decides which pairs are tested, beside activation: groups, fixed objects, a filter and pairs of the program's own. */
+static void filters(void)
+{
+    swiftprox_scene *scene;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, a, &info));
+    CHECK(info.groups == 1 && info.mask == UINT32_MAX);
+
+    CHECK_OK(swiftprox_scene_set_filter(scene, a, 2, 1));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+    CHECK_OK(swiftprox_scene_set_filter(scene, b, 1, 4));
+    CHECK(lists(scene, 1, (const double[]){2}));
+    CHECK_OK(swiftprox_scene_set_filter(scene, b, 0, 0));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+
+    CHECK_OK(swiftprox_scene_set_fixed(scene, a, 1));
+    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 1));
+    CHECK(lists(scene, 2, (const double[]){2, 1.5}));
+    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 0));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+
+    struct refusal refusal = {b, 0};
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, refuse, &refusal));
+    CHECK(lists(scene, 1, (const double[]){2}) && lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
+    refusal.id = c;
+    CHECK(lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
+    CHECK_OK(swiftprox_scene_filter_again(scene));
+    CHECK(lists(scene, 1, (const double[]){0}) && refusal.calls == 6);
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, NULL, NULL));
+
+    const swiftprox_object_id pairs[] = {c, a, a, b, b, a}, twice[] = {a, b, c, c};
+    CHECK_OK(swiftprox_scene_set_pairs(scene, pairs, 3));
+    CHECK(lists(scene, 2, (const double[]){0, 2}));
+    CHECK(swiftprox_scene_set_pairs(scene, twice, 2) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(strstr(swiftprox_library_last_error_message(), "pair 1") != NULL);
+    CHECK(lists(scene, 2, (const double[]){0, 2}));
+    CHECK_OK(swiftprox_scene_set_pairs(scene, NULL, 0));
+    CHECK(lists(scene, 0, NULL));
+    CHECK_OK(swiftprox_scene_find_pairs(scene));
+    CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
+/* Several objects moved by their ids, pieces moved in their object, and the objects in order. */
+static void pieces(void)
+{
+    swiftprox_scene *scene;
+    swiftprox_shape *shape;
+    swiftprox_object_id id, ids[4];
+    size_t count;
+    double poses[24], pose[12];
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 3);
+    set_pose_at(poses, 1);
+    set_pose_at(poses + 12, 5);
+    const swiftprox_object_id moved[] = {b, a};
+    CHECK_OK(swiftprox_scene_set_poses(scene, moved, poses, 2));
+    CHECK(lists(scene, 1, (const double[]){3}));
+    poses[12] = NAN;
+    CHECK(swiftprox_scene_set_poses(scene, moved, poses, 2) == SWIFTPROX_ERROR_POSE);
+    CHECK(strstr(swiftprox_library_last_error_message(), "pose 1") != NULL);
+
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    const swiftprox_shape *two[] = {shape, shape};
+    CHECK_OK(swiftprox_scene_add_object(scene, two, 2, NULL, &id));
+    swiftprox_shape_release(shape);
+    set_pose_at(pose, 10);
+    CHECK_OK(swiftprox_scene_set_piece_pose(scene, id, 1, pose));
+    /* At 1 (b), 5 (a), and the pieces at 0 and 10: a with b, a with both pieces, b with both. */
+    CHECK(lists(scene, 5, (const double[]){3, 4, 4, 0, 8}));
+    CHECK_OK(swiftprox_scene_get_piece_pose(scene, id, 1, pose));
+    CHECK(pose[3] == 10);
+    CHECK(swiftprox_scene_set_piece_pose(scene, id, 2, pose) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_scene_get_piece_pose(scene, id, 2, pose) == SWIFTPROX_ERROR_INVALID_ARGUMENT && isnan(pose[3]));
+
+    CHECK_OK(swiftprox_scene_copy_object_ids(scene, NULL, 0, &count));
+    CHECK(count == 3);
+    CHECK_OK(swiftprox_scene_copy_object_ids(scene, ids, 4, &count));
+    CHECK(count == 3 && is(ids[0], a) && is(ids[1], b) && is(ids[2], id));
+    CHECK(swiftprox_scene_copy_object_ids(scene, ids, 2, &count) == SWIFTPROX_ERROR_INVALID_ARGUMENT && count == 0);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
+/* What is near one object, or a shape that is in no scene, and what has changed. */
+static void near_objects(void)
+{
+    swiftprox_scene *scene;
+    swiftprox_shape *shape;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_events events;
+    double pose[12];
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
+    swiftprox_scene_query_init(&query);
+    query.distance_tolerance = 1.75;
+    CHECK_OK(swiftprox_scene_query_object(scene, c, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object1, b) && is(answer.pairs[0].object2, c));
+    CHECK(fabs(answer.pairs[0].answer.distance - 1.5) < 1e-13 && !answer.intersecting);
+    CHECK_OK(swiftprox_scene_query_object(scene, a, SWIFTPROX_QUERY_KIND_INTERSECTION, NULL, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object2, b) && answer.intersecting);
+    CHECK(swiftprox_scene_query_object(scene, a, (swiftprox_query_kind)9, NULL, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    set_pose_at(pose, 3.5);
+    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+    CHECK(answer.count == 1 && is(answer.pairs[0].object1, c) && answer.pairs[0].object2.bits == 0);
+    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_DISTANCE, NULL, &answer));
+    CHECK(answer.count == 3 && answer.pairs[2].user_data1 == 30);
+    pose[0] = NAN;
+    CHECK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer) ==
+          SWIFTPROX_ERROR_POSE);
+    swiftprox_shape_release(shape);
+
+    CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
+    CHECK(events.began_count == 1 && events.ended_count == 0 && events.ended == NULL);
+    CHECK(is(events.began[0].object1, a) && is(events.began[0].object2, b) && events.began[0].user_data2 == 5);
+    set_pose_at(pose, 2);
+    CHECK_OK(swiftprox_scene_set_pose(scene, b, pose));
+    CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
+    CHECK(events.began_count == 1 && is(events.began[0].object2, c));
+    CHECK(events.ended_count == 1 && is(events.ended[0].object1, a));
+    CHECK_OK(swiftprox_scene_remove_object(scene, c));
+    CHECK_OK(swiftprox_scene_query_events(scene, 0.5, &events));
+    CHECK(events.began_count == 0 && events.ended_count == 1 && is(events.ended[0].object2, c));
+    CHECK_OK(swiftprox_scene_query_events(scene, 1, &events));
+    CHECK(events.began_count == 1 && events.ended_count == 0);
+    CHECK(swiftprox_scene_query_events(scene, -1, &events) == SWIFTPROX_ERROR_INVALID_ARGUMENT && events.began == NULL);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
 int main(void)
 {
     queries();
+    filters();
+    pieces();
+    near_objects();
     motion();
     activation();
     levels();

@@ -483,7 +483,9 @@ typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
    */
   SWIFTPROX_DECIDED_BY_BUDGET = 6,
   /** The bounding spheres: they are apart, and farther than the distance tolerance if there is one. */
-  SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES = 7
+  SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES = 7,
+  /** In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof. */
+  SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES = 8
 } swiftprox_decided_by;
 
 /** Kind of a feature. */
@@ -553,7 +555,7 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_feature feature2;
   /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
   uint32_t proof[4][2];
-  /** How many entries of `proof` are used (1 to 4 when intersecting, else 0). */
+  /** How many entries of `proof` are used: 1 to 4 when intersecting, but for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES, else 0. */
   uint32_t proof_count;
   /** What the query did. */
   struct swiftprox_statistics statistics;
@@ -1029,6 +1031,13 @@ typedef struct swiftprox_object_options {
   double pose[12];
   /** Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0. */
   int32_t fixed;
+  /**
+   * The groups that it is in, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default:
+   * 0, which stands for the first group alone, 1.
+   */
+  uint32_t groups;
+  /** The groups that it is tested against. Default: 0, which stands for all. */
+  uint32_t mask;
 } swiftprox_object_options;
 
 /**
@@ -1128,6 +1137,20 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
                                                  int32_t *valid);
 
 /**
+ * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_all_poses, and their
+ * number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
+ * failure `*count` is 0.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
+ * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id *ids,
+                                                 size_t capacity,
+                                                 size_t *count);
+
+/**
  * Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
@@ -1144,6 +1167,19 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id,
                                                const double *rotation,
                                                const double *translation);
+
+/**
+ * Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
+ * pose counts. On failure all stay where they are.
+ *
+ * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused. The message says which.
+ * SWIFTPROX_ERROR_NULL_POINTER: scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
+                                           const struct swiftprox_object_id *ids,
+                                           const double *poses,
+                                           size_t count);
 
 /**
  * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
@@ -1168,6 +1204,45 @@ swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scen
                                                     size_t count);
 
 /**
+ * Moves one piece within its object, by its number from 0: `pose` is 12 doubles, row-major [R|T]. The piece is in the world where
+ * the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
+ * features of results are in the piece's own frame. On failure it stays where it is.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
+ * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
+                                                struct swiftprox_object_id id,
+                                                uint32_t piece,
+                                                const double *pose);
+
+/**
+ * Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
+ * swiftprox_pair_verify takes it. On failure they are NaN.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *scene,
+                                                struct swiftprox_object_id id,
+                                                uint32_t piece,
+                                                double *pose);
+
+/**
+ * Fixes an object (`fixed` not 0) or lets it move again: pairs of two fixed objects are never tested. What its other pairs
+ * remember stays.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_fixed(struct swiftprox_scene *scene,
+                                           struct swiftprox_object_id id,
+                                           int32_t fixed);
+
+/**
  * Sets the number that comes back in every result of this object.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
@@ -1189,6 +1264,10 @@ typedef struct swiftprox_object_info {
   double pose[12];
   /** 1 if it is fixed, else 0. */
   int32_t fixed;
+  /** The groups that it is in, one bit each. */
+  uint32_t groups;
+  /** The groups that it is tested against. */
+  uint32_t mask;
 } swiftprox_object_info;
 
 /**
@@ -1231,7 +1310,7 @@ typedef struct swiftprox_scene_query {
   size_t struct_size;
   /**
    * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-   * to infinity (all pairs). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
+   * to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
    * swiftprox_scene_query_intersection does without it, but refuses one out of range.
    */
   double distance_tolerance;
@@ -1240,9 +1319,9 @@ typedef struct swiftprox_scene_query {
   /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to, in
    * equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-   * Default: infinity.
+   * Which pairs are listed is found out first, which takes a query of its own. Default: infinity.
    */
   double error_budget;
   /**
@@ -1357,11 +1436,96 @@ swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
                                                 const struct swiftprox_scene_query *query,
                                                 struct swiftprox_scene_answer *answer);
 
+/** What is asked of a pair. */
+typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
+  /** The verdict alone. */
+  SWIFTPROX_QUERY_KIND_INTERSECTION = 0,
+  /** The distance. */
+  SWIFTPROX_QUERY_KIND_DISTANCE = 1,
+  /** The distance, and of intersecting bodies a common point and a normal. */
+  SWIFTPROX_QUERY_KIND_CONTACT = 2,
+  /** The distance as narrow as asked for. */
+  SWIFTPROX_QUERY_KIND_APPROXIMATE = 3
+} swiftprox_query_kind;
+
+/**
+ * As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded; the
+ * tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near, if
+ * nothing else has moved.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
+ * errors as of swiftprox_scene_query_intersection.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
+                                              struct swiftprox_object_id id,
+                                              swiftprox_query_kind kind,
+                                              const struct swiftprox_scene_query *query,
+                                              struct swiftprox_scene_answer *answer);
+
+/**
+ * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object of
+ * the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+ *
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
+ * swiftprox_scene_query_intersection.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
+                                              const struct swiftprox_shape *shape,
+                                              const double *pose,
+                                              swiftprox_query_kind kind,
+                                              const struct swiftprox_scene_query *query,
+                                              struct swiftprox_scene_answer *answer);
+
+/** A pair of objects, the earlier created first. */
+typedef struct swiftprox_object_pair {
+  /** The earlier created object. */
+  struct swiftprox_object_id object1;
+  /** The later created object. */
+  struct swiftprox_object_id object2;
+  /** The caller's own number of object 1. */
+  uint64_t user_data1;
+  /** The caller's own number of object 2. */
+  uint64_t user_data2;
+} swiftprox_object_pair;
+
+/** What has changed since the last query about events. */
+typedef struct swiftprox_scene_events {
+  /**
+   * Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
+   * events. Null when began_count is 0.
+   */
+  const struct swiftprox_object_pair *began;
+  /** How many. */
+  size_t began_count;
+  /**
+   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid as
+   * began are. Null when ended_count is 0.
+   */
+  const struct swiftprox_object_pair *ended;
+  /** How many. */
+  size_t ended_count;
+} swiftprox_scene_events;
+
+/**
+ * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
+ * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
+ * failure `*events` is empty, and what was near stays remembered.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+ * events is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
+                                              double distance,
+                                              struct swiftprox_scene_events *events);
+
 /** What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. */
 typedef struct swiftprox_scene_statistics {
   /** Queries. */
   uint64_t queries;
-  /** Pairs of convex pieces tested. */
+  /** Active pairs of convex pieces that were near enough to be looked at. How near that is depends on earlier queries. */
   uint64_t pairs;
   /** ... of which Voronoi marching decided. */
   uint64_t marched;
@@ -1383,7 +1547,7 @@ typedef struct swiftprox_scene_statistics {
   uint64_t budget_spent;
   /**
    * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
-   * themselves; the last entry is for all levels beyond, too.
+   * themselves, also where no geometry was asked; the last entry is for all levels beyond, too.
    */
   uint64_t by_level[8];
   /**
@@ -1393,6 +1557,12 @@ typedef struct swiftprox_scene_statistics {
   double error_spent;
   /** Of the pairs, those whose bounding spheres decided. */
   uint64_t bounding_spheres;
+  /** ... of which balls inside the pieces decided. */
+  uint64_t inscribed_spheres;
+  /** ... of which neither piece had moved since the same query before: its answer was given again. */
+  uint64_t unmoved;
+  /** ... of which the pieces had not moved far enough since their last test to be listed. */
+  uint64_t out_of_reach;
 } swiftprox_scene_statistics;
 
 /**
@@ -1485,6 +1655,68 @@ swiftprox_status swiftprox_scene_is_pair_active(const struct swiftprox_scene *sc
                                                 struct swiftprox_object_id id1,
                                                 struct swiftprox_object_id id2,
                                                 int32_t *active);
+
+/**
+ * Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_filter(struct swiftprox_scene *scene,
+                                            struct swiftprox_object_id id,
+                                            uint32_t groups,
+                                            uint32_t mask);
+
+/**
+ * Says whether a pair of objects is to be tested (not 0) or not (0), the earlier created object first; `user` is the pointer given
+ * with the callback. It should always say the same of a pair. It runs in the thread that queries, must return, and cannot use the
+ * scene; a C++ exception that leaves it ends the program.
+ */
+typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id object1,
+                                                  struct swiftprox_object_id object2,
+                                                  void *user);
+
+/**
+ * Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
+ * of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
+ * asked anew. The callback may be called from every thread that queries the scene.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
+                                                 swiftprox_pair_filter_callback filter,
+                                                 void *user);
+
+/**
+ * Asks the filter anew of all pairs that are near, in the next query.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
+
+/**
+ * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. `pairs`
+ * holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed objects are
+ * heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs of before
+ * stay.
+ *
+ * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
+ * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
+                                           const struct swiftprox_object_id *pairs,
+                                           size_t count);
+
+/**
+ * From now on the scene finds the pairs that are near, as it did before swiftprox_scene_set_pairs.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 

@@ -171,16 +171,16 @@ def run_tool(arguments, case, promise):
     return answers, {0: None, 2: "refused"}.get(done.returncode, "failed"), message
 
 
-def judge_pose(arguments, row, answer, truth, pose, promise, complain):
+def judge_pose(query, row, answer, truth, pose, promise, complain):
     """Counts one answer of the tool, and complains about what is not as promised."""
     lo, hi = Decimal(truth[0]), Decimal(truth[1])
     distance, lower, upper = (Decimal(answer[i]) for i in (0, 11, 12))
     row.counts[answer[13]] += 1
     disjoint = lo > 0
-    if arguments.query == "depth":
+    if query == "depth":
         lo, hi = Decimal(truth[8]), Decimal(truth[9])
     row.counts["disjoint" if disjoint else "penetrating" if Decimal(truth[8]) > 0 else "touching"] += 1
-    if arguments.query == "depth":
+    if query == "depth":
         claims_disjoint, claims_touching = distance.is_nan(), distance == 0 and upper == 0
         right = claims_disjoint if disjoint else not claims_disjoint and claims_touching == (hi == 0)
     else:
@@ -189,14 +189,14 @@ def judge_pose(arguments, row, answer, truth, pose, promise, complain):
         row.counts["wrong"] += 1
         complain("wrong: truth [%s, %s], answer %s in [%s, %s] by %s" % (lo, hi, distance, lower, upper, answer[13]))
         return
-    if disjoint == (arguments.query == "depth"):
+    if disjoint == (query == "depth"):
         return
     bounded = not upper.is_nan()
     if lower > hi or (bounded and upper < lo):
         row.counts["missed"] += 1
         complain("missed: truth [%s, %s], interval [%s, %s] by %s" % (lo, hi, lower, upper, answer[13]))
     if bounded and promise:
-        apart = 0.0 if arguments.query == "depth" else float(distance)
+        apart = 0.0 if query == "depth" else float(distance)
         excess = float(upper - lower - printing(lower) - printing(upper))
         # Nothing is promised of two points, and nothing is to be.
         width = excess / promise.width([float(word) for word in pose], apart) if excess > 0 else 0.0
@@ -228,7 +228,7 @@ def judge_case(arguments, case):
     answers = answers[:len(poses)]
     row.counts["poses"] += len(poses)
     for i, (answer, truth, pose) in enumerate(zip(answers, truths, poses)):
-        judge_pose(arguments, row, answer, truth, pose, promise if tight else None, lambda what, i=i: complain(i, what))
+        judge_pose(arguments.query, row, answer, truth, pose, promise if tight else None, lambda what, i=i: complain(i, what))
     if cut:
         row.counts[cut] += max(1, len(poses) - len(answers))
         complain(len(answers), "%s: %s" % (cut, message))

@@ -605,7 +605,7 @@ fn every_status_outcome_and_feature_kind_has_words_of_its_own() {
     for (in_words, last, unknown) in [
         (swiftprox_library_status_string as InWords, StatusCode::ErrorBusy as i32, "not a status"),
         (swiftprox_library_outcome_string, Outcome::Undecided as i32, "not an outcome"),
-        (swiftprox_library_decided_by_string, DecidedBy::BoundingSpheres as i32, "not what decides"),
+        (swiftprox_library_decided_by_string, DecidedBy::InscribedSpheres as i32, "not what decides"),
         (swiftprox_library_feature_kind_string, FeatureKind::Face as i32, "not a feature kind"),
     ] {
         let words = |number: i32| {

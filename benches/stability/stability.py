@@ -207,7 +207,7 @@ class Judge:
         distance, lower, upper = (Decimal(float(word)) for word in words[1:4])
         if any(number.is_nan() for number in (distance, lower, upper)):
             return "nan"
-        cases.judge_pose(row, [distance] + ["nan"] * 10 + [lower, upper, ""], self.truths[i], self.poses[i], None,
+        cases.judge_pose("distance", row, [distance] + ["nan"] * 10 + [lower, upper, ""], self.truths[i], self.poses[i], None,
                          lambda what: print("%s pose %d: %s" % (self.name, i + 1, what), file=sys.stderr))
         return next((fault for fault in ("wrong", "missed") if row.counts[fault]), None)
 

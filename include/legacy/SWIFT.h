@@ -2,12 +2,12 @@
  * The scene class of SWIFT 1.x and SWIFT++, over swiftprox: old programs compile with this header unchanged and link swiftprox.
  *
  * The methods of both libraries stand side by side. What differs from them, call by call, is in docs/migration.md, and how a new
- * program would say the same. In short: touching is intersecting, -1 is the distance of intersecting pairs, nearest points are in the
- * objects' local frames, which are those after the input transform, and normals in the world, from object 2 to object 1.
+ * program would say the same. In short: touching is intersecting, -1 is the distance of intersecting pairs, nearest points are
+ * in the objects' local frames, which are those after the input transform, and normals in the world, from object 2 to object 1.
  *
- * Arrays that queries hand out belong to the scene and stay until its next query; the program may write into them. Messages go to
- * std::cerr. SWIFT_config.h lists the macros that change something. A scene may be used by one thread at a time; file readers are
- * the whole process's.
+ * Arrays that queries hand out belong to the scene and stay until its next query; the program may write into them. Messages go
+ * to std::cerr. SWIFT_config.h lists the macros that change something. A scene may be used by one thread at a time; file readers
+ * are the whole process's.
  */
 #ifndef SWIFT_H
 #define SWIFT_H
@@ -26,10 +26,10 @@ public:
     ~SWIFT_Scene();
 
     /*
-     * Objects. Ids are dense, from 0; a deleted one is given out again, the last first. On failure the result is false, `id` is as it
-     * was, and a message says why. The input transform, scale * (orient * v) + trans, is applied once. A mesh is closed, convex (up to
-     * 1e-6 of its diagonal), counter-clockwise from outside; two-sided flat polygons are taken. With `copy_oid`, vertices may be NULL
-     * and counts 0: the object shares the geometry of that piece, after the transform.
+     * Objects. Ids are dense, from 0; a deleted one is given out again, the last first. On failure the result is false, `id` is
+     * as it was, and a message says why. The input transform, scale * (orient * v) + trans, is applied once. A mesh is closed,
+     * convex (up to 1e-6 of its diagonal), counter-clockwise from outside; two-sided flat polygons are taken. With `copy_oid`,
+     * vertices may be NULL and counts 0: the object shares the geometry of that piece, after the transform.
      */
     bool Add_Object(const SWIFT_Real* vertices, const int* faces, int num_vertices, int num_faces, int& id,
                     bool fixed = DEFAULT_FIXED, const SWIFT_Orientation& orient = DEFAULT_ORIENTATION,
@@ -128,9 +128,9 @@ public:
     SWIFT_File_Read_Dispatcher* get_File_Read_Dispatcher() const;
 
     /*
-     * Transformations: row-major, world = R * local + T; RT is the 12 numbers of [R|T]. What is not rigid (an entry of R^T R - 1 above
-     * 0.01, a reflection) or not finite is refused with a message, and the object stays. Those for all take the objects that are not
-     * fixed, in order of creation.
+     * Transformations: row-major, world = R * local + T; RT is the 12 numbers of [R|T]. What is not rigid (an entry of R^T R - 1
+     * above 0.01, a reflection) or not finite is refused with a message, and the object stays. Those for all take the objects
+     * that are not fixed, in order of creation.
      */
     void Set_Object_Transformation(int id, const SWIFT_Real* R, const SWIFT_Real* T);
     void Set_Object_Transformation(int id, const SWIFT_Real* RT);
@@ -146,12 +146,12 @@ public:
     void Deactivate();
 
     /*
-     * Queries. The result is true if a tested pair intersects. With `early_exit` a query ends at the first such pair and lists none.
-     * Pairs are listed by the object that was created later, then by the other one; in a pair the lower id comes first. Pointers that
-     * are NULL ask for nothing.
+     * Queries. The result is true if a tested pair intersects. With `early_exit` a query ends at the first such pair and lists
+     * none. Pairs are listed by the object that was created later, then by the other one; in a pair the lower id comes first.
+     * Pointers that are NULL ask for nothing.
      *
-     * All pairs within the tolerance are listed, whatever the broad phase. Only where it is on and the tolerance is SWIFT_INFINITY,
-     * pairs are listed whose enlarged boxes overlap, and those that intersect.
+     * All pairs within the tolerance are listed, whatever the broad phase. Only where it is on and the tolerance is
+     * SWIFT_INFINITY, pairs are listed whose enlarged boxes overlap, and those that intersect.
      */
     bool Query_Intersection(bool early_exit, int& num_pairs, int** oids);
 
@@ -178,9 +178,9 @@ public:
                                     int& num_pairs, int** oids, SWIFT_Real** distances);
 
     /*
-     * SWIFT++: `num_contacts` contacts for each pair, which follow each other in the other arrays; -1 for an intersecting pair, which
-     * takes one place and four feature ids. Where neither object is a decomposition there is one contact; else each is nearer than
-     * those before it, and the last one is the nearest.
+     * SWIFT++: `num_contacts` contacts for each pair, which follow each other in the other arrays; -1 for an intersecting pair,
+     * which takes one place and four feature ids. Where neither object is a decomposition there is one contact; else each is
+     * nearer than those before it, and the last one is the nearest.
      */
     bool Query_Contact_Determination(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids, int** num_contacts,
                                      SWIFT_Real** distances = NO_DISTANCES, SWIFT_Real** nearest_pts = NO_NEAREST_PTS,
@@ -190,9 +190,17 @@ public:
 
     /* --- Beyond the old libraries -------------------------------------------------------------------------------------------- */
 
-    /* What swiftprox says of entry k of the last query's distances, until the next query: the interval, what decided, the proof; its
-     * objects 1 and 2 are in order of creation. NULL where there is no such entry. */
+    /*
+     * What swiftprox says of entry k of the last query's distances, until the next query: the interval, what decided, the proof;
+     * its objects 1 and 2 are in order of creation. NULL where there is no such entry.
+     */
     const swiftprox_pair_answer* Get_Answer(int k) const;
+
+    /*
+     * How deep the two pieces of entry k are in each other, where their objects are now: the least translation that parts them, in
+     * swiftprox's order of the two. False after a message where there is no such entry or an object is gone.
+     */
+    bool Get_Depth(int k, swiftprox_depth_answer& depth) const;
 
     /* With true, of a mesh added later that is not convex the convex hull counts; face ids are -1 then. At first it is refused. */
     void Set_Take_Hull(bool take_hull);

@@ -99,26 +99,34 @@ impl Pose {
 
     /// The largest entry of |RᵀR − I| as computed (its own rounding error is at most 4u for an accepted R), or NaN.
     pub fn rotation_defect(&self) -> f64 {
-        let r = &self.rows;
-        let mut worst = 0.0_f64;
-        for i in 0..3 {
-            for j in i..3 {
-                let dot = r[0][i] * r[0][j] + r[1][i] * r[1][j] + r[2][i] * r[2][j];
-                let off = (dot - if i == j { 1.0 } else { 0.0 }).abs();
-                // Not f64::max: it would lose a NaN.
-                if off.is_nan() || off > worst {
-                    worst = off;
-                }
-                if worst.is_nan() {
-                    return worst;
-                }
-            }
-        }
-        worst
+        let [a, b, c] = &self.rows;
+        let dot = |i: usize, j: usize| a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
+        let entries =
+            [dot(0, 0) - 1.0, dot(1, 1) - 1.0, dot(2, 2) - 1.0, dot(0, 1), dot(0, 2), dot(1, 2)].map(f64::abs);
+        let worst = entries.into_iter().fold(0.0, f64::max);
+        // f64::max loses a NaN, a sum does not.
+        if entries.into_iter().sum::<f64>().is_nan() { f64::NAN } else { worst }
     }
 
     /// Accepts a pose of finite numbers with |RᵀR − I| ≤ `limit` in every entry and det R > 0.
     pub fn check(&self, limit: f64) -> Result<()> {
+        self.checked_defect(limit).map(|_| ())
+    }
+
+    /// The same, and what [`Pose::rotation_defect`] says.
+    pub fn checked_defect(&self, limit: f64) -> Result<f64> {
+        let defect = self.rotation_defect();
+        // Of what is not finite 0·x is a NaN.
+        let is_finite = self.rows.iter().map(|[x, y, z, t]| 0.0 * (x + y + z + t)).sum::<f64>() == 0.0;
+        if is_finite & (defect <= limit) && self.rotation().determinant() > 0.0 {
+            return Ok(defect);
+        }
+        self.refusal(limit)
+    }
+
+    /// Why a pose is not accepted; the sum of its numbers may have overflowed.
+    #[cold]
+    fn refusal(&self, limit: f64) -> Result<f64> {
         if let Some(k) = self.rows.iter().flatten().position(|x| !x.is_finite()) {
             return Err(Error::Pose(format!("pose entry {k} (row {}, column {}) is not finite", k / 4, k % 4)));
         }
@@ -131,6 +139,6 @@ impl Pose {
         if !(self.rotation().determinant() > 0.0) {
             return Err(Error::Pose("the rotation is a reflection: its determinant is negative".into()));
         }
-        Ok(())
+        Ok(defect)
     }
 }

@@ -129,7 +129,7 @@ pub(super) fn check_count(count: usize, name: &str) -> Checked<()> {
 }
 
 /// Refuses null or too little room.
-fn check_capacity<T>(pointer: *mut T, name: &str, capacity: usize, needed: usize) -> Checked<()> {
+pub(super) fn check_capacity<T>(pointer: *mut T, name: &str, capacity: usize, needed: usize) -> Checked<()> {
     if pointer.is_null() {
         return Err(Failure::null(name));
     }

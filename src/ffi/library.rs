@@ -99,6 +99,7 @@ pub extern "C" fn swiftprox_library_decided_by_string(decided_by: DecidedByNumbe
         Some(DecidedBy::Tolerance) => c"the errors that were allowed",
         Some(DecidedBy::Budget) => c"the step budget, which ran out",
         Some(DecidedBy::BoundingSpheres) => c"the bounding spheres",
+        Some(DecidedBy::InscribedSpheres) => c"balls inside the objects",
         None => c"not what decides",
     };
     string.as_ptr()

@@ -21,7 +21,10 @@ pub mod pair;
 pub mod depth;
 pub mod scene;
 pub mod object;
+pub mod pose;
 pub mod query;
+pub mod filter;
+pub mod object_query;
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -33,7 +36,7 @@ use std::sync::Once;
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
-use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Refinement, Start};
+use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
@@ -296,8 +299,19 @@ enumerator!(InputPolicy { Strict, Flat, Hull });
 enumerator!(Start { Automatic, Cache, Table, Cold });
 enumerator!(Levels { Automatic, None, All });
 enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });
+enumerator!(Query { Intersection, Distance, Contact, Approximate });
 enumerator!(Outcome { None, Separated, Beyond, Intersecting, Undecided });
-enumerator!(DecidedBy { None, Marching, Coherence, Fallback, Integers, Tolerance, Budget, BoundingSpheres });
+enumerator!(DecidedBy {
+    None,
+    Marching,
+    Coherence,
+    Fallback,
+    Integers,
+    Tolerance,
+    Budget,
+    BoundingSpheres,
+    InscribedSpheres
+});
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 
@@ -306,6 +320,8 @@ enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 
 /// A [`StatusCode`].
 pub type StatusNumber = i32;
+/// A [`Query`].
+pub type QueryNumber = i32;
 /// An [`Outcome`].
 pub type OutcomeNumber = i32;
 /// A [`DecidedBy`].

@@ -3,16 +3,13 @@
 use std::ffi::c_char;
 use std::sync::Arc;
 
-use super::arrays::{read_arrays, read_path};
+use super::arrays::{check_capacity, read_arrays, read_path};
 use super::scene::{SceneHandle, change, look};
 use super::shape_options::{CShapeOptions, read_options};
-use super::{
-    Checked, Failure, StatusCode, Versioned, array, guard, init_struct, input, output, read_struct, write_struct,
-};
-use crate::base::math::{Matrix, Pose, Vector};
-use crate::base::memory::{collected, with_capacity};
-use crate::scene::Scene;
-use crate::scene::object::{ObjectId, ObjectOptions};
+use super::{Checked, Failure, StatusCode, Versioned, array, guard, init_struct, output, read_struct, write_struct};
+use crate::base::math::Pose;
+use crate::base::memory::with_capacity;
+use crate::scene::object::{Object, ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
 /// How an object begins. Fill it with swiftprox_object_options_init, then change what should differ.
@@ -27,6 +24,11 @@ pub struct CObjectOptions {
     pub pose: [f64; 12],
     /// Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0.
     pub fixed: i32,
+    /// The groups that it is in, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default:
+    /// 0, which stands for the first group alone, 1.
+    pub groups: u32,
+    /// The groups that it is tested against. Default: 0, which stands for all.
+    pub mask: u32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -40,6 +42,8 @@ impl CObjectOptions {
         user_data: 0,
         pose: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
         fixed: 0,
+        groups: 0,
+        mask: 0,
     };
 }
 
@@ -57,6 +61,10 @@ pub struct ObjectInfo {
     pub pose: [f64; 12],
     /// 1 if it is fixed, else 0.
     pub fixed: i32,
+    /// The groups that it is in, one bit each.
+    pub groups: u32,
+    /// The groups that it is tested against.
+    pub mask: u32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -72,6 +80,8 @@ impl ObjectInfo {
         piece_count: 0,
         pose: [f64::NAN; 12],
         fixed: 0,
+        groups: 0,
+        mask: 0,
     };
 }
 
@@ -226,6 +236,59 @@ pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
     })
 }
 
+/// Fixes an object (`fixed` not 0) or lets it move again: pairs of two fixed objects are never tested. What its other pairs
+/// remember stays.
+///
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_set_fixed(scene: *mut SceneHandle, id: ObjectId, fixed: i32) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { change(scene, |scene| Ok(scene.set_fixed(id, fixed != 0)?)) }
+}
+
+/// Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
+///
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_set_filter(
+    scene: *mut SceneHandle,
+    id: ObjectId,
+    groups: u32,
+    mask: u32,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { change(scene, |scene| Ok(scene.set_filter(id, groups_or_first(groups), mask_or_all(mask))?)) }
+}
+
+/// Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_all_poses, and their
+/// number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
+/// failure `*count` is 0.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
+/// SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
+    scene: *const SceneHandle,
+    ids: *mut ObjectId,
+    capacity: usize,
+    count: *mut usize,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(count, "count", 0)?;
+        look(scene, |scene| {
+            if capacity > 0 {
+                check_capacity(ids, "ids", capacity, scene.object_count())?;
+                for (k, object) in scene.objects().enumerate() {
+                    ids.add(k).write(object.id());
+                }
+            }
+            count.write(scene.object_count());
+            Ok(())
+        })
+    })
+}
+
 /// Sets the number that comes back in every result of this object.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
@@ -260,6 +323,8 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_info(
                 piece_count: object.pieces().len(),
                 pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
                 fixed: i32::from(object.fixed()),
+                groups: object.groups(),
+                mask: object.mask(),
             };
             write_struct(info, "info", &value)
         })
@@ -282,100 +347,41 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece(
     guard(|| unsafe {
         output(shape, "shape", std::ptr::null())?;
         look(scene, |scene| {
-            let pieces = scene.object(id)?.pieces();
-            let found = pieces.get(piece).ok_or_else(|| {
-                let message = format!("piece {piece} of an object with {}", pieces.len());
-                Failure::new(StatusCode::ErrorInvalidArgument, message)
-            })?;
-            shape.write(Arc::as_ptr(found));
+            let object = scene.object(id)?;
+            check_piece(object, piece)?;
+            shape.write(Arc::as_ptr(&object.pieces()[piece]));
             Ok(())
         })
     })
 }
 
-// --- Poses ---------------------------------------------------------------------------------------------------------------
-
-/// Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_pose(
-    scene: *mut SceneHandle,
-    id: ObjectId,
-    pose: *const f64,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe { change(scene, |scene| Ok(scene.set_pose(id, input(pose.cast::<Pose>(), "pose")?)?)) }
-}
-
-/// As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_transform(
-    scene: *mut SceneHandle,
-    id: ObjectId,
-    rotation: *const f64,
-    translation: *const f64,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        change(scene, |scene| {
-            let rotation = input(rotation.cast::<[f64; 9]>(), "rotation")?;
-            let translation = input(translation.cast::<[f64; 3]>(), "translation")?;
-            Ok(scene.set_pose(id, &pose(rotation, translation))?)
-        })
-    }
-}
-
-/// Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
-/// stay where they are.
-///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFTPROX_ERROR_POSE: a pose is
-/// refused; the message names it. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_all_poses(
-    scene: *mut SceneHandle,
-    poses: *const f64,
-    count: usize,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules; see swiftprox_scene_set_pose.
-    unsafe {
-        change(scene, |scene| {
-            check_pose_count(scene, count)?;
-            Ok(scene.set_all_poses(array(poses.cast::<Pose>(), count, "poses")?)?)
-        })
-    }
-}
-
-/// As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFTPROX_ERROR_MEMORY,
-/// too.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_all_transforms(
-    scene: *mut SceneHandle,
-    rotations: *const f64,
-    translations: *const f64,
-    count: usize,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        change(scene, |scene| {
-            check_pose_count(scene, count)?;
-            let rotations = array(rotations.cast::<[f64; 9]>(), count, "rotations")?;
-            let translations = array(translations.cast::<[f64; 3]>(), count, "translations")?;
-            let pose_of = |(rotation, translation)| pose(rotation, translation);
-            let poses: Vec<Pose> = collected(rotations.iter().zip(translations).map(pose_of))?;
-            Ok(scene.set_all_poses(&poses)?)
-        })
-    }
-}
-
 // --- What the functions above share --------------------------------------------------------------------------------------
+
+/// Refuses a piece that an object does not have.
+pub(super) fn check_piece(object: &Object, piece: usize) -> Checked<()> {
+    let count = object.pieces().len();
+    if piece >= count {
+        let message = format!("piece {piece} of an object with {count}");
+        return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+    }
+    Ok(())
+}
+
+/// Groups as a program gives them: none are the first one.
+fn groups_or_first(groups: u32) -> u32 {
+    if groups == 0 { 1 } else { groups }
+}
+
+/// A mask as a program gives it: none is all.
+fn mask_or_all(mask: u32) -> u32 {
+    if mask == 0 { u32::MAX } else { mask }
+}
 
 /// One more share of a shape.
 ///
 /// # Safety
 /// `shape` meets the header's pointer rules.
-unsafe fn share(shape: *const Shape, name: impl std::fmt::Display) -> Checked<Arc<Shape>> {
+pub(super) unsafe fn share(shape: *const Shape, name: impl std::fmt::Display) -> Checked<Arc<Shape>> {
     if shape.is_null() {
         return Err(Failure::null(&name.to_string()));
     }
@@ -407,6 +413,8 @@ unsafe fn add(
             pose: Pose::from_row_major(&options.pose),
             fixed: options.fixed != 0,
             user_data: options.user_data,
+            groups: groups_or_first(options.groups),
+            mask: mask_or_all(options.mask),
         };
         made = Some((make()?, options));
         Ok(())
@@ -421,21 +429,6 @@ unsafe fn add(
             Ok(())
         })
     }
-}
-
-/// A pose from a rotation and a translation.
-fn pose(rotation: &[f64; 9], translation: &[f64; 3]) -> Pose {
-    Pose::new(&Matrix::from_row_slice(rotation), &Vector::from(*translation))
-}
-
-/// Refuses a wrong number of poses before any of them is read.
-fn check_pose_count(scene: &Scene, count: usize) -> Checked<()> {
-    let moving = scene.objects().filter(|object| !object.fixed()).count();
-    if count != moving {
-        let message = format!("{count} poses for {moving} objects that are not fixed");
-        return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
-    }
-    Ok(())
 }
 
 #[cfg(test)]

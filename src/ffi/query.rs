@@ -2,8 +2,7 @@
 
 use super::scene::{SceneHandle, change, look};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
-use super::{StatusCode, Versioned, guard, init_struct, output, read_struct};
-use crate::base::error::Result;
+use super::{Checked, StatusCode, Versioned, guard, init_struct, output, read_struct};
 use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
 
 /// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries.
@@ -16,16 +15,16 @@ pub struct CSceneQuery {
     /// Set by swiftprox_scene_query_init.
     pub struct_size: usize,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to infinity (all pairs). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
+    /// to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
     /// swiftprox_scene_query_intersection does without it, but refuses one out of range.
     pub distance_tolerance: f64,
     /// swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all tested pairs together may come to, in
+    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to, in
     /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-    /// Default: infinity.
+    /// Which pairs are listed is found out first, which takes a query of its own. Default: infinity.
     pub error_budget: f64,
     /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
@@ -100,7 +99,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_intersection, f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_intersection(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
@@ -113,7 +112,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_tolerance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_tolerance, f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_tolerance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
@@ -125,7 +124,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_exact_distance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_exact_distance, f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_exact_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
@@ -138,7 +137,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_approximate_distance, f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_approximate_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
 /// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
@@ -150,7 +149,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(Scene::query_contacts, 0.0, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_contacts(query)?), 0.0, scene, query, answer) }
 }
 
 /// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
@@ -193,8 +192,8 @@ pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandl
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
-unsafe fn ask(
-    run: for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<SceneAnswer<'a>>,
+pub(super) unsafe fn ask(
+    run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery) -> Checked<SceneAnswer<'a>>,
     tolerance: f64,
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
@@ -302,12 +301,18 @@ mod tests {
             for scene in [broken, broken, sound, sound] {
                 assert_eq!(swiftprox_scene_add_object(scene, pieces.as_ptr(), 1, null(), &mut id), StatusCode::Ok);
             }
-            let run = |scene: &mut Scene, query: &SceneQuery| -> Result<SceneAnswer<'static>> {
-                // Half of it is done.
-                let _ = scene.query_contacts(query);
-                panic!("injected")
-            };
-            assert_eq!(ask(run, 0.0, broken, null(), &mut answer), StatusCode::ErrorBug);
+            let status = ask(
+                |scene, query| {
+                    // Half of it is done.
+                    let _ = scene.query_contacts(query);
+                    panic!("injected")
+                },
+                0.0,
+                broken,
+                null(),
+                &mut answer,
+            );
+            assert_eq!(status, StatusCode::ErrorBug);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
             assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);

@@ -40,6 +40,8 @@ pub enum DecidedBy {
     Budget = 6,
     /// The bounding spheres: they are apart, and farther than the distance tolerance if there is one.
     BoundingSpheres = 7,
+    /// In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
+    InscribedSpheres = 8,
 }
 
 /// Kind of a feature.
@@ -114,16 +116,17 @@ pub struct PairAnswer {
     pub feature2: Feature,
     /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used (1 to 4 when intersecting, else 0).
+    /// How many entries of `proof` are used: 1 to 4 when intersecting, but for [`DecidedBy::InscribedSpheres`], else 0.
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,
 }
 
-/// Says nothing: no number of it reads as a contact.
-impl Default for PairAnswer {
-    fn default() -> Self {
+impl PairAnswer {
+    /// Says nothing: no number of it reads as a contact.
+    pub(crate) const UNSAID: PairAnswer = {
         const UNSAID: [f64; 3] = [f64::NAN; 3];
+        const NO_FEATURE: Feature = Feature { kind: FeatureKind::None, ids: [0; 2] };
         PairAnswer {
             outcome: Outcome::None,
             decided_by: DecidedBy::None,
@@ -135,11 +138,17 @@ impl Default for PairAnswer {
             world1: UNSAID,
             world2: UNSAID,
             normal: UNSAID,
-            feature1: Feature::default(),
-            feature2: Feature::default(),
+            feature1: NO_FEATURE,
+            feature2: NO_FEATURE,
             proof: [[0; 2]; 4],
             proof_count: 0,
-            statistics: Statistics::default(),
+            statistics: Statistics { marching_steps: 0, fallback_iterations: 0, exact_iterations: 0, levels: [0; 2] },
         }
+    };
+}
+
+impl Default for PairAnswer {
+    fn default() -> Self {
+        PairAnswer::UNSAID
     }
 }

@@ -38,8 +38,9 @@ pub(crate) use manifold::{Sink, manifold_into};
 #[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
+pub use query::Query;
 #[doc(hidden)]
-pub use query::{Query, Rungs};
+pub use query::Rungs;
 
 /// Exact distance with its interval, witness points, normal and features.
 ///

@@ -11,15 +11,16 @@ use crate::solve::state::State;
 
 /// What is asked of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
 pub enum Query {
     /// The verdict alone.
-    Intersection,
+    Intersection = 0,
     /// The distance.
-    Distance,
+    Distance = 1,
     /// The distance, and of intersecting bodies a common point and a normal.
-    Contact,
+    Contact = 2,
     /// The distance as narrow as asked for.
-    Approximate,
+    Approximate = 3,
 }
 
 /// Which rungs of the ladder a query may use, of those that it can do without. Benchmarks and tests leave some out.

@@ -17,6 +17,8 @@ const LEAST_CROWD: usize = 64;
 #[derive(Debug, Default)]
 pub(crate) struct Activation {
     latest: Stamp,
+    /// Something was deactivated, ever.
+    says_no: bool,
     all: Stamp,
     /// Since the last word on all; the earlier created object first. Words on objects removed since do no harm, as no id comes
     /// again.
@@ -28,6 +30,7 @@ pub(crate) struct Activation {
 impl Activation {
     /// The next word: "active" or not.
     fn say(&mut self, active: bool) -> Stamp {
+        self.says_no |= !active;
         self.latest = self.latest.next(active);
         self.latest
     }
@@ -64,6 +67,11 @@ impl Activation {
         Ok(())
     }
 
+    /// Whether some pair may be inactive.
+    pub(crate) fn says_no(&self) -> bool {
+        self.says_no
+    }
+
     /// Whether a pair is active, the earlier created object first.
     pub(crate) fn is_active(&self, object1: &Object, object2: &Object) -> bool {
         let pair = self.pairs.get(&[object1.id(), object2.id()]).copied().unwrap_or_default();
@@ -94,7 +102,7 @@ mod tests {
                     model.values_mut().for_each(|flag| *flag = active);
                 }
                 1 | 2 if ids.len() < 12 => {
-                    let id = table.insert(Vec::new(), &ObjectOptions::default()).unwrap();
+                    let id = table.insert(Vec::new(), &ObjectOptions::default(), 0).unwrap();
                     activation.set_object(table.get_mut(id).unwrap(), true);
                     model.extend(ids.iter().map(|&earlier| ([earlier, id], true)));
                     ids.push(id);

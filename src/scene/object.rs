@@ -4,6 +4,7 @@
 //! changes with every reuse of a slot, so an id outlives its object without ever naming another one.
 
 use std::fmt;
+use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -73,11 +74,16 @@ pub struct ObjectOptions {
     pub fixed: bool,
     /// The caller's own; it comes back in every result.
     pub user_data: u64,
+    /// The groups it is in, one bit each; the default is the first. Two objects are tested if each one's mask has a bit of the
+    /// other's groups.
+    pub groups: u32,
+    /// The groups it is tested against; the default is all.
+    pub mask: u32,
 }
 
 impl Default for ObjectOptions {
     fn default() -> Self {
-        ObjectOptions { pose: Pose::IDENTITY, fixed: false, user_data: 0 }
+        ObjectOptions { pose: Pose::IDENTITY, fixed: false, user_data: 0, groups: 1, mask: u32::MAX }
     }
 }
 
@@ -103,12 +109,20 @@ pub struct Object {
     /// Convex pieces in one local frame, shared; at least one. They are never tested against each other.
     pub(crate) pieces: Vec<Arc<Shape>>,
     pub(crate) pose: Pose,
+    /// Where each piece is in the object; none where all are at its origin.
+    pub(crate) piece_poses: Vec<Pose>,
     pub(crate) fixed: bool,
     pub(crate) user_data: u64,
+    pub(crate) groups: u32,
+    pub(crate) mask: u32,
     /// The last word on the activation of its pairs.
     pub(crate) activation: Stamp,
-    /// How many objects the scene had created before this one: the order of everything that is listed.
+    /// The first of its rows among the scene's proxies, one for each piece.
+    pub(crate) first_proxy: u32,
+    /// How many objects the scene had created before this one.
     serial: u64,
+    /// Where it stands in the table's order of creation.
+    place: u32,
     id: ObjectId,
 }
 
@@ -128,6 +142,44 @@ impl Object {
         &self.pose
     }
 
+    /// Where a piece is in the object.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose(&self, piece: usize) -> &Pose {
+        assert!(piece < self.pieces.len(), "piece {piece} of {}", self.pieces.len());
+        self.piece_poses.get(piece).unwrap_or(&Pose::IDENTITY)
+    }
+
+    /// Where a piece is in the world: the pose for which queries answer.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose_in_world(&self, piece: usize) -> Pose {
+        if self.piece_poses.is_empty() { self.pose } else { composed(&self.pose, self.piece_pose(piece)) }
+    }
+
+    /// What it was made of, but for the pieces.
+    pub(crate) fn options(&self) -> ObjectOptions {
+        let Object { pose, fixed, user_data, groups, mask, .. } = *self;
+        ObjectOptions { pose, fixed, user_data, groups, mask }
+    }
+
+    /// Whether the two may make a pair, activation and the program's filter aside.
+    pub(crate) fn may_meet(&self, other: &Object) -> bool {
+        !(self.fixed && other.fixed) && self.groups & other.mask != 0 && other.groups & self.mask != 0
+    }
+
+    /// The groups it is in.
+    pub fn groups(&self) -> u32 {
+        self.groups
+    }
+
+    /// The groups it is tested against.
+    pub fn mask(&self) -> u32 {
+        self.mask
+    }
+
     /// Whether it is fixed.
     pub fn fixed(&self) -> bool {
         self.fixed
@@ -138,10 +190,21 @@ impl Object {
         self.user_data
     }
 
-    /// Its place in the order of creation.
+    /// Its place in the order of creation, for ever.
     pub(crate) fn serial(&self) -> u64 {
         self.serial
     }
+
+    /// Its rows among the scene's proxies.
+    pub(crate) fn proxies(&self) -> Range<usize> {
+        let first = self.first_proxy as usize;
+        first..first + self.pieces.len()
+    }
+}
+
+/// The pose of what is at `inner` in a frame that is at `outer`, each number rounded.
+pub(crate) fn composed(outer: &Pose, inner: &Pose) -> Pose {
+    Pose::new(&(outer.rotation() * inner.rotation()), &outer.transform(&inner.translation()))
 }
 
 #[derive(Debug)]
@@ -158,10 +221,14 @@ pub(crate) struct ObjectTable {
     slots: Vec<Slot>,
     /// Slots to be used again, the last one first; with room for all slots, so that removing needs no memory.
     free: Vec<u32>,
-    /// Slots of the living objects in order of creation.
+    /// Slots of the objects in order of creation, [`GONE`] in the places of those removed.
     order: Vec<u32>,
+    count: usize,
     created: u64,
 }
+
+/// No slot.
+const GONE: u32 = u32::MAX;
 
 impl ObjectTable {
     pub(crate) fn new() -> ObjectTable {
@@ -169,14 +236,19 @@ impl ObjectTable {
         let count = SCENES.fetch_add(1, Ordering::Relaxed);
         // Tags repeat after 2²⁰ − 1 scenes; zero is left to the null id.
         let scene = (count % ((1 << SCENE_BITS) - 1)) as u32 + 1;
-        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), created: 0 }
+        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), count: 0, created: 0 }
     }
 
     /// Adds an object; the caller has checked the pieces and the pose.
     ///
     /// # Errors
     /// [`Error::Limit`] when there are no ids left, [`Error::Memory`]; nothing is added then.
-    pub(crate) fn insert(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
+    pub(crate) fn insert(
+        &mut self,
+        pieces: Vec<Arc<Shape>>,
+        options: &ObjectOptions,
+        first_proxy: u32,
+    ) -> Result<ObjectId> {
         reserve(&mut self.order, 1)?;
         let slot = match self.free.pop() {
             Some(slot) => slot as usize,
@@ -192,9 +264,23 @@ impl ObjectTable {
         };
         self.slots[slot].generation += 1;
         let id = ObjectId::new(slot, self.slots[slot].generation, self.scene);
-        let ObjectOptions { pose, fixed, user_data } = *options;
-        let activation = Stamp::default();
-        self.slots[slot].object = Some(Object { pieces, pose, fixed, user_data, activation, serial: self.created, id });
+        let ObjectOptions { pose, fixed, user_data, groups, mask } = *options;
+        let (activation, place) = (Stamp::default(), self.order.len() as u32);
+        self.slots[slot].object = Some(Object {
+            pieces,
+            pose,
+            piece_poses: Vec::new(),
+            fixed,
+            user_data,
+            groups,
+            mask,
+            activation,
+            first_proxy,
+            serial: self.created,
+            place,
+            id,
+        });
+        self.count += 1;
         self.created += 1;
         self.order.push(slot as u32);
         Ok(id)
@@ -205,18 +291,28 @@ impl ObjectTable {
     /// # Errors
     /// [`Error::Handle`] as [`ObjectTable::get`].
     pub(crate) fn remove(&mut self, id: ObjectId) -> Result<()> {
-        let serial = self.get(id)?.serial;
+        let place = self.get(id)?.place as usize;
         let slot = id.slot();
-        // The order is that of the serials: found by halving, as a scene may be emptied object by object.
-        let serial_at = |&slot: &u32| self.slots[slot as usize].object.as_ref().map(Object::serial);
-        if let Ok(place) = self.order.binary_search_by_key(&Some(serial), serial_at) {
-            self.order.remove(place);
-        }
+        self.order[place] = GONE;
+        self.count -= 1;
         self.slots[slot].object = None;
+        // Seldom enough that removing one takes constant time on average.
+        if self.order.len() > 2 * self.count + 64 {
+            self.close_gaps();
+        }
         if self.slots[slot].generation < LAST_GENERATION {
             self.free.push(slot as u32);
         }
         Ok(())
+    }
+
+    fn close_gaps(&mut self) {
+        self.order.retain(|&slot| slot != GONE);
+        for (place, &slot) in (0..).zip(&self.order) {
+            if let Some(object) = &mut self.slots[slot as usize].object {
+                object.place = place;
+            }
+        }
     }
 
     /// The object of an id.
@@ -253,13 +349,13 @@ impl ObjectTable {
 
     /// The objects in order of creation.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &Object> + Clone {
-        self.order.iter().filter_map(|&slot| self.slots[slot as usize].object.as_ref())
+        self.order.iter().filter_map(|&slot| self.slots.get(slot as usize)?.object.as_ref())
     }
 
     /// The objects in order of creation, for changing them.
     pub(crate) fn for_each_mut(&mut self, mut change: impl FnMut(&mut Object)) {
         for &slot in &self.order {
-            if let Some(object) = &mut self.slots[slot as usize].object {
+            if let Some(Slot { object: Some(object), .. }) = self.slots.get_mut(slot as usize) {
                 change(object);
             }
         }
@@ -267,7 +363,7 @@ impl ObjectTable {
 
     /// How many there are.
     pub(crate) fn len(&self) -> usize {
-        self.order.len()
+        self.count
     }
 }
 
@@ -283,7 +379,7 @@ mod tests {
     }
 
     fn insert(table: &mut ObjectTable) -> ObjectId {
-        table.insert(Vec::new(), &ObjectOptions::default()).unwrap()
+        table.insert(Vec::new(), &ObjectOptions::default(), 0).unwrap()
     }
 
     fn message(table: &ObjectTable, id: ObjectId) -> String {
@@ -331,7 +427,17 @@ mod tests {
         assert!(message(&table, ids[0]).contains("stale"));
         let order: Vec<ObjectId> = table.iter().map(Object::id).collect();
         assert_eq!(order, [ids[1], ids[2], again]);
-        assert!(table.get(again).unwrap().serial() > table.get(ids[2]).unwrap().serial());
+    }
+
+    #[test]
+    fn a_table_emptied_object_by_object_keeps_its_order_and_no_gaps() {
+        let (mut table, mut ids) = table(500);
+        while ids.len() > 3 {
+            table.remove(ids.remove(ids.len() * 7 / 11)).unwrap();
+            let order: Vec<ObjectId> = table.iter().map(Object::id).collect();
+            assert_eq!((order, table.len()), (ids.clone(), ids.len()));
+            assert!(table.order.len() <= 2 * ids.len() + 64);
+        }
     }
 
     #[test]

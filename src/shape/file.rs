@@ -155,7 +155,7 @@ fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
         return damaged("there is more behind its end");
     }
     let hierarchy = sound(Hierarchy::restored(&polyhedron, kind, levels, &mut progress.part(SHARE_OF_BODIES, 1.0)))?;
-    Ok(Shape::from_parts(polyhedron, hierarchy))
+    Shape::from_parts(polyhedron, hierarchy)
 }
 
 fn read_kind<T: Enumerator>(number: u32) -> Option<T> {

@@ -1,5 +1,6 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
+pub(crate) mod extent;
 pub mod file;
 
 use std::path::Path;
@@ -20,6 +21,7 @@ use crate::mesh::{Numbers, PolygonMesh, check_vertex};
 use crate::polyhedron::Polyhedron;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
+use extent::Extent;
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -106,11 +108,13 @@ impl ShapeOptions {
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
+    /// How far it reaches.
+    extent: Extent,
     /// Empty while automatic levels are not made.
     hierarchy: OnNeed<Hierarchy>,
 }
 
-/// Tables and automatic levels do not count: equal shapes make equal ones.
+/// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
 impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {
         let [levels, others] = [self.hierarchy(), other.hierarchy()];
@@ -277,13 +281,17 @@ impl Shape {
             })?);
         }
         let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
-        Ok(Shape::from_parts(polyhedron, hierarchy))
+        Shape::from_parts(polyhedron, hierarchy)
     }
 
     /// From parts that belong together; automatic levels are left to be made.
-    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Shape {
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Result<Shape> {
         let made = if hierarchy.kind == HierarchyKind::Automatic { None } else { Some(hierarchy) };
-        Shape { polyhedron, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) }
+        let extent = Extent::new(&polyhedron)?;
+        Ok(Shape { polyhedron, extent, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) })
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -300,13 +308,19 @@ impl Shape {
             }
             _ => Hierarchy::build(&polyhedron, options, progress)?,
         };
-        Ok(Shape::from_parts(polyhedron, hierarchy))
+        Shape::from_parts(polyhedron, hierarchy)
     }
 
     /// The polyhedron that queries run on: P₀ of the levels of detail.
     #[inline]
     pub fn polyhedron(&self) -> &Polyhedron {
         &self.polyhedron
+    }
+
+    /// How far it reaches, wherever it is placed.
+    #[inline]
+    pub(crate) fn extent(&self) -> &Extent {
+        &self.extent
     }
 
     /// The levels of detail that are made, without P₀.
@@ -374,7 +388,7 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
+        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
@@ -393,7 +407,7 @@ impl Shape {
         let share = options.share_of_body();
         progress.report(share)?;
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
-        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)
+        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)?
             .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }
 }

@@ -81,7 +81,12 @@ impl Program {
             16 | 17 => self.move_objects(u),
             18 => self.activate(u),
             19..=21 => self.scene_query(u),
-            22 => self.statistics(u),
+            22 => match u.int_in_range(0..=7)? {
+                0 => self.statistics(u),
+                1 | 2 => self.change_one(u),
+                3 | 4 => self.choose_pairs(u),
+                _ => self.near_query(u),
+            },
             // At the end, so that the bytes of the corpus go on to mean the same calls.
             _ => match u.int_in_range(0..=15)? {
                 call @ 0..=5 => library(u, call),

@@ -4,7 +4,10 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::filter::*;
 use swiftprox::ffi::object::*;
+use swiftprox::ffi::object_query::*;
+use swiftprox::ffi::pose::*;
 use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::swiftprox_shape_retain;
@@ -17,7 +20,7 @@ use swiftprox::shape::Shape;
 use super::arguments::{
     Block, any_pose, array, initialised, mesh_arrays, mesh_file, options, or_null, shape_options, start,
 };
-use super::model::{Object, Scene};
+use super::model::{Object, Scene, refuses};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
 
@@ -82,6 +85,7 @@ impl Program {
         let fixed = u.ratio(1, 4)?;
         let mut value: CObjectOptions = initialised(swiftprox_object_options_init_sized);
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
+        (value.groups, value.mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
         // SAFETY: twelve doubles.
         value.pose = unsafe { any_pose(u)?.at::<[f64; 12]>().read() };
         let given = options(u, &value, &[])?;
@@ -150,7 +154,8 @@ impl Program {
             info
         };
         assert_eq!(info.piece_count, pieces);
-        let object = Object { id, pieces, fixed: info.fixed != 0, user_data: info.user_data };
+        let ObjectInfo { user_data, groups, mask, .. } = info;
+        let object = Object { id, pieces, fixed: info.fixed != 0, user_data, groups, mask };
         scene.objects.push(object);
     }
 
@@ -308,7 +313,7 @@ impl Program {
                     let status = swiftprox_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
                     let expected = match (first, second) {
                         (Some(i), Some(j)) if i != j => {
-                            scene.is_tested(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
+                            scene.is_active(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
                         }
                         _ => false,
                     };
@@ -380,6 +385,127 @@ impl Program {
         }
     }
 
+    /// What of an object decides which pairs are tested, and where its pieces are.
+    pub fn change_one(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let id = self.id(u, place)?;
+        let scene = &mut self.scenes[place];
+        let found = scene.find(id);
+        // SAFETY: a living scene, blocks of the sizes that the header names or null.
+        let status = unsafe {
+            match u.int_in_range(0..=3)? {
+                0 => {
+                    let fixed: bool = u.arbitrary()?;
+                    if let Some(found) = found {
+                        scene.objects[found].fixed = fixed;
+                    }
+                    swiftprox_scene_set_fixed(scene.handle, id, i32::from(fixed))
+                }
+                1 => {
+                    let (groups, mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
+                    if let Some(found) = found {
+                        scene.objects[found].groups = if groups == 0 { 1 } else { groups };
+                        scene.objects[found].mask = if mask == 0 { u32::MAX } else { mask };
+                    }
+                    swiftprox_scene_set_filter(scene.handle, id, groups, mask)
+                }
+                2 => {
+                    let (pose, piece) = (any_pose(u)?, u.int_in_range(0..=3)?);
+                    return Ok(swiftprox_scene_set_piece_pose(scene.handle, id, piece, or_null(u, pose.at())?));
+                }
+                _ => {
+                    let mut poses: Vec<[f64; 12]> = Vec::new();
+                    for _ in 0..u.int_in_range(0..=3)? {
+                        poses.push(any_pose(u)?.at::<[f64; 12]>().read());
+                    }
+                    let (ids, count) = (vec![id; poses.len()], poses.len());
+                    let (ids, poses) = (Block::of(&ids), Block::of(&poses));
+                    return Ok(swiftprox_scene_set_poses(scene.handle, or_null(u, ids.at())?, poses.at(), count));
+                }
+            }
+        };
+        assert_eq!(status, if found.is_some() { StatusCode::Ok } else { StatusCode::ErrorHandle });
+        Ok(status)
+    }
+
+    /// The program's own word on which pairs are tested.
+    pub fn choose_pairs(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let mut ids = Vec::new();
+        for _ in 0..2 * u.int_in_range(0..=4)? {
+            ids.push(self.id(u, place)?);
+        }
+        let scene = &mut self.scenes[place];
+        // SAFETY: a living scene, a block of the ids; the callback takes any ids and its number.
+        unsafe {
+            Ok(match u.int_in_range(0..=3)? {
+                0 => {
+                    scene.refused = u.arbitrary::<bool>()?.then_some(u.int_in_range(0..=2)?);
+                    let callback: PairFilterCallback = if scene.refused.is_some() { Some(says) } else { None };
+                    let user = std::ptr::without_provenance_mut(scene.refused.unwrap_or_default() as usize);
+                    swiftprox_scene_set_pair_filter(scene.handle, callback, user)
+                }
+                1 => swiftprox_scene_filter_again(scene.handle),
+                2 => {
+                    scene.given = None;
+                    swiftprox_scene_find_pairs(scene.handle)
+                }
+                _ => {
+                    let pairs: Vec<[ObjectId; 2]> = ids.as_chunks().0.to_vec();
+                    let is_pair = |[a, b]: &[ObjectId; 2]| a != b && scene.find(*a).is_some() && scene.find(*b).is_some();
+                    let is_good = pairs.iter().all(is_pair);
+                    let block = Block::of(&ids);
+                    let status = swiftprox_scene_set_pairs(scene.handle, block.at(), pairs.len());
+                    assert_eq!(status == StatusCode::Ok, is_good, "{}", last_message());
+                    if is_good {
+                        scene.given = Some(pairs);
+                    }
+                    status
+                }
+            })
+        }
+    }
+
+    /// What is near one object, or a shape put somewhere, and what has changed.
+    pub fn near_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
+        let place = self.scene(u)?;
+        let (id, shape) = (self.id(u, place)?, self.shape(u)?);
+        let scene = &self.scenes[place];
+        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut last = 1.0;
+        value.distance_tolerance = any_number(u, &mut last)?;
+        let given = options(u, &value, &[])?;
+        let kind = u.int_in_range(-1..=4_i32)?;
+        let pose = any_pose(u)?;
+        // SAFETY: a living scene, a living shape or null, blocks of the sizes that the header names.
+        unsafe {
+            let mut answer = std::mem::zeroed::<CSceneAnswer>();
+            let status = match u.int_in_range(0..=2)? {
+                0 => swiftprox_scene_query_object(scene.handle, id, kind, start(&given), &mut answer),
+                1 => swiftprox_scene_query_placed(scene.handle, shape, pose.at(), kind, start(&given), &mut answer),
+                _ => {
+                    let mut events = std::mem::zeroed::<CSceneEvents>();
+                    let status = swiftprox_scene_query_events(scene.handle, value.distance_tolerance, &mut events);
+                    assert_eq!(events.began.is_null(), events.began_count == 0);
+                    assert_eq!(events.ended.is_null(), events.ended_count == 0);
+                    return Ok(status);
+                }
+            };
+            assert_eq!(answer.pairs.is_null(), answer.count == 0);
+            for k in 0..answer.count {
+                let result = &*answer.pairs.add(k);
+                if result.object2 == ObjectId::NULL {
+                    continue;
+                }
+                assert!(result.object1 == id || result.object2 == id);
+                let [one, other] = [result.object1, result.object2].map(|id| &scene.objects[scene.find(id).unwrap()]);
+                assert!(scene.is_tested(one, other));
+                check_result(scene.handle, result);
+            }
+            Ok(status)
+        }
+    }
+
     pub fn shrink(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let handle = or_null(u, self.scenes[place].handle)?;
@@ -403,20 +529,24 @@ impl Program {
     }
 }
 
+/// A filter whose user pointer is the number of what it refuses.
+unsafe extern "C-unwind" fn says(a: ObjectId, b: ObjectId, user: *mut std::ffi::c_void) -> i32 {
+    i32::from(!refuses(user.addr() as u64, a, b))
+}
+
 /// A listed answer holds for the pieces and poses that the scene has.
 ///
 /// # Safety
 /// The scene lives and the result is its.
 pub unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
     let placed = |id, piece: u32| {
-        // SAFETY: zero is a value of every member; a living scene and room for info and shape.
+        // SAFETY: a living scene and room for shape and pose.
         unsafe {
-            let mut info = std::mem::zeroed::<ObjectInfo>();
-            info.struct_size = size_of::<ObjectInfo>();
-            assert_eq!(swiftprox_scene_get_object_info(scene, id, &mut info), StatusCode::Ok);
             let mut shape = null();
             assert_eq!(swiftprox_scene_get_piece(scene, id, piece as usize, &mut shape), StatusCode::Ok);
-            (shape, info.pose)
+            let mut pose = [0.0; 12];
+            assert_eq!(swiftprox_scene_get_piece_pose(scene, id, piece, pose.as_mut_ptr()), StatusCode::Ok);
+            (shape, pose)
         }
     };
     let ((shape1, pose1), (shape2, pose2)) =

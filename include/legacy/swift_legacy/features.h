@@ -68,8 +68,10 @@ private:
 struct FeaturePair {
     FeatureSide sides[2];
 
-    /* To a combination that old programs know: beside a face there is a vertex. swiftprox answers others where bodies intersect, and
-     * where its exact arithmetic decides. */
+    /*
+     * To a combination that old programs know: beside a face there is a vertex. swiftprox answers others where bodies intersect,
+     * and where its exact arithmetic decides.
+     */
     void reduce()
     {
         if (sides[1].type() == SWIFT_FACE) {

@@ -8,11 +8,15 @@
 #include <swiftprox.h>
 #include <swiftprox_tuning.h>
 
+#include "defaults.h"
 #include "mesh.h"
 
 namespace swift_legacy {
 
-/* How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text files. */
+/*
+ * How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text
+ * files.
+ */
 const double CONVEXITY_TOLERANCE = 1e-6;
 
 /* How many levels of detail a caller may give: a limit of SWIFT 1.x. */
@@ -36,7 +40,7 @@ struct LevelOptions {
     bool are_asked_for() const
     {
 #ifdef SWIFT_HIERARCHY
-        return least_triangles != 50 || ratio < 0.25 || ratio > 0.25;
+        return least_triangles != DEFAULT_MIN_TCOUNT || ratio < DEFAULT_QSLIM_TRATIO || ratio > DEFAULT_QSLIM_TRATIO;
 #else
         return false;
 #endif

@@ -116,6 +116,7 @@ struct Object {
         return pieces.size() > parts.size();
     }
 
+    /* Takes the parts, which are empty then. */
     void take(std::vector<Part>& from)
     {
         parts.swap(from);
@@ -177,14 +178,18 @@ public:
         created_.reserve(objects_.size());
     }
 
-    void add(int id, swiftprox_object_id native, bool is_fixed, std::vector<Part>& parts)
+    /* As the next object, one that has taken its parts. */
+    void add(swiftprox_object_id native, bool is_fixed, Object& prepared)
     {
+        const int id = next_id();
         Object& object = (*this)[id];
         object.native = native;
         object.is_live = true;
         object.is_fixed = is_fixed;
         object.has_boxes = false;
-        object.take(parts);
+        object.parts.swap(prepared.parts);
+        object.pieces.swap(prepared.pieces);
+        object.part_of.swap(prepared.part_of);
         free_.pop_back();
         created_.push_back(id);
         united_ += object.is_united() ? 1 : 0;

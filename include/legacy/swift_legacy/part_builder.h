@@ -59,7 +59,7 @@ struct LevelArrays {
     {
         typedef Identity<void> Default;
         return Transform(orientations == NULL ? Default::orientation : orientations[level],
-                         translations == NULL ? Default::translation : translations[level], scales == NULL ? 1 : scales[level]);
+                         translations == NULL ? Default::translation : translations[level], scales == NULL ? DEFAULT_SCALE : scales[level]);
     }
 
     /* After the input transform; false after a message. */
@@ -97,11 +97,11 @@ struct PieceArrays {
 
     PartSettings settings(int piece) const
     {
-        const LevelOptions levels(least_triangles == NULL ? 50 : least_triangles[piece],
-                                  ratios == NULL ? static_cast<SWIFT_Real>(0.25) : ratios[piece]);
+        const LevelOptions levels(least_triangles == NULL ? DEFAULT_MIN_TCOUNT : least_triangles[piece],
+                                  ratios == NULL ? DEFAULT_QSLIM_TRATIO : ratios[piece]);
         return PartSettings(box_settings == NULL ? BOX_SETTING_DEFAULT : box_settings[piece],
-                            enlargements_relative == NULL ? 0 : enlargements_relative[piece],
-                            enlargements_absolute == NULL ? 0 : enlargements_absolute[piece], levels);
+                            enlargements_relative == NULL ? DEFAULT_BOX_ENLARGE_REL : enlargements_relative[piece],
+                            enlargements_absolute == NULL ? DEFAULT_BOX_ENLARGE_ABS : enlargements_absolute[piece], levels);
     }
 
     CopySource source(int piece) const

@@ -103,11 +103,11 @@ public:
         return static_cast<int>(nearest_.size());
     }
 
-    /* Of entry k of the distances. */
-    const swiftprox_pair_answer* answer(int k) const
+    /* Entry k of the distances; null where there is none. */
+    const Found* found(int k) const
     {
-        const std::vector<Entry>& shown = contacts_.empty() ? nearest_ : contacts_;
-        return k < 0 || static_cast<std::size_t>(k) >= shown.size() ? NULL : &shown[static_cast<std::size_t>(k)].found->answer;
+        const std::vector<Entry>& shown = contacts();
+        return k < 0 || static_cast<std::size_t>(k) >= shown.size() ? NULL : shown[static_cast<std::size_t>(k)].found;
     }
 
     /* Queries that do not tell contacts apart list the nearest one of each pair. */
@@ -183,36 +183,30 @@ public:
         return begin_of(distances_);
     }
 
-    SWIFT_Real* write_points()
+    /* Distances, points and normals, those of which the pointer is not null, in one go: what is found is large. */
+    void write_contacts(SWIFT_Real** distances, SWIFT_Real** points, SWIFT_Real** normals)
     {
         const std::vector<Entry>& shown = contacts();
-        points_.resize(6 * shown.size());
-        for (std::size_t k = 0; k < shown.size(); ++k) {
+        const std::size_t count = shown.size();
+        SWIFT_Real* distance = room_for(distances, count, distances_);
+        SWIFT_Real* point = room_for(points, 6 * count, points_);
+        SWIFT_Real* normal = room_for(normals, 3 * count, normals_);
+        for (std::size_t k = 0; k < count; ++k) {
             const swiftprox_pair_answer& answer = shown[k].found->answer;
             const bool swaps = is_swapped(*shown[k].found);
-            const double* first = swaps ? answer.local2 : answer.local1;
-            const double* second = swaps ? answer.local1 : answer.local2;
-            SWIFT_Real* points = &points_[6 * k];
-            for (int axis = 0; axis < 3; ++axis) {
-                points[axis] = static_cast<SWIFT_Real>(first[axis]);
-                points[3 + axis] = static_cast<SWIFT_Real>(second[axis]);
+            if (distance != NULL) {
+                *distance++ = shown[k].distance;
+            }
+            if (point != NULL) {
+                copy_scaled(swaps ? answer.local2 : answer.local1, 1, point);
+                copy_scaled(swaps ? answer.local1 : answer.local2, 1, point + 3);
+                point += 6;
+            }
+            if (normal != NULL) {
+                copy_scaled(answer.normal, swaps ? -1 : 1, normal);
+                normal += 3;
             }
         }
-        return begin_of(points_);
-    }
-
-    SWIFT_Real* write_normals()
-    {
-        const std::vector<Entry>& shown = contacts();
-        normals_.resize(3 * shown.size());
-        for (std::size_t k = 0; k < shown.size(); ++k) {
-            const double* normal = shown[k].found->answer.normal;
-            const bool swaps = is_swapped(*shown[k].found);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                normals_[3 * k + axis] = static_cast<SWIFT_Real>(swaps ? -normal[axis] : normal[axis]);
-            }
-        }
-        return begin_of(normals_);
     }
 
     /* Each pointer may be null. */
@@ -316,6 +310,24 @@ private:
         }
         contact_counts_.push_back(static_cast<int>(contacts_.size() - before));
         nearest_.push_back(contacts_.back());
+    }
+
+    /* An array of so many numbers, where it is asked for. */
+    static SWIFT_Real* room_for(SWIFT_Real** wanted, std::size_t count, std::vector<SWIFT_Real>& numbers)
+    {
+        if (wanted == NULL) {
+            return NULL;
+        }
+        numbers.resize(count);
+        *wanted = begin_of(numbers);
+        return *wanted;
+    }
+
+    static void copy_scaled(const double* from, double factor, SWIFT_Real* to)
+    {
+        to[0] = static_cast<SWIFT_Real>(factor * from[0]);
+        to[1] = static_cast<SWIFT_Real>(factor * from[1]);
+        to[2] = static_cast<SWIFT_Real>(factor * from[2]);
     }
 
     template <class Value> static Value* begin_of(std::vector<Value>& values)

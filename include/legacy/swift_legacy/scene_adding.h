@@ -38,11 +38,11 @@ inline bool SWIFT_Scene::has_object(int id, const char* method) const
 /* Hands the parts over to the scene. */
 inline bool SWIFT_Scene::insert(std::vector<swift_legacy::Part>& parts, bool fixed, int& id)
 {
+    swift_legacy::Object object;
+    object.take(parts);
     std::vector<const swiftprox_shape*> shapes;
-    for (std::size_t part = 0; part < parts.size(); ++part) {
-        for (std::size_t piece = 0; piece < parts[part].pieces.size(); ++piece) {
-            shapes.push_back(parts[part].pieces[piece]->shape);
-        }
+    for (std::size_t piece = 0; piece < object.pieces.size(); ++piece) {
+        shapes.push_back(object.pieces[piece]->shape);
     }
     objects_.reserve();
     const int next = objects_.next_id();
@@ -56,7 +56,7 @@ inline bool SWIFT_Scene::insert(std::vector<swift_legacy::Part>& parts, bool fix
         swift_legacy::report_failure(swift_legacy::about_piece(next, 0));
         return false;
     }
-    objects_.add(next, native, fixed, parts);
+    objects_.add(native, fixed, object);
     id = next;
     return true;
 }
@@ -262,7 +262,7 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
         return false;
     }
     objects_.reserve();
-    std::vector<swift_legacy::Part> parts = objects_[copy_oid].parts;
+    swift_legacy::Object copy = objects_[copy_oid];
     const int next = objects_.next_id();
     swiftprox_object_id native;
     if (swiftprox_scene_copy_object(scene_, objects_[copy_oid].native, &native) != SWIFTPROX_OK) {
@@ -270,7 +270,7 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
         return false;
     }
     check(swiftprox_scene_set_user_data(scene_, native, static_cast<uint64_t>(next)), "Copy_Object");
-    objects_.add(next, native, objects_[copy_oid].is_fixed, parts);
+    objects_.add(native, objects_[copy_oid].is_fixed, copy);
     id = next;
     return true;
 }

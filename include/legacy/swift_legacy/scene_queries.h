@@ -172,15 +172,7 @@ inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real
 inline void SWIFT_Scene::write_contacts(swift_legacy::IntersectingFeatures intersecting, SWIFT_Real** distances,
                                         SWIFT_Real** nearest_pts, SWIFT_Real** normals, int** feature_types, int** feature_ids)
 {
-    if (distances != NULL) {
-        *distances = results_.write_distances();
-    }
-    if (nearest_pts != NULL) {
-        *nearest_pts = results_.write_points();
-    }
-    if (normals != NULL) {
-        *normals = results_.write_normals();
-    }
+    results_.write_contacts(distances, nearest_pts, normals);
     if (feature_types != NULL || feature_ids != NULL) {
         results_.write_features(objects_, intersecting, feature_types, feature_ids);
     }
@@ -188,7 +180,35 @@ inline void SWIFT_Scene::write_contacts(swift_legacy::IntersectingFeatures inter
 
 inline const swiftprox_pair_answer* SWIFT_Scene::Get_Answer(int k) const
 {
-    return results_.answer(k);
+    const swift_legacy::Found* found = results_.found(k);
+    return found == NULL ? NULL : &found->answer;
+}
+
+inline bool SWIFT_Scene::Get_Depth(int k, swiftprox_depth_answer& depth) const
+{
+    const swift_legacy::Found* found = results_.found(k);
+    if (found == NULL) {
+        swift_legacy::report("Error (Get_Depth): the last query has no entry " + swift_legacy::text(k));
+        return false;
+    }
+    const swiftprox_object_id ids[2] = {found->object1, found->object2};
+    const uint32_t pieces[2] = {found->piece1, found->piece2};
+    const swiftprox_shape* shapes[2];
+    swiftprox_object_info infos[2];
+    for (int side = 0; side < 2; ++side) {
+        infos[side].struct_size = sizeof infos[side];
+        if (swiftprox_scene_get_piece(scene_, ids[side], pieces[side], &shapes[side]) != SWIFTPROX_OK ||
+            swiftprox_scene_get_object_info(scene_, ids[side], &infos[side]) != SWIFTPROX_OK) {
+            swift_legacy::report_failure_of("Get_Depth");
+            return false;
+        }
+    }
+    swiftprox_depth_cache cold;
+    std::memset(&cold, 0, sizeof cold);
+    const swiftprox_status status =
+        swiftprox_pair_depth(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &cold, NULL, &depth);
+    check(status, "Get_Depth");
+    return status == SWIFTPROX_OK;
 }
 
 #endif

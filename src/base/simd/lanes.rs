@@ -72,6 +72,8 @@ pub trait Lanes: Copy {
     fn products_are_below(self, vectors: [&[f32; 8]; 3], limit: f32) -> bool;
     /// The greatest of such products and which it is; the first of equals. Any if one is a NaN.
     fn greatest_product(self, vectors: [&[f32; 8]; 3]) -> (f32, usize);
+    /// The least and the greatest of such products over many vectors; any if one is a NaN.
+    fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2];
     /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
     fn least(self) -> (f64, usize);
     /// Asks the memory for an element that may soon be needed: the first three cache lines, which are what marching reads of a
@@ -234,6 +236,16 @@ impl Lanes for Portable {
             }
         }
         best
+    }
+    #[inline(always)]
+    fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2] {
+        let mut ends = [f32::INFINITY, f32::NEG_INFINITY];
+        for [x, y, z] in vectors {
+            for product in self.products([x, y, z]) {
+                ends = [ends[0].min(product), ends[1].max(product)];
+            }
+        }
+        ends
     }
     #[inline(always)]
     fn least(self) -> (f64, usize) {

@@ -82,6 +82,23 @@ pub fn dispatch_to_avx2<K: Kernel>(kernel: &mut K) -> K::Output {
     run_portable(kernel)
 }
 
+/// Asks the memory for what will be read soon.
+#[inline(always)]
+pub fn prefetch<T>(place: &T) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        const LINE: usize = 64;
+        let first = std::ptr::from_ref(place).cast::<i8>();
+        for at in (0..size_of::<T>()).step_by(LINE) {
+            // SAFETY: a hint reads nothing, and the addresses are those of one object.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.add(at)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = place;
+}
+
 /// From now on this process does without more features than these: all machines round alike at the baseline. For tests.
 pub fn narrow_to(most: Features) {
     #[cfg(target_arch = "x86_64")]
@@ -113,6 +130,7 @@ mod tests {
             [[f64; 4]; 7],
             [u32; 4],
             [f64; 4],
+            [f32; 2],
         );
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> Self::Output {
@@ -151,6 +169,7 @@ mod tests {
                 chosen.map(L::to_array),
                 single,
                 L::load_single(&single).to_array(),
+                x.extreme_products(&[[*a, *b, *c], [*b, *a, *b]]),
             )
         }
     }
@@ -164,6 +183,7 @@ mod tests {
             // SAFETY: the machine has more than that.
             assert_eq!(unsafe { wide::run_with_avx2(&mut Sample) }, expected);
         }
+        assert_eq!(expected.10, [0.0, 30.0]);
         assert_eq!(expected.1[3], [4.0, 8.0, 12.0, 0.0]);
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.8, [f32::INFINITY, 0.1, -0.0, -2.5].map(f32::to_bits));

@@ -302,6 +302,22 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
         }
     }
     #[inline(always)]
+    fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2] {
+        // SAFETY: see above.
+        unsafe {
+            let (mut least, mut greatest) = (_mm256_set1_ps(f32::INFINITY), _mm256_set1_ps(f32::NEG_INFINITY));
+            for [x, y, z] in vectors {
+                let products = self.products([x, y, z]);
+                least = _mm256_min_ps(least, products);
+                greatest = _mm256_max_ps(greatest, products);
+            }
+            let (mut low, mut high) = ([0.0; 8], [0.0; 8]);
+            _mm256_storeu_ps(low.as_mut_ptr(), least);
+            _mm256_storeu_ps(high.as_mut_ptr(), greatest);
+            [low.into_iter().fold(f32::INFINITY, f32::min), high.into_iter().fold(f32::NEG_INFINITY, f32::max)]
+        }
+    }
+    #[inline(always)]
     fn least(self) -> (f64, usize) {
         // SAFETY: see above.
         unsafe {

@@ -8,7 +8,7 @@ mod depth;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
-use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
+use crate::pair::answer::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::exact::{self, VertexPair};
@@ -43,6 +43,7 @@ use witness::Witness;
 ///
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them. The
 /// status and the statistics tell of the search, and are not checked; of a contact's normal no more is checked than its length.
+/// [`DecidedBy::InscribedSpheres`] excuses an intersection from a proof: integers decide it anew.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///
@@ -283,6 +284,9 @@ fn are_said(witnesses: &[Witness; 2]) -> bool {
 
 fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let count = answer.proof_count as usize;
+    if count == 0 && answer.decided_by == DecidedBy::InscribedSpheres {
+        return verify_without_proof(polyhedra, poses, answer);
+    }
     if !(1..=4).contains(&count) {
         return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
     }
@@ -319,6 +323,17 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
         return Err(unverified(format!("the witness points of a contact are {apart:e} apart")));
     }
     Ok(())
+}
+
+/// The vertices of overlapping balls are none: integers decide anew.
+fn verify_without_proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+    if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
+        return Err(unverified("an intersection with a distance that is not 0".into()));
+    }
+    check_no_points(polyhedra, poses, answer)?;
+    check_no_normal(answer)?;
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    if truth.compare(0.0).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
 }
 
 /// The length of a vector whose squares may leave the range of doubles.

@@ -1,0 +1,47 @@
+/* Rigid bodies under gravity, held apart by sequential impulses over contact manifolds (Catto 2006, "Fast and Simple Physics
+ * using Sequential Impulses"): as little of it as shows what a simulator asks of a manifold. */
+#ifndef SWIFTPROX_EXAMPLES_RIGID_BODIES_H
+#define SWIFTPROX_EXAMPLES_RIGID_BODIES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+#include <swiftprox.h>
+
+struct body {
+    const swiftprox_shape *shape; /* its local origin is its centre of mass */
+    swiftprox_object_id id;
+    double inverse_mass;       /* 0: it never moves */
+    double inverse_inertia[9]; /* row-major, in the local frame */
+    double place[3];
+    double quaternion[4]; /* w x y z */
+    double velocity[3];
+    double spin[3];
+    double pose[12]; /* of place and quaternion */
+};
+
+struct world; /* bodies, a scene that knows which are near, and what their pairs remember */
+
+/* No bodies yet. Null where there is no memory. */
+struct world *world_create(void);
+
+void world_destroy(struct world *world);
+
+/* Adds a body of density 1, or one that never moves. The world takes the share of the shape. Ends the program where a call of
+ * the library fails. */
+void world_add(struct world *world, const swiftprox_shape *shape, const double place[3], bool fixed);
+
+/* One step of `seconds`. */
+void world_step(struct world *world, double seconds);
+
+size_t world_body_count(const struct world *world);
+
+const struct body *world_body(const struct world *world, size_t index);
+
+/* The largest depth of any pair in the last step. */
+double world_depth(const struct world *world);
+
+/* Ends the program with the library's message where a call failed. */
+void demand(swiftprox_status status);
+
+#endif

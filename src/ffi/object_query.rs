@@ -1,0 +1,131 @@
+//! Queries about one object, and about what has changed.
+
+use super::object::share;
+use super::query::{CSceneAnswer, CSceneQuery, ask};
+use super::scene::{SceneHandle, change};
+use super::{Failure, QueryNumber, StatusCode, guard, input, output, read_enumerator};
+use crate::base::math::Pose;
+use crate::scene::object::ObjectId;
+use crate::scene::{ObjectPair, Query, SceneEvents};
+use crate::shape::Shape;
+
+/// What has changed since the last query about events.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CSceneEvents {
+    /// Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
+    /// events. Null when began_count is 0.
+    pub began: *const ObjectPair,
+    /// How many.
+    pub began_count: usize,
+    /// Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid as
+    /// began are. Null when ended_count is 0.
+    pub ended: *const ObjectPair,
+    /// How many.
+    pub ended_count: usize,
+}
+
+impl CSceneEvents {
+    const EMPTY: CSceneEvents =
+        CSceneEvents { began: std::ptr::null(), began_count: 0, ended: std::ptr::null(), ended_count: 0 };
+
+    fn new(events: &SceneEvents) -> CSceneEvents {
+        let first = |pairs: &[ObjectPair]| if pairs.is_empty() { std::ptr::null() } else { pairs.as_ptr() };
+        CSceneEvents {
+            began: first(events.began),
+            began_count: events.began.len(),
+            ended: first(events.ended),
+            ended_count: events.ended.len(),
+        }
+    }
+}
+
+/// As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded; the
+/// tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near, if
+/// nothing else has moved.
+///
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
+/// errors as of swiftprox_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_query_object(
+    scene: *mut SceneHandle,
+    id: ObjectId,
+    kind: QueryNumber,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        ask(
+            |scene, query| Ok(scene.query_object(id, read_kind(kind)?, query)?),
+            default_tolerance(kind),
+            scene,
+            query,
+            answer,
+        )
+    }
+}
+
+/// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object of
+/// the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+///
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
+/// swiftprox_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_query_placed(
+    scene: *mut SceneHandle,
+    shape: *const Shape,
+    pose: *const f64,
+    kind: QueryNumber,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    unsafe {
+        ask(
+            |scene, query| {
+                let pose = input(pose.cast::<Pose>(), "pose")?;
+                Ok(scene.query_placed(&share(shape, "shape")?, pose, read_kind(kind)?, query)?)
+            },
+            default_tolerance(kind),
+            scene,
+            query,
+            answer,
+        )
+    }
+}
+
+/// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
+/// lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
+/// failure `*events` is empty, and what was near stays remembered.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+/// events is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_query_events(
+    scene: *mut SceneHandle,
+    distance: f64,
+    events: *mut CSceneEvents,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    let refused = guard(|| unsafe { output(events, "events", CSceneEvents::EMPTY) });
+    if refused != StatusCode::Ok {
+        return refused;
+    }
+    // SAFETY: the header's pointer rules; `events` was written before.
+    unsafe {
+        change(scene, |scene| {
+            events.write(CSceneEvents::new(&scene.query_events(distance)?));
+            Ok(())
+        })
+    }
+}
+
+fn read_kind(kind: QueryNumber) -> Result<Query, Failure> {
+    read_enumerator(kind, "kind", "swiftprox_query_kind")
+}
+
+/// Of contacts 0, of all others infinity.
+fn default_tolerance(kind: QueryNumber) -> f64 {
+    if kind == Query::Contact as i32 { 0.0 } else { f64::INFINITY }
+}

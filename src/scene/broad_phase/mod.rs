@@ -1,0 +1,322 @@
+//! Which pairs of pieces are near: a list over boxes that leave room for motion, kept from query to query.
+//!
+//! Every pair of pieces whose distance is at most the list's tolerance τ is in the list: along each axis the gap between the two is
+//! then at most τ, and each box is grown by at least τ/2. A query with a larger tolerance has all boxes fitted anew. What else the
+//! list holds depends on how the objects came to where they are; so no answer may depend on that.
+
+mod grid;
+pub(crate) mod tree;
+pub(crate) mod near_pairs;
+
+use std::ops::Range;
+
+use crate::base::error::Result;
+use crate::base::memory::{extend, reserve};
+use crate::scene::object::ObjectId;
+use crate::scene::proxies::{Label, Proxies};
+use grid::Grid;
+use near_pairs::{Candidates, NearPairs, Testing};
+use tree::{NONE, Scratch, Tree};
+
+/// Above this part of all pieces, one in so many, all are refitted when some have left their boxes.
+const MANY_ESCAPED: usize = 12;
+
+/// After so many queries with smaller tolerances the list's follows.
+const PATIENCE: u32 = 16;
+
+/// Two trees, the boxes' tolerance, and the list.
+#[derive(Debug)]
+pub(crate) struct BroadPhase {
+    pub near: NearPairs,
+    /// Of pieces that move and of fixed ones, which never meet each other.
+    trees: [Tree; 2],
+    /// Each piece's node in its tree, or [`NONE`].
+    leaves: Vec<u32>,
+    /// Whose boxes are not those of its pieces.
+    is_stale: [bool; 2],
+    /// For all moving pieces at once.
+    grid: Grid,
+    candidates: Candidates,
+    scratch: Scratch,
+    /// τ: no pair is missing that is so near.
+    tolerance: f64,
+    /// Queries in a row whose tolerance was smaller, and the largest of those.
+    smaller: (u32, f64),
+    /// An update was not finished: everything is to be made anew.
+    is_broken: bool,
+    /// The list holds what the program has given.
+    is_given: bool,
+}
+
+impl Default for BroadPhase {
+    fn default() -> Self {
+        BroadPhase {
+            near: NearPairs::default(),
+            trees: Default::default(),
+            leaves: Vec::new(),
+            is_stale: [false; 2],
+            grid: Grid::default(),
+            candidates: Candidates::default(),
+            scratch: Scratch::default(),
+            tolerance: 0.0,
+            smaller: (0, 0.0),
+            is_broken: false,
+            is_given: false,
+        }
+    }
+}
+
+impl BroadPhase {
+    /// Room for `count` more pieces.
+    pub fn reserve(&mut self, count: usize) -> Result<()> {
+        reserve(&mut self.leaves, count)
+    }
+
+    /// A piece was added.
+    pub fn push(&mut self) {
+        self.leaves.push(NONE);
+    }
+
+    /// A piece has ended, or is to go to the other tree.
+    pub fn take_out(&mut self, proxy: usize, fixed: bool) {
+        let leaf = std::mem::replace(&mut self.leaves[proxy], NONE);
+        if leaf != NONE && !self.is_broken {
+            self.trees[usize::from(fixed)].remove(leaf);
+        }
+    }
+
+    /// Brings the list up to date for a query with this tolerance. `testing` says whether a pair that is new to it is tested.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the next call makes everything anew.
+    pub fn update(
+        &mut self,
+        proxies: &mut Proxies,
+        tolerance: f64,
+        mut testing: impl FnMut([&Label; 2]) -> Testing,
+    ) -> Result<()> {
+        let refits_all = self.follow_tolerance(tolerance) | self.is_broken;
+        if proxies.escaped.is_empty() && !refits_all {
+            return Ok(());
+        }
+        if std::mem::replace(&mut self.is_broken, true) {
+            self.leaves.fill(NONE);
+            self.trees = Default::default();
+        }
+        self.candidates.clear();
+        if refits_all || proxies.escaped.len() * MANY_ESCAPED > proxies.len() - proxies.gone {
+            self.refit_all(proxies);
+            self.find_all(proxies)?;
+            let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
+            self.near.update(&mut self.candidates, &proxies.firsts, |_| true, is_tested)?;
+        } else {
+            self.refit_escaped(proxies)?;
+            self.find_escaped(proxies)?;
+            let motions = &proxies.motions;
+            let is_open = |pair: [u32; 2]| pair.into_iter().any(|proxy| motions[proxy as usize].has_escaped);
+            let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
+            self.near.update(&mut self.candidates, &proxies.firsts, is_open, is_tested)?;
+        }
+        for proxy in proxies.escaped.drain(..) {
+            proxies.motions[proxy as usize].has_escaped = false;
+        }
+        self.is_broken = false;
+        Ok(())
+    }
+
+    /// Boxes overlap of all that are not farther apart than this.
+    pub fn tolerance(&self) -> f64 {
+        self.tolerance
+    }
+
+    /// The next update looks for all pairs.
+    pub fn begin_anew(&mut self) {
+        self.is_broken = true;
+        self.is_given = false;
+    }
+
+    /// Makes the list hold the pairs of these pieces, if it does not, each pair's in a range each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
+    pub fn take(
+        &mut self,
+        proxies: &mut Proxies,
+        pieces: impl Iterator<Item = (Range<usize>, Range<usize>)>,
+        mut testing: impl FnMut([&Label; 2]) -> Testing,
+    ) -> Result<()> {
+        // Pieces that have moved or come stay in the list of escaped ones; of those gone the pairs have to go.
+        if self.is_given && !proxies.has_news {
+            return Ok(());
+        }
+        self.is_given = false;
+        self.candidates.clear();
+        for (pieces1, pieces2) in pieces {
+            for piece1 in pieces1 {
+                for piece2 in pieces2.clone() {
+                    self.candidates.add_if_meeting(proxies, piece1 as u32, piece2 as u32)?;
+                }
+            }
+        }
+        let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
+        self.near.update(&mut self.candidates, &proxies.firsts, |_| true, is_tested)?;
+        proxies.has_news = false;
+        self.is_given = true;
+        Ok(())
+    }
+
+    /// Makes room for a tolerance; whether all boxes are to be fitted anew.
+    fn follow_tolerance(&mut self, tolerance: f64) -> bool {
+        if tolerance >= self.tolerance {
+            self.smaller = (0, 0.0);
+            return std::mem::replace(&mut self.tolerance, tolerance) < tolerance;
+        }
+        let (count, largest) = self.smaller;
+        self.smaller = (count + 1, largest.max(tolerance));
+        if count < PATIENCE {
+            return false;
+        }
+        self.tolerance = self.smaller.1;
+        self.smaller = (0, 0.0);
+        true
+    }
+
+    // --- All pieces --------------------------------------------------------------------------------------------------------------
+
+    fn refit_all(&mut self, proxies: &mut Proxies) {
+        for proxy in 0..proxies.len() {
+            if !proxies.is_gone(proxy) {
+                proxies.refit(proxy, self.tolerance);
+            }
+        }
+        self.is_stale = [true; 2];
+    }
+
+    fn find_all(&mut self, proxies: &Proxies) -> Result<()> {
+        self.fit_tree(true, proxies)?;
+        self.list_tree(false, proxies)?;
+        if self.grid.fill(&proxies.boxes, &self.scratch.proxies)? {
+            return self.find_by_grid(proxies);
+        }
+        self.fit_tree(false, proxies)?;
+        let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
+        let mut found = |a: u32, b: u32| candidates.add_if_meeting(proxies, a, b);
+        let [moving, fixed] = &self.trees;
+        moving.for_each_pair(scratch, &mut found)?;
+        moving.for_each_pair_with(fixed, scratch, found)
+    }
+
+    /// Moving pieces meet each other in the grid, but for large ones, and fixed ones in their tree.
+    fn find_by_grid(&mut self, proxies: &Proxies) -> Result<()> {
+        if !self.grid.large.is_empty() {
+            self.fit_tree(false, proxies)?;
+        }
+        let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
+        self.grid.for_each_pair(|a, b| candidates.add_if_meeting(proxies, a, b))?;
+        let [moving, fixed] = &self.trees;
+        for &large in &self.grid.large {
+            let found = |other: u32| candidates.add_if_meeting(proxies, large, other);
+            moving.for_each_overlapping(&proxies.boxes[large as usize], scratch, found)?;
+        }
+        if fixed.is_empty() {
+            return Ok(());
+        }
+        for proxy in 0..proxies.len() as u32 {
+            if belongs(proxies, proxy, false) {
+                let found = |other: u32| candidates.add_if_meeting(proxies, proxy, other);
+                fixed.for_each_overlapping(&proxies.boxes[proxy as usize], scratch, found)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Fits a tree to the boxes of all its pieces if it is not.
+    fn fit_tree(&mut self, fixed: bool, proxies: &Proxies) -> Result<()> {
+        let tree = usize::from(fixed);
+        if !self.is_stale[tree] {
+            return Ok(());
+        }
+        let is_missing = |&proxy: &u32| self.leaves[proxy as usize] == NONE && belongs(proxies, proxy, fixed);
+        let has_all = !(0..proxies.len() as u32).any(|proxy| is_missing(&proxy));
+        if !(has_all && self.trees[tree].refit(&proxies.boxes, &mut self.scratch)?) {
+            self.list_tree(fixed, proxies)?;
+            self.trees[tree].build(&mut self.scratch, &proxies.boxes, &mut self.leaves)?;
+        }
+        self.is_stale[tree] = false;
+        Ok(())
+    }
+
+    /// The pieces that belong into a tree.
+    fn list_tree(&mut self, fixed: bool, proxies: &Proxies) -> Result<()> {
+        self.scratch.proxies.clear();
+        let inside = (0..proxies.len() as u32).filter(|&proxy| belongs(proxies, proxy, fixed));
+        extend(&mut self.scratch.proxies, inside)
+    }
+
+    // --- A few pieces ------------------------------------------------------------------------------------------------------------
+
+    fn refit_escaped(&mut self, proxies: &mut Proxies) -> Result<()> {
+        for k in 0..proxies.escaped.len() {
+            let proxy = proxies.escaped[k] as usize;
+            if !proxies.is_gone(proxy) {
+                proxies.refit(proxy, self.tolerance);
+            }
+        }
+        for fixed in [false, true] {
+            self.is_stale[usize::from(fixed)] |= self.trees[usize::from(fixed)].is_worn();
+            self.fit_tree(fixed, proxies)?;
+        }
+        for &proxy in &proxies.escaped {
+            let at = proxy as usize;
+            if proxies.is_gone(at) {
+                continue;
+            }
+            let tree = &mut self.trees[usize::from(proxies.labels[at].fixed)];
+            match self.leaves[at] {
+                NONE => self.leaves[at] = tree.insert(proxy, proxies.boxes[at])?,
+                leaf => tree.enlarge(leaf, &proxies.boxes[at]),
+            }
+        }
+        Ok(())
+    }
+
+    fn find_escaped(&mut self, proxies: &Proxies) -> Result<()> {
+        let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
+        let [moving, fixed] = &self.trees;
+        for &proxy in &proxies.escaped {
+            let at = proxy as usize;
+            if proxies.is_gone(at) {
+                continue;
+            }
+            let mut found = |other: u32| candidates.add_if_meeting(proxies, proxy, other);
+            moving.for_each_overlapping(&proxies.boxes[at], scratch, &mut found)?;
+            if !proxies.labels[at].fixed {
+                fixed.for_each_overlapping(&proxies.boxes[at], scratch, found)?;
+            }
+        }
+        Ok(())
+    }
+
+    // --- Renumbering -------------------------------------------------------------------------------------------------------------
+
+    /// Drops the rows of pieces that are gone, once there are many, if there is memory. No pair of theirs is in an up-to-date list.
+    /// Gives the new numbers.
+    pub fn renumber(&mut self, proxies: &mut Proxies) -> Option<Vec<u32>> {
+        let numbers = proxies.renumbering().ok()?;
+        self.near.renumber(&numbers);
+        self.trees.iter_mut().for_each(|tree| tree.renumber(&numbers));
+        let mut proxy = 0;
+        self.leaves.retain(|_| {
+            proxy += 1;
+            !proxies.is_gone(proxy - 1)
+        });
+        proxies.compact();
+        Some(numbers)
+    }
+}
+
+/// Whether a piece is to be in the tree of fixed ones, or in the other.
+fn belongs(proxies: &Proxies, proxy: u32, fixed: bool) -> bool {
+    let label = &proxies.labels[proxy as usize];
+    (label.object != ObjectId::NULL) & (label.fixed == fixed)
+}

@@ -1,0 +1,305 @@
+//! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the sorted
+//! candidates says which come and which go.
+
+use crate::base::error::Result;
+use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
+use crate::pair::PairCache;
+use crate::scene::proxies::{Label, Proxies};
+
+/// Whether a near pair is tested.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Testing {
+    Active,
+    /// Deactivated for now.
+    Inactive,
+    /// The program's filter said no.
+    Rejected,
+}
+
+/// Two proxies whose boxes overlap, the earlier first.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct NearPair {
+    pub proxies: [u32; 2],
+    /// While both odometers together are below this by more than a tolerance, the pieces are farther apart than that.
+    pub reach: f64,
+    /// The query in which it was last looked at: its number from 1 on.
+    pub looked_at: u64,
+    /// Where its memory is.
+    pub cache: u32,
+    /// Where in the results of that query its own is, or [`UNLISTED`].
+    pub result: u32,
+    pub testing: Testing,
+}
+
+/// Of a pair that a query does not list.
+pub(crate) const UNLISTED: u32 = u32::MAX;
+
+impl NearPair {
+    pub fn new(proxies: [u32; 2]) -> NearPair {
+        NearPair {
+            proxies,
+            reach: f64::NEG_INFINITY,
+            looked_at: 0,
+            cache: 0,
+            result: UNLISTED,
+            testing: Testing::Active,
+        }
+    }
+}
+
+/// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of its
+/// object, which is a name for that.
+#[inline(always)]
+pub(crate) fn order(firsts: &[u32], [proxy1, proxy2]: [u32; 2]) -> (u64, u64) {
+    let [object1, object2] = [firsts[proxy1 as usize], firsts[proxy2 as usize]];
+    (joined([object1, object2]), joined([proxy1, proxy2]))
+}
+
+#[inline(always)]
+fn joined([high, low]: [u32; 2]) -> u64 {
+    u64::from(high) << 32 | u64::from(low)
+}
+
+/// Candidates: pairs of overlapping boxes in any order, then sorted.
+#[derive(Debug, Default)]
+pub(crate) struct Candidates {
+    pairs: Vec<[u32; 2]>,
+    sorted: Vec<[u32; 2]>,
+    /// Where those of each object 1 begin.
+    starts: Vec<u32>,
+}
+
+impl Candidates {
+    pub fn clear(&mut self) {
+        self.pairs.clear();
+    }
+
+    #[inline(always)]
+    fn add(&mut self, a: u32, b: u32) -> Result<()> {
+        push(&mut self.pairs, if a < b { [a, b] } else { [b, a] })
+    }
+
+    /// If the two may make a pair.
+    #[inline(always)]
+    pub fn add_if_meeting(&mut self, proxies: &Proxies, a: u32, b: u32) -> Result<()> {
+        if proxies.may_meet(a as usize, b as usize) { self.add(a, b) } else { Ok(()) }
+    }
+
+    /// Sorts them, each once.
+    fn sort(&mut self, firsts: &[u32]) -> Result<()> {
+        if self.pairs.len() < firsts.len() / 4 {
+            self.pairs.sort_unstable_by_key(|&pair| order(firsts, pair));
+        } else {
+            self.sort_by_object(firsts)?;
+        }
+        self.pairs.dedup();
+        Ok(())
+    }
+
+    /// One pass puts them where those of their object 1 are, which are few, and sorted there.
+    fn sort_by_object(&mut self, firsts: &[u32]) -> Result<()> {
+        let object = |pair: &[u32; 2]| firsts[pair[0] as usize] as usize;
+        self.starts.clear();
+        reserve(&mut self.starts, firsts.len() + 1)?;
+        self.starts.resize(firsts.len() + 1, 0);
+        self.sorted.clear();
+        reserve(&mut self.sorted, self.pairs.len())?;
+        self.sorted.resize(self.pairs.len(), [0; 2]);
+        for pair in &self.pairs {
+            self.starts[object(pair) + 1] += 1;
+        }
+        for k in 0..firsts.len() {
+            self.starts[k + 1] += self.starts[k];
+        }
+        for pair in &self.pairs {
+            let next = &mut self.starts[object(pair)];
+            self.sorted[*next as usize] = *pair;
+            *next += 1;
+        }
+        let mut begin = 0;
+        for &end in &self.starts[..firsts.len()] {
+            self.sorted[begin..end as usize].sort_unstable_by_key(|&pair| order(firsts, pair));
+            begin = end as usize;
+        }
+        std::mem::swap(&mut self.pairs, &mut self.sorted);
+        Ok(())
+    }
+}
+
+/// The list.
+#[derive(Debug, Default)]
+pub(crate) struct NearPairs {
+    pub pairs: Vec<NearPair>,
+    /// What each pair's queries remember, in no order: pairs move when others come and go, this does not.
+    pub caches: Vec<PairCache>,
+    /// Caches without a pair; with room for all.
+    free: Vec<u32>,
+    /// Pairs that come, until they are merged.
+    arrivals: Vec<NearPair>,
+}
+
+impl NearPairs {
+    /// Brings the list up to date: of the pairs that `is_open` those stay that are among the candidates, and candidates that were not
+    /// there come, `testing` saying whether they are tested. Candidates are sorted, and no more than a scratch afterwards.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); pairs may then be missing.
+    pub fn update(
+        &mut self,
+        candidates: &mut Candidates,
+        firsts: &[u32],
+        is_open: impl Fn([u32; 2]) -> bool,
+        testing: impl FnMut([u32; 2]) -> Testing,
+    ) -> Result<()> {
+        candidates.sort(firsts)?;
+        let found = &mut candidates.pairs;
+        let (mut kept, mut new, mut next) = (0, 0, 0);
+        for at in 0..self.pairs.len() {
+            let pair = self.pairs[at].proxies;
+            let place = order(firsts, pair);
+            while next < found.len() && order(firsts, found[next]) < place {
+                found[new] = found[next];
+                (new, next) = (new + 1, next + 1);
+            }
+            let is_candidate = found.get(next) == Some(&pair);
+            next += usize::from(is_candidate);
+            if is_candidate || !is_open(pair) {
+                self.pairs[kept] = self.pairs[at];
+                kept += 1;
+            } else {
+                self.free.push(self.pairs[at].cache);
+            }
+        }
+        found.copy_within(next.., new);
+        found.truncate(new + found.len() - next);
+        self.pairs.truncate(kept);
+        self.merge(found, firsts, testing)
+    }
+
+    /// Adds sorted pairs that are not there: from the end on, so that each old one moves at most once and in place.
+    fn merge(
+        &mut self,
+        new_pairs: &[[u32; 2]],
+        firsts: &[u32],
+        mut testing: impl FnMut([u32; 2]) -> Testing,
+    ) -> Result<()> {
+        let arrivals = &mut self.arrivals;
+        arrivals.clear();
+        extend(arrivals, new_pairs.iter().map(|&pair| NearPair::new(pair)))?;
+        arrivals.iter_mut().for_each(|pair| pair.testing = testing(pair.proxies));
+        reserve(&mut self.pairs, arrivals.len())?;
+        let more = arrivals.len().saturating_sub(self.free.len());
+        reserve(&mut self.caches, more)?;
+        let room = self.caches.len() + more - self.free.len();
+        reserve(&mut self.free, room)?;
+        for pair in arrivals.iter_mut() {
+            pair.cache = self.free.pop().unwrap_or(self.caches.len() as u32);
+            match self.caches.get_mut(pair.cache as usize) {
+                Some(cache) => *cache = PairCache::default(),
+                None => self.caches.push(PairCache::default()),
+            }
+        }
+        let (mut old, mut new) = (self.pairs.len(), arrivals.len());
+        self.pairs.extend_from_slice(arrivals);
+        while new > 0 {
+            let at = old + new - 1;
+            let arrival = arrivals[new - 1];
+            if old > 0 && order(firsts, self.pairs[old - 1].proxies) > order(firsts, arrival.proxies) {
+                old -= 1;
+                self.pairs[at] = self.pairs[old];
+            } else {
+                new -= 1;
+                self.pairs[at] = arrival;
+            }
+        }
+        Ok(())
+    }
+
+    /// Says anew of all whether they are tested, from what was said before.
+    pub fn for_each_testing(&mut self, labels: &[Label], mut testing: impl FnMut(Testing, [&Label; 2]) -> Testing) {
+        for pair in &mut self.pairs {
+            pair.testing = testing(pair.testing, pair.proxies.map(|proxy| &labels[proxy as usize]));
+        }
+    }
+
+    /// Gives back the room that the pairs do not need.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory) if there is none for smaller lists; nothing has changed then.
+    pub fn shrink(&mut self) -> Result<()> {
+        let mut pairs = copied(&self.pairs)?;
+        let caches = collected(pairs.iter().map(|pair| self.caches[pair.cache as usize]))?;
+        let free = with_capacity(caches.len())?;
+        for (place, pair) in (0..).zip(&mut pairs) {
+            pair.cache = place;
+        }
+        *self = NearPairs { pairs, caches, free, arrivals: Vec::new() };
+        Ok(())
+    }
+
+    /// Numbers the proxies anew, in the same order: number k of old becomes `numbers[k]`.
+    pub fn renumber(&mut self, numbers: &[u32]) {
+        for pair in &mut self.pairs {
+            pair.proxies = pair.proxies.map(|proxy| numbers[proxy as usize]);
+        }
+    }
+
+    /// Says of one pair, if it is there, whether it is tested, unless it was rejected.
+    pub fn set_testing(&mut self, firsts: &[u32], proxies: [u32; 2], testing: Testing) {
+        let place = |pair: &NearPair| order(firsts, pair.proxies);
+        if let Ok(place) = self.pairs.binary_search_by_key(&order(firsts, proxies), place)
+            && self.pairs[place].testing != Testing::Rejected
+        {
+            self.pairs[place].testing = testing;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::{BTreeMap, BTreeSet};
+    use swiftprox::random::Random;
+
+    /// Against a map: pairs come and go, and each keeps its own memory.
+    #[test]
+    fn pairs_keep_their_order_and_what_they_remember() {
+        let mut random = Random::new(0x9a12);
+        let (mut list, mut candidates) = (NearPairs::default(), Candidates::default());
+        let mut model: BTreeMap<((u64, u64), [u32; 2]), u64> = BTreeMap::new();
+        for round in 1..if cfg!(miri) { 20 } else { 400 } {
+            let count = 40;
+            // Objects of one, two and three pieces.
+            let firsts: Vec<u32> = (0..count as u32).map(|k| k - [0, 0, 1, 0, 1, 2][k as usize % 6]).collect();
+            let open: Vec<bool> = (0..count).map(|_| round % 3 == 0 || random.below(5) == 0).collect();
+            let is_open = |[a, b]: [u32; 2]| open[a as usize] | open[b as usize];
+            let mut found = BTreeSet::new();
+            for _ in 0..random.below(300) {
+                let [a, b] = [random.below(count) as u32, random.below(count) as u32];
+                if a != b && is_open([a, b]) {
+                    let pair = [a.min(b), a.max(b)];
+                    found.insert((order(&firsts, pair), pair));
+                    candidates.add(a, b).unwrap();
+                    // Twice is once.
+                    candidates.add(b, a).unwrap();
+                }
+            }
+            list.update(&mut candidates, &firsts, is_open, |_| Testing::Active).unwrap();
+            candidates.clear();
+            model.retain(|pair, _| !is_open(pair.1) || found.contains(pair));
+            for pair in found {
+                model.entry(pair).or_insert(0);
+            }
+            assert_eq!(list.caches.len(), list.pairs.len() + list.free.len());
+            let caches: BTreeSet<u32> =
+                list.pairs.iter().map(|pair| pair.cache).chain(list.free.iter().copied()).collect();
+            assert_eq!(caches.len(), list.caches.len(), "no two share one");
+            let listed: Vec<([u32; 2], u64)> = list.pairs.iter().map(|pair| (pair.proxies, pair.looked_at)).collect();
+            assert_eq!(listed, model.iter().map(|(pair, &mark)| (pair.1, mark)).collect::<Vec<_>>());
+            for pair in &mut list.pairs {
+                pair.looked_at = round;
+                model.insert((order(&firsts, pair.proxies), pair.proxies), round);
+            }
+        }
+    }
+}

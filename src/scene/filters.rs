@@ -1,0 +1,203 @@
+//! Which pairs queries test: activation, filters, and pairs that the program gives.
+
+use super::{News, Scene};
+use crate::base::error::{Error, Result};
+use crate::base::memory::copied;
+use crate::base::simd::environment::with_callers;
+use crate::scene::activation::Activation;
+use crate::scene::broad_phase::near_pairs::Testing;
+use crate::scene::narrow_phase::Findings;
+use crate::scene::object::{Object, ObjectId, ObjectTable};
+use crate::scene::proxies::Label;
+
+impl Scene {
+    // --- Activation ----------------------------------------------------------------------------------------------------------------
+
+    /// Activates or deactivates the pair of two objects, in either order, with all its pairs of pieces. No effect on two
+    /// fixed objects.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice,
+    /// [`Error::Memory`]; the pair stays as it is.
+    pub fn set_pair_active(&mut self, id1: ObjectId, id2: ObjectId, active: bool) -> Result<()> {
+        let (object1, object2) = self.ordered_pair(id1, id2)?;
+        let pair = [object1.id(), object2.id()];
+        let objects = &self.objects;
+        let pieces = (object1.proxies(), object2.proxies());
+        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok())?;
+        let testing = if active { Testing::Active } else { Testing::Inactive };
+        for proxy1 in pieces.0 {
+            for proxy2 in pieces.1.clone() {
+                self.broad_phase.near.set_testing(&self.proxies.firsts, [proxy1 as u32, proxy2 as u32], testing);
+            }
+        }
+        Ok(())
+    }
+
+    /// Activates or deactivates all pairs that an object is in.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub fn set_object_active(&mut self, id: ObjectId, active: bool) -> Result<()> {
+        self.activation.set_object(self.objects.get_mut(id)?, active);
+        self.news = self.news.max(News::Activation);
+        Ok(())
+    }
+
+    /// Activates or deactivates all pairs.
+    pub fn set_all_active(&mut self, active: bool) {
+        self.activation.set_all(active);
+        self.news = self.news.max(News::Activation);
+    }
+
+    /// Whether queries test the pair of two objects when it is near, given in either order; the filter is not asked.
+    ///
+    /// # Errors
+    /// As [`Scene::set_pair_active`].
+    pub fn is_pair_active(&self, id1: ObjectId, id2: ObjectId) -> Result<bool> {
+        let (object1, object2) = self.ordered_pair(id1, id2)?;
+        Ok(self.tests(object1, object2))
+    }
+
+    /// Two different objects, the earlier created first.
+    fn ordered_pair(&self, id1: ObjectId, id2: ObjectId) -> Result<(&Object, &Object)> {
+        let (object1, object2) = (self.objects.get(id1)?, self.objects.get(id2)?);
+        match object1.first_proxy.cmp(&object2.first_proxy) {
+            std::cmp::Ordering::Less => Ok((object1, object2)),
+            std::cmp::Ordering::Equal => {
+                Err(Error::Argument(format!("object {id1} is given twice: an object makes no pair with itself")))
+            }
+            std::cmp::Ordering::Greater => Ok((object2, object1)),
+        }
+    }
+
+    /// Whether queries test the pair, the earlier created object first.
+    fn tests(&self, object1: &Object, object2: &Object) -> bool {
+        object1.may_meet(object2) && self.activation.is_active(object1, object2)
+    }
+
+    // --- A program's own word ------------------------------------------------------------------------------------------------------
+
+    /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that becomes near,
+    /// and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are asked anew.
+    /// The filter is called with the earlier created object first, and should always say the same of a pair; it cannot use the scene.
+    pub fn set_pair_filter(&mut self, filter: Option<PairFilter>) {
+        self.filter = filter;
+        self.filter_again();
+    }
+
+    /// Asks the filter anew of all pairs that are near.
+    pub fn filter_again(&mut self) {
+        self.news = News::Filter;
+    }
+
+    /// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. An
+    /// order is not needed, and what is there twice is tested once. Activation, filters and fixed objects are heeded as ever; ids of
+    /// objects removed later name no pair. Pairs that stay keep what they remember. `None`: the scene finds the pairs again.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice in a pair,
+    /// [`Error::Memory`]; the pairs of before stay.
+    pub fn set_pairs(&mut self, pairs: Option<&[[ObjectId; 2]]>) -> Result<()> {
+        for (k, [id1, id2]) in pairs.unwrap_or_default().iter().enumerate() {
+            self.ordered_pair(*id1, *id2).map_err(|error| match error {
+                Error::Handle(message) => Error::Handle(format!("pair {k}: {message}")),
+                other => Error::Argument(format!("pair {k}: {}", other.message())),
+            })?;
+        }
+        self.given = pairs.map(copied).transpose()?;
+        self.broad_phase.begin_anew();
+        Ok(())
+    }
+
+    // --- Near pairs ----------------------------------------------------------------------------------------------------------------
+
+    /// Gives back the memory that is kept for later: that of the results, and room for pairs that are no more. What the others
+    /// remember stays.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if there is none to bring the near pairs up to date; no result is lost then.
+    pub fn shrink(&mut self) -> Result<()> {
+        self.update_near_pairs(self.broad_phase.tolerance())?;
+        self.broad_phase.near.shrink()?;
+        (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
+        Ok(())
+    }
+
+    /// Brings the near pairs up to date: all that a query with this tolerance may list are among them.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub(super) fn update_near_pairs(&mut self, tolerance: f64) -> Result<()> {
+        let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
+        let mut testing = |pair: [&Label; 2]| testing(objects, activation, filter, pair);
+        let near = &mut self.broad_phase.near;
+        match std::mem::replace(&mut self.news, News::None) {
+            News::None => {}
+            News::Activation => near.for_each_testing(&self.proxies.labels, |old, pair| match old {
+                Testing::Rejected => old,
+                _ if is_active(objects, activation, pair) => Testing::Active,
+                _ => Testing::Inactive,
+            }),
+            News::Filter => near.for_each_testing(&self.proxies.labels, |_, pair| testing(pair)),
+        }
+        match &self.given {
+            None => self.broad_phase.update(&mut self.proxies, tolerance, testing)?,
+            Some(given) => {
+                let rows = |id: ObjectId| objects.get(id).map_or(0..0, Object::proxies);
+                let pieces = |&[id1, id2]: &[ObjectId; 2]| (rows(id1), rows(id2));
+                self.broad_phase.take(&mut self.proxies, given.iter().map(pieces), testing)?;
+            }
+        }
+        if self.proxies.has_many_gone()
+            && let Some(numbers) = self.broad_phase.renumber(&mut self.proxies)
+        {
+            let renumber = |object: &mut Object| object.first_proxy = numbers[object.first_proxy as usize];
+            self.objects.for_each_mut(renumber);
+        }
+        Ok(())
+    }
+}
+
+/// A program's word on which pairs of objects are tested, the earlier created first.
+pub struct PairFilter(Box<Filter>);
+
+type Filter = dyn FnMut(ObjectId, ObjectId) -> bool + Send + Sync;
+
+impl PairFilter {
+    /// A filter that calls a function.
+    pub fn new(filter: impl FnMut(ObjectId, ObjectId) -> bool + Send + Sync + 'static) -> PairFilter {
+        PairFilter(Box::new(filter))
+    }
+}
+
+impl std::fmt::Debug for PairFilter {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str("PairFilter")
+    }
+}
+
+/// Whether a near pair is tested, the earlier created object first.
+pub(super) fn testing(
+    objects: &ObjectTable,
+    activation: &Activation,
+    filter: &mut Option<PairFilter>,
+    labels: [&Label; 2],
+) -> Testing {
+    let [object1, object2] = labels.map(|label| label.object);
+    let accepts = |PairFilter(filter): &mut PairFilter| with_callers(|| filter(object1, object2));
+    if !filter.as_mut().is_none_or(accepts) {
+        return Testing::Rejected;
+    }
+    if is_active(objects, activation, labels) { Testing::Active } else { Testing::Inactive }
+}
+
+fn is_active(objects: &ObjectTable, activation: &Activation, labels: [&Label; 2]) -> bool {
+    if !activation.says_no() {
+        return true;
+    }
+    match labels.map(|label| objects.get(label.object)) {
+        [Ok(object1), Ok(object2)] => activation.is_active(object1, object2),
+        _ => false,
+    }
+}

@@ -1,0 +1,368 @@
+//! What the scene knows of each placed convex piece: one row of several arrays, in the order of results. Spheres, boxes and bounds of
+//! motion err on the safe side.
+
+use std::sync::Arc;
+
+use crate::base::error::Result;
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::memory::{reserve, with_capacity};
+use crate::scene::boxes::Aabb;
+use crate::scene::object::ObjectId;
+use crate::shape::Shape;
+
+const U: f64 = UNIT_ROUNDOFF;
+
+/// Rotations of which no entry of RᵀR − I exceeds this count as rigid in bounds of motion.
+const RIGID: f64 = 16.0 * U;
+
+/// So many steps of motion a box leaves room for …
+const STEPS_OF_ROOM: f32 = 4.0;
+/// … but no more than this part of the radius.
+const MOST_ROOM: f32 = 0.5;
+
+/// Below this lengths are taken for nothing: their squares may underflow.
+const TINY: f64 = 1e-150;
+
+/// Balls about one centre: the piece is in the outer one, the inner one in the piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spheres {
+    pub centre: [f64; 3],
+    /// Rounded up.
+    pub outer: f64,
+}
+
+/// How a piece has moved.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    /// No point of the piece has travelled farther in all its moves.
+    pub odometer: f64,
+    /// While the odometer is not above this, the piece is in its box.
+    pub limit: f64,
+    /// The number of passes over the pairs before the last move.
+    pub moved: u64,
+    /// How far it goes in a step, smoothed; 0 before the first.
+    rate: f32,
+    /// No entry of RᵀR − I is above [`RIGID`].
+    rigid: bool,
+    /// Stands in `escaped`.
+    pub has_escaped: bool,
+}
+
+/// Whose piece it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Label {
+    /// Null: the piece is gone.
+    pub object: ObjectId,
+    pub user_data: u64,
+    pub piece: u32,
+    /// Two fixed ones are never tested.
+    pub fixed: bool,
+    /// See [`ObjectOptions`](crate::scene::object::ObjectOptions).
+    pub groups: u32,
+    pub mask: u32,
+}
+
+/// A piece to be added.
+pub(crate) struct NewProxy {
+    pub shape: Arc<Shape>,
+    pub pose: Pose,
+    pub label: Label,
+}
+
+/// The pieces, those of earlier created objects first.
+#[derive(Debug, Default)]
+pub(crate) struct Proxies {
+    pub shapes: Vec<Arc<Shape>>,
+    pub poses: Vec<Pose>,
+    pub spheres: Vec<Spheres>,
+    /// Radii of balls about the same centres that are in the pieces, rounded down; −∞ where none is.
+    pub inner: Vec<f64>,
+    pub motions: Vec<Motion>,
+    pub boxes: Vec<Aabb>,
+    pub labels: Vec<Label>,
+    /// The first row of the same object.
+    pub firsts: Vec<u32>,
+    /// Those that may be out of their boxes, and those whose pairs must be looked for anew.
+    pub escaped: Vec<u32>,
+    /// How many are gone.
+    pub gone: usize,
+    /// Some have come or gone or may meet others than before, since anybody asked.
+    pub has_news: bool,
+}
+
+impl Proxies {
+    pub fn len(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// Room for `count` more.
+    pub fn reserve(&mut self, count: usize) -> Result<()> {
+        reserve(&mut self.shapes, count)?;
+        reserve(&mut self.poses, count)?;
+        reserve(&mut self.spheres, count)?;
+        reserve(&mut self.inner, count)?;
+        reserve(&mut self.motions, count)?;
+        reserve(&mut self.boxes, count)?;
+        reserve(&mut self.labels, count)?;
+        reserve(&mut self.firsts, count)?;
+        // Each stands there at most once.
+        let room = self.labels.len() + count - self.escaped.len();
+        reserve(&mut self.escaped, room)
+    }
+
+    /// Adds a piece for which there is room.
+    pub fn push(&mut self, new: NewProxy) {
+        let (spheres, inner, rigid) = placed(&new.shape, &new.pose, new.pose.rotation_defect());
+        self.shapes.push(new.shape);
+        self.poses.push(new.pose);
+        self.spheres.push(spheres);
+        self.inner.push(inner);
+        self.motions.push(Motion { odometer: 0.0, limit: 0.0, moved: 0, rate: 0.0, rigid, has_escaped: false });
+        self.boxes.push(Aabb::EVERYWHERE);
+        self.firsts.push(self.labels.len() as u32 - new.label.piece);
+        self.labels.push(new.label);
+        self.look_for_pairs_of(self.labels.len() - 1);
+    }
+
+    /// Adds a row for which there is room and which no other part of the scene hears of; gives its number.
+    pub fn push_unseen(&mut self, new: NewProxy) -> usize {
+        let has_news = self.has_news;
+        self.push(new);
+        self.escaped.pop();
+        self.has_news = has_news;
+        self.len() - 1
+    }
+
+    /// Ends the row of [`Proxies::push_unseen`].
+    pub fn pop_unseen(&mut self) {
+        self.shapes.pop();
+        self.poses.pop();
+        self.spheres.pop();
+        self.inner.pop();
+        self.motions.pop();
+        self.boxes.pop();
+        self.labels.pop();
+        self.firsts.pop();
+    }
+
+    /// It may meet others than before: its pairs are to be looked for anew.
+    pub fn look_for_pairs_of(&mut self, proxy: usize) {
+        self.has_news = true;
+        self.escape(proxy);
+    }
+
+    /// It may be out of its box.
+    fn escape(&mut self, proxy: usize) {
+        let motion = &mut self.motions[proxy];
+        if !motion.has_escaped {
+            motion.has_escaped = true;
+            self.escaped.push(proxy as u32);
+        }
+    }
+
+    pub fn is_gone(&self, proxy: usize) -> bool {
+        self.labels[proxy].object == ObjectId::NULL
+    }
+
+    /// Ends a piece; its row stays until they are renumbered.
+    pub fn end(&mut self, proxy: usize) {
+        self.labels[proxy].object = ObjectId::NULL;
+        self.gone += 1;
+        self.look_for_pairs_of(proxy);
+    }
+
+    /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs.
+    pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
+        let old = self.poses[proxy];
+        if old == *pose {
+            return;
+        }
+        let shape = &self.shapes[proxy];
+        let lever = shape.extent().lever;
+        let motion = &mut self.motions[proxy];
+        let (spheres, inner, rigid) = placed(shape, pose, defect);
+        let way = way_bound(&old, pose, lever, motion.rigid & rigid);
+        motion.rigid = rigid;
+        motion.moved = passes;
+        // Never below the exact sum; infinite sums say that nothing is known.
+        motion.odometer = (motion.odometer + way).next_up();
+        motion.rate = if motion.rate == 0.0 { way as f32 } else { 0.75 * motion.rate + 0.25 * way as f32 };
+        self.poses[proxy] = *pose;
+        self.spheres[proxy] = spheres;
+        self.inner[proxy] = inner;
+        // An infinite odometer is above every limit but an infinite one, which only boxes without end have.
+        if motion.odometer > motion.limit {
+            self.escape(proxy);
+        }
+    }
+
+    /// Gives a piece a new box, which two pieces share if they are `tolerance` apart or less.
+    pub fn refit(&mut self, proxy: usize, tolerance: f64) {
+        let motion = &mut self.motions[proxy];
+        let Spheres { centre, outer } = self.spheres[proxy];
+        let most = MOST_ROOM * outer as f32;
+        let room = if motion.rate > most { 0.0 } else { (STEPS_OF_ROOM * motion.rate).min(most) };
+        let limit = motion.odometer + f64::from(room);
+        // The limit is rounded: it, not the room, says how far the piece may go. ∞ − ∞ is no room, and every move is then too far.
+        let room = (limit - motion.odometer).next_up();
+        let is_counted = room < f64::INFINITY;
+        let grown = 0.5 * tolerance + if is_counted { room } else { 0.0 };
+        motion.limit = match (grown == f64::INFINITY, is_counted) {
+            (true, _) => f64::INFINITY,
+            (false, true) => limit,
+            (false, false) => f64::NEG_INFINITY,
+        };
+        let reach = self.shapes[proxy].extent().reach(&self.poses[proxy], outer);
+        let centre_error = centre_error(&self.shapes[proxy], &self.poses[proxy]);
+        self.boxes[proxy] = Aabb::around(centre, &reach, grown + centre_error);
+    }
+
+    /// Whether two pieces may make a pair.
+    #[inline(always)]
+    pub fn may_meet(&self, a: usize, b: usize) -> bool {
+        let [one, other] = [&self.labels[a], &self.labels[b]];
+        let are_masked = (one.groups & other.mask == 0) | (other.groups & one.mask == 0);
+        (one.object != other.object) & !(one.fixed & other.fixed) & !are_masked & !self.is_gone(a) & !self.is_gone(b)
+    }
+
+    /// Whether the rows of pieces that are gone should be dropped.
+    pub fn has_many_gone(&self) -> bool {
+        self.gone > 64.max(self.len() / 4)
+    }
+
+    /// The number of each row once those of pieces that are gone have been dropped.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn renumbering(&self) -> Result<Vec<u32>> {
+        let mut numbers = with_capacity(self.len())?;
+        let mut next = 0;
+        for proxy in 0..self.len() {
+            numbers.push(next);
+            next += u32::from(!self.is_gone(proxy));
+        }
+        Ok(numbers)
+    }
+
+    /// Drops the rows of pieces that are gone.
+    pub fn compact(&mut self) {
+        let labels = std::mem::take(&mut self.labels);
+        let stays = |k: usize| labels[k].object != ObjectId::NULL;
+        fn keep<T>(rows: &mut Vec<T>, stays: impl Fn(usize) -> bool) {
+            let mut k = 0;
+            rows.retain(|_| {
+                k += 1;
+                stays(k - 1)
+            });
+        }
+        keep(&mut self.shapes, stays);
+        keep(&mut self.poses, stays);
+        keep(&mut self.spheres, stays);
+        keep(&mut self.inner, stays);
+        keep(&mut self.motions, stays);
+        keep(&mut self.boxes, stays);
+        self.labels = labels;
+        self.labels.retain(|label| label.object != ObjectId::NULL);
+        self.firsts.clear();
+        self.firsts.extend((0..).zip(&self.labels).map(|(proxy, label)| proxy - label.piece));
+        self.gone = 0;
+        self.escaped.clear();
+        self.escaped.extend((0..).zip(&self.motions).filter(|(_, motion)| motion.has_escaped).map(|(k, _)| k));
+    }
+}
+
+/// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
+///
+/// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
+/// d ≤ 1e-2; d as computed is off by at most 4u.
+fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, f64, bool) {
+    let polyhedron = shape.polyhedron();
+    let stretch = 2.0 * (defect + 8.0 * U);
+    let error = centre_error(shape, pose);
+    let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
+    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
+    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
+    (Spheres { centre: centre.into(), outer }, inner, defect <= RIGID)
+}
+
+/// How far rounding may move a placed body's centre T + R·c: three products and three sums in each component.
+fn centre_error(shape: &Shape, pose: &Pose) -> f64 {
+    let centre = shape.polyhedron().centre;
+    if centre == Vector::zeros() {
+        return 0.0;
+    }
+    16.0 * U * (pose.translation().amax() + 2.0 * centre.amax()) + TINY
+}
+
+/// No point of a body within `lever` of its local origin travels farther than this: |ΔT| + ‖ΔR‖·lever, rounded up.
+///
+/// ‖ΔR‖ is at most the root of the sum of squares ‖ΔR‖_F; for rotations, whose difference has the singular values 2 sin θ/2, twice,
+/// and 0, it is ‖ΔR‖_F/√2. Rotations within [`RIGID`] are within 24u of exact ones (in norm; 42u in ‖·‖_F), which costs less than
+/// 2e-14.
+fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
+    let (mut turned, mut shifted) = (0.0, 0.0);
+    for (old, new) in old.rows.iter().zip(&new.rows) {
+        let [x, y, z, t] = [0, 1, 2, 3].map(|k| new[k] - old[k]);
+        turned += x * x + y * y + z * z;
+        shifted += t * t;
+    }
+    let norm = f64::sqrt(turned) * if rigid { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 } + 2e-14;
+    (f64::sqrt(shifted) + norm * lever) * (1.0 + 32.0 * U) + TINY
+}
+
+/// Whether two pieces are certainly farther apart than `tolerance`.
+///
+/// The squares are off by less than 8u of themselves; below [`TINY`] they may underflow.
+#[inline(always)]
+pub(crate) fn are_far_apart(one: &Spheres, other: &Spheres, tolerance: f64) -> bool {
+    let reach = (one.outer + other.outer + tolerance) * (1.0 + 16.0 * U) + TINY;
+    square_distance(one, other) > reach * reach
+}
+
+/// Whether balls in two pieces certainly overlap.
+#[inline(always)]
+pub(crate) fn overlap_inside(one: &Spheres, other: &Spheres, inner: f64) -> bool {
+    inner > TINY && square_distance(one, other) * (1.0 + 32.0 * U) < inner * inner
+}
+
+#[inline(always)]
+fn square_distance(one: &Spheres, other: &Spheres) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|k| one.centre[k] - other.centre[k]);
+    x * x + y * y + z * z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Matrix;
+    use swiftprox::random::Random;
+
+    /// Random motions, rigid and skewed, of points on a sphere: none travels farther than the bound, which is not far off.
+    #[test]
+    fn no_point_travels_farther_than_said() {
+        let mut random = Random::new(0x0d0);
+        for round in 0..2_000 {
+            let skew = if round % 3 == 0 { random.vector() * 2e-3 } else { Vector::zeros() };
+            let skewed = Matrix::identity() + Matrix::from_diagonal(&skew);
+            let small = random.power(-40, 0);
+            let old = Pose::new(&(random.rotation() * skewed), &(random.vector() * 10.0));
+            let turn = if round % 2 == 0 { random.rotation() } else { small_turn(&mut random, small) };
+            let new = Pose::new(&(turn * old.rotation()), &(old.translation() + random.vector() * small));
+            let rigid = [&old, &new].iter().all(|pose| pose.rotation_defect() <= RIGID);
+            let way = way_bound(&old, &new, 2.0, rigid);
+            let mut longest = 0.0_f64;
+            for _ in 0..20 {
+                let point = random.direction() * 2.0 * (1.0 - 4.0 * U);
+                longest = longest.max((new.transform(&point) - old.transform(&point)).norm());
+            }
+            // What is compared is rounded itself, by a few u of 12.
+            assert!(longest <= way + 1e-14, "{longest:e} {way:e}");
+            assert!(way <= 3.0 * longest + 1e-13, "{longest:e} {way:e}");
+        }
+    }
+
+    fn small_turn(random: &mut Random, angle: f64) -> Matrix {
+        let axis = random.direction();
+        *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle).matrix()
+    }
+}

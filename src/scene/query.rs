@@ -1,0 +1,80 @@
+//! What a query over a scene is asked for, and what it says.
+
+use crate::pair::{Levels, PairAnswer, Refinement, Start};
+use crate::scene::object::ObjectId;
+
+/// What a query over a scene is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneQuery {
+    /// Stop at the first intersecting pair in the order of results, and then list no pairs at all: [`SceneAnswer::found`] is it.
+    pub early_exit: bool,
+    /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
+    /// to +∞ (the default: all pairs, which takes time in proportion to their number). [`query_intersection`](crate::scene::Scene::query_intersection) does without
+    /// it, but refuses one out of range.
+    pub distance_tolerance: f64,
+    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): `upper − lower` of a pair may be as large as this …
+    pub absolute_error: f64,
+    /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
+    pub relative_error: f64,
+    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed pairs together may come to, in
+    /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
+    /// Which pairs are listed is found out first, which takes a query of its own. Default: +∞.
+    pub error_budget: f64,
+    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
+    pub step_budget: u32,
+    /// Which levels of detail queries go through.
+    pub levels: Levels,
+    /// How they go from level to level.
+    pub refinement: Refinement,
+    /// Where marching starts in each pair.
+    pub start: Start,
+}
+
+impl Default for SceneQuery {
+    fn default() -> Self {
+        SceneQuery {
+            early_exit: false,
+            distance_tolerance: f64::INFINITY,
+            absolute_error: 0.0,
+            relative_error: 0.0,
+            error_budget: f64::INFINITY,
+            step_budget: u32::MAX,
+            levels: Levels::Automatic,
+            refinement: Refinement::Adaptive,
+            start: Start::Automatic,
+        }
+    }
+}
+
+/// One pair of convex pieces in a query's list.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct PairResult {
+    /// The earlier created object.
+    pub object1: ObjectId,
+    /// The later created object.
+    pub object2: ObjectId,
+    /// The caller's own number of object 1.
+    pub user_data1: u64,
+    /// The caller's own number of object 2.
+    pub user_data2: u64,
+    /// Which piece of object 1.
+    pub piece1: u32,
+    /// Which piece of object 2.
+    pub piece2: u32,
+    /// The answer.
+    pub answer: PairAnswer,
+}
+
+/// What a query over a scene found.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneAnswer<'a> {
+    /// Whether any tested pair intersects.
+    pub intersecting: bool,
+    /// The pairs that the query lists, in the scene's order. Owned by the scene until its next query.
+    pub pairs: &'a [PairResult],
+    /// The intersecting pair at which the query stopped, if it did ([`SceneQuery::early_exit`]): of all that intersect the first in
+    /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
+    /// `pairs` are.
+    pub found: Option<&'a PairResult>,
+}
