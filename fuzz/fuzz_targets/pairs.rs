@@ -11,12 +11,12 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start,
-    approximate, contact, depth, distance, intersection,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
+    intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::base::simd::environment::Environment;
-use swiftprox::verify::{verify, verify_depth};
+use swiftprox::verify::verify;
 use testkit::bodies::Body;
 use testkit::cases::{Case, Random};
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
@@ -95,7 +95,6 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
     let Some(cold) = cold else { return Ok(()) };
     check_tolerance(u, placed, session.own, &cold)?;
     check_levels(u, placed, session.own, &cold)?;
-    check_depth(placed, &cold);
     if placed.bodies.iter().all(|body| body.points.len() <= FEW_POINTS) {
         check_truth(placed, &cold);
     }
@@ -202,24 +201,6 @@ fn check_levels(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, col
         Err(error) => panic!("{error}: {config:?} {answer:?}"),
     }
     Ok(())
-}
-
-/// A depth from nothing and one from its cache: the verdict of the exact query, and the independent check.
-fn check_depth(placed: &Placed, cold: &PairAnswer) {
-    let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
-    let (mut cache, config) = (DepthCache::default(), DepthConfig::default());
-    for _ in 0..2 {
-        let mut answer = DepthAnswer::default();
-        depth(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer).expect("accepted poses");
-        assert_eq!(answer.outcome == Outcome::Intersecting, cold.outcome == Outcome::Intersecting, "{answer:?}\n{cold:?}");
-        if is_wild(placed) {
-            continue;
-        }
-        match verify_depth(&body1.shape, pose1, &body2.shape, pose2, &cache, &answer) {
-            Ok(()) | Err(Error::Argument(_)) => {}
-            Err(error) => panic!("{error}: {answer:?}"),
-        }
-    }
 }
 
 fn check_truth(placed: &Placed, answer: &PairAnswer) {
