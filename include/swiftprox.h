@@ -628,11 +628,9 @@ swiftprox_status swiftprox_pair_distance(const struct swiftprox_shape *shape1,
                                          struct swiftprox_pair_answer *answer);
 
 /**
- * As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), a unit normal along
- * which the objects overlap little (where they only touch along a face it separates them) and features. It is no least depth, and
- * where the objects overlap it may depend on the cache. Features of objects that touch are those that hold the point; of objects
- * deeper in each other than a millionth of the smaller one's radius they are the faces that reach farthest: of object 1 against
- * the normal, of object 2 along it. Arguments and errors as of swiftprox_pair_distance.
+ * As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
+ * which the objects overlap least and the features that meet there: those of swiftprox_pair_depth, which says how deep they are in
+ * each other, and where. Arguments and errors as of swiftprox_pair_distance.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_contact(const struct swiftprox_shape *shape1,
@@ -970,12 +968,45 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
 /** Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create. */
 typedef struct swiftprox_scene swiftprox_scene;
 
+/**
+ * Does the items from `first` on and before `end` of a task; `context` is what came with it. It may be called from any threads,
+ * several at once, each item once.
+ */
+typedef void (*swiftprox_task_callback)(uint32_t first, uint32_t end, void *context);
+
+/**
+ * Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the pointer
+ * given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must return; a
+ * C++ exception that leaves it ends the program.
+ */
+typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
+                                                 uint32_t item_count,
+                                                 void *context,
+                                                 void *user);
+
+/** Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that. */
+typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
+
 /** How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ. */
 typedef struct swiftprox_scene_options {
   /** Set by swiftprox_scene_options_init. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
+  /**
+   * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early, those
+   * without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+   */
+  uint32_t worker_count;
+  /**
+   * Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads for
+   * each query that is worth it.
+   */
+  swiftprox_enqueue_task_callback enqueue_task;
+  /** Waits for what enqueue_task has shared out. Default: null. */
+  swiftprox_finish_task_callback finish_task;
+  /** Handed to both. Default: null. */
+  void *task_user;
 } swiftprox_scene_options;
 
 /**
@@ -990,7 +1021,8 @@ void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
  * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
  * may be null for the defaults.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
+ * other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
  * the message names the argument.
  */
 SWIFTPROX_NODISCARD

@@ -129,6 +129,14 @@ impl BroadPhase {
         self.tolerance
     }
 
+    /// A list of all pairs becomes one of those that are not farther apart than this.
+    pub fn end_of_all_pairs(&mut self, tolerance: f64) {
+        if self.tolerance == f64::INFINITY {
+            (self.tolerance, self.smaller) = (tolerance, (0, 0.0));
+            self.begin_anew();
+        }
+    }
+
     /// The next update looks for all pairs.
     pub fn begin_anew(&mut self) {
         self.is_broken = true;
