@@ -89,7 +89,9 @@ static void queries(void)
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 5 && statistics.pairs > 0);
     CHECK(statistics.marched + statistics.coherent + statistics.fallback + statistics.exact +
-              statistics.bounding_spheres == statistics.pairs);
+              statistics.bounding_spheres + statistics.inscribed_spheres + statistics.unmoved +
+                  statistics.out_of_reach ==
+              statistics.pairs);
     CHECK_OK(swiftprox_scene_reset_statistics(scene));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 0 && statistics.pairs == 0);
@@ -308,7 +310,7 @@ static void filters(void)
 static void pieces(void)
 {
     swiftprox_scene *scene;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_object_id id, ids[4];
     size_t count;
     double poses[24], pose[12];
@@ -348,7 +350,7 @@ static void pieces(void)
 static void near_objects(void)
 {
     swiftprox_scene *scene;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_scene_query query;
     swiftprox_scene_answer answer;
     swiftprox_scene_events events;
@@ -424,7 +426,7 @@ static void workers(void)
     swiftprox_scene *scenes[3];
     swiftprox_scene_options options;
     swiftprox_scene_answer answers[3];
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_object_options where;
     swiftprox_object_id id;
     swiftprox_scene_options_init(&options);

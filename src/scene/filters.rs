@@ -120,7 +120,7 @@ impl Scene {
     pub fn shrink(&mut self) -> Result<()> {
         let tolerance = self.broad_phase.tolerance();
         self.update_near_pairs(if self.keeps_list(tolerance) { tolerance } else { 0.0 })?;
-        self.broad_phase.near.shrink()?;
+        self.broad_phase.shrink()?;
         (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
         self.parts = Vec::new();
         Ok(())
