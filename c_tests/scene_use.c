@@ -89,7 +89,9 @@ static void queries(void)
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 5 && statistics.pairs > 0);
     CHECK(statistics.marched + statistics.coherent + statistics.fallback + statistics.exact +
-              statistics.bounding_spheres == statistics.pairs);
+              statistics.bounding_spheres + statistics.inscribed_spheres + statistics.unmoved +
+                  statistics.out_of_reach ==
+              statistics.pairs);
     CHECK_OK(swiftprox_scene_reset_statistics(scene));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.queries == 0 && statistics.pairs == 0);
@@ -308,7 +310,7 @@ static void filters(void)
 static void pieces(void)
 {
     swiftprox_scene *scene;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_object_id id, ids[4];
     size_t count;
     double poses[24], pose[12];
@@ -348,7 +350,7 @@ static void pieces(void)
 static void near_objects(void)
 {
     swiftprox_scene *scene;
-    swiftprox_shape *shape;
+    const swiftprox_shape *shape;
     swiftprox_scene_query query;
     swiftprox_scene_answer answer;
     swiftprox_scene_events events;
@@ -392,9 +394,74 @@ static void near_objects(void)
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
+/* A program's threads, as a program might have none: tasks wait until they are to be finished, and are then done backwards. */
+struct waiting {
+    swiftprox_task_callback task;
+    void *context;
+    uint32_t count;
+    int finished;
+};
+
+static void *enqueue(swiftprox_task_callback task, uint32_t item_count, void *context, void *user)
+{
+    struct waiting *waiting = user;
+    waiting->task = task;
+    waiting->context = context;
+    waiting->count = item_count;
+    return waiting;
+}
+
+static void finish(void *task, void *user)
+{
+    struct waiting *waiting = user;
+    CHECK(task == user && waiting->count > 1);
+    for (uint32_t i = waiting->count; i > 0; --i)
+        waiting->task(i - 1, i, waiting->context);
+    ++waiting->finished;
+}
+
+static void workers(void)
+{
+    struct waiting waiting = {NULL, NULL, 0, 0};
+    swiftprox_scene *scenes[3];
+    swiftprox_scene_options options;
+    swiftprox_scene_answer answers[3];
+    const swiftprox_shape *shape;
+    swiftprox_object_options where;
+    swiftprox_object_id id;
+    swiftprox_scene_options_init(&options);
+    options.worker_count = 2;
+    CHECK_OK(swiftprox_scene_create(NULL, &scenes[0]));
+    CHECK_OK(swiftprox_scene_create(&options, &scenes[1]));
+    options.enqueue_task = enqueue;
+    CHECK(swiftprox_scene_create(&options, &scenes[2]) == SWIFTPROX_ERROR_INVALID_ARGUMENT && scenes[2] == NULL);
+    options.finish_task = finish;
+    options.task_user = &waiting;
+    CHECK_OK(swiftprox_scene_create(&options, &scenes[2]));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    swiftprox_object_options_init(&where);
+    for (int s = 0; s < 3; ++s) {
+        for (int i = 0; i < 80; ++i) {
+            set_pose_at(where.pose, 0.25 * i);
+            CHECK_OK(swiftprox_scene_add_shape(scenes[s], shape, &where, &id));
+        }
+        CHECK_OK(swiftprox_scene_query_exact_distance(scenes[s], NULL, &answers[s]));
+        CHECK(answers[s].count == 80 * 79 / 2 && answers[s].intersecting);
+    }
+    swiftprox_shape_release(shape);
+    CHECK(waiting.finished == 1);
+    for (size_t i = 0; i < answers[0].count; ++i)
+        for (int s = 1; s < 3; ++s)
+            CHECK(answers[s].pairs[i].answer.lower == answers[0].pairs[i].answer.lower &&
+                  answers[s].pairs[i].answer.decided_by == answers[0].pairs[i].answer.decided_by);
+    for (int s = 0; s < 3; ++s)
+        CHECK_OK(swiftprox_scene_destroy(scenes[s]));
+}
+
 int main(void)
 {
     queries();
+    workers();
     filters();
     pieces();
     near_objects();

@@ -968,12 +968,45 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
 /** Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create. */
 typedef struct swiftprox_scene swiftprox_scene;
 
+/**
+ * Does the items from `first` on and before `end` of a task; `context` is what came with it. It may be called from any threads,
+ * several at once, each item once.
+ */
+typedef void (*swiftprox_task_callback)(uint32_t first, uint32_t end, void *context);
+
+/**
+ * Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the pointer
+ * given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must return; a
+ * C++ exception that leaves it ends the program.
+ */
+typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
+                                                 uint32_t item_count,
+                                                 void *context,
+                                                 void *user);
+
+/** Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that. */
+typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
+
 /** How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ. */
 typedef struct swiftprox_scene_options {
   /** Set by swiftprox_scene_options_init. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
+  /**
+   * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early, those
+   * without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+   */
+  uint32_t worker_count;
+  /**
+   * Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads for
+   * each query that is worth it.
+   */
+  swiftprox_enqueue_task_callback enqueue_task;
+  /** Waits for what enqueue_task has shared out. Default: null. */
+  swiftprox_finish_task_callback finish_task;
+  /** Handed to both. Default: null. */
+  void *task_user;
 } swiftprox_scene_options;
 
 /**
@@ -988,7 +1021,8 @@ void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
  * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
  * may be null for the defaults.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
+ * other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
  * the message names the argument.
  */
 SWIFTPROX_NODISCARD

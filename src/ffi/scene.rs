@@ -1,14 +1,16 @@
 //! Scenes: made, ended, and told which pairs to test.
 
 use std::cell::UnsafeCell;
+use std::ffi::c_void;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
 use super::{
     Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, output, read_struct,
 };
 use crate::base::math::ROTATION_LIMIT;
 use crate::scene::object::ObjectId;
-use crate::scene::{Scene, SceneOptions};
+use crate::scene::{Scene, SceneOptions, Workers};
 use crate::shape::Shape;
 
 /// Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create.
@@ -97,6 +99,16 @@ pub struct CSceneOptions {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
+    /// How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early, those
+    /// without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+    pub worker_count: u32,
+    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads for
+    /// each query that is worth it.
+    pub enqueue_task: EnqueueTaskCallback,
+    /// Waits for what enqueue_task has shared out. Default: null.
+    pub finish_task: FinishTaskCallback,
+    /// Handed to both. Default: null.
+    pub task_user: *mut c_void,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -105,8 +117,14 @@ unsafe impl Versioned for CSceneOptions {
 }
 
 impl CSceneOptions {
-    const DEFAULT: CSceneOptions =
-        CSceneOptions { struct_size: size_of::<CSceneOptions>(), rotation_limit: ROTATION_LIMIT };
+    const DEFAULT: CSceneOptions = CSceneOptions {
+        struct_size: size_of::<CSceneOptions>(),
+        rotation_limit: ROTATION_LIMIT,
+        worker_count: 0,
+        enqueue_task: None,
+        finish_task: None,
+        task_user: std::ptr::null_mut(),
+    };
 }
 
 // --- Scenes --------------------------------------------------------------------------------------------------------------
@@ -122,7 +140,8 @@ pub unsafe extern "C" fn swiftprox_scene_options_init_sized(options: *mut CScene
 /// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
 /// may be null for the defaults.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
+/// other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
 /// the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_create(
@@ -134,8 +153,9 @@ pub unsafe extern "C" fn swiftprox_scene_create(
         output(scene, "scene", std::ptr::null_mut())?;
         keep_panics_quiet();
         let options = read_struct(options, CSceneOptions::DEFAULT)?;
-        let options = SceneOptions { rotation_limit: options.rotation_limit };
-        let content = Content { scene: Scene::new(&options)?, poisoned: false };
+        let mut made = Scene::new(&SceneOptions { rotation_limit: options.rotation_limit })?;
+        made.set_workers(read_workers(&options)?);
+        let content = Content { scene: made, poisoned: false };
         let handle = SceneHandle { users: AtomicU32::new(0), content: UnsafeCell::new(content) };
         scene.write(Box::into_raw(Box::new(handle)));
         Ok(())
@@ -261,6 +281,19 @@ pub unsafe extern "C" fn swiftprox_scene_is_pair_active(
             Ok(())
         })
     })
+}
+
+/// Who works on the queries of a scene.
+fn read_workers(options: &CSceneOptions) -> Checked<Option<Workers>> {
+    let count = options.worker_count as usize;
+    match (options.enqueue_task, options.finish_task) {
+        (None, None) => Ok((count > 1).then(|| Workers::threads(count))),
+        (Some(enqueue), Some(finish)) => Ok((count > 1).then(|| workers(count, enqueue, finish, options.task_user))),
+        _ => Err(Failure::new(
+            StatusCode::ErrorInvalidArgument,
+            "options->enqueue_task and finish_task belong together: set both, or neither",
+        )),
+    }
 }
 
 // --- What the functions above share --------------------------------------------------------------------------------------

@@ -16,12 +16,12 @@ impl Aabb {
     /// The box of a body at `centre`, grown by so much on each side.
     pub fn around(centre: [f64; 3], reach: &Reach, grown: f64) -> Aabb {
         let mut found = Aabb::EVERYWHERE;
-        for axis in 0..3 {
+        for (axis, centre) in centre.into_iter().enumerate() {
             // Sums of what is added are off by u of the parts; the last one by u of the end itself, which rounding outwards covers.
             let size = reach.lower[axis].abs().max(reach.upper[axis].abs());
             let grown = (grown + 4.0 * f64::EPSILON * size) * (1.0 + 4.0 * f64::EPSILON);
-            found.lower[axis] = below(centre[axis] + (reach.lower[axis] - grown));
-            found.upper[axis] = above(centre[axis] + (reach.upper[axis] + grown));
+            found.lower[axis] = below(centre + (reach.lower[axis] - grown));
+            found.upper[axis] = above(centre + (reach.upper[axis] + grown));
         }
         found
     }

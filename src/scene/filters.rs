@@ -118,9 +118,11 @@ impl Scene {
     /// # Errors
     /// [`Error::Memory`] if there is none to bring the near pairs up to date; no result is lost then.
     pub fn shrink(&mut self) -> Result<()> {
-        self.update_near_pairs(self.broad_phase.tolerance())?;
-        self.broad_phase.near.shrink()?;
+        let tolerance = self.broad_phase.tolerance();
+        self.update_near_pairs(if self.keeps_list(tolerance) { tolerance } else { 0.0 })?;
+        self.broad_phase.shrink()?;
         (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
+        self.parts = Vec::new();
         Ok(())
     }
 
@@ -129,6 +131,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Memory`].
     pub(super) fn update_near_pairs(&mut self, tolerance: f64) -> Result<()> {
+        let is_small = self.is_small();
         let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
         let mut testing = |pair: [&Label; 2]| testing(objects, activation, filter, pair);
         let near = &mut self.broad_phase.near;
@@ -142,7 +145,13 @@ impl Scene {
             News::Filter => near.for_each_testing(&self.proxies.labels, |_, pair| testing(pair)),
         }
         match &self.given {
-            None => self.broad_phase.update(&mut self.proxies, tolerance, testing)?,
+            None => {
+                // What was kept of few objects must not be of many.
+                if !is_small {
+                    self.broad_phase.end_of_all_pairs(tolerance);
+                }
+                self.broad_phase.update(&mut self.proxies, tolerance, testing)?;
+            }
             Some(given) => {
                 let rows = |id: ObjectId| objects.get(id).map_or(0..0, Object::proxies);
                 let pieces = |&[id1, id2]: &[ObjectId; 2]| (rows(id1), rows(id2));

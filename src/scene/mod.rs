@@ -18,6 +18,7 @@ mod boxes;
 mod proxies;
 mod broad_phase;
 mod narrow_phase;
+mod workers;
 mod poses;
 mod filters;
 mod run;
@@ -41,6 +42,7 @@ use crate::scene::events::Events;
 use crate::scene::narrow_phase::Findings;
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::proxies::{Label, NewProxy, Proxies};
+use crate::scene::workers::PartFindings;
 use crate::shape::Shape;
 
 pub use crate::pair::Query;
@@ -48,6 +50,7 @@ pub use events::{ObjectPair, SceneEvents};
 pub use filters::PairFilter;
 pub use query::{PairResult, SceneAnswer, SceneQuery};
 pub use statistics::SceneStatistics;
+pub use workers::Workers;
 
 /// How a scene is made.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -87,6 +90,9 @@ pub struct Scene {
     /// The results of the query before, or what is left of them.
     before: Vec<PairResult>,
     events: Events,
+    /// Who shares the work on near pairs, and what each part found.
+    workers: Option<Workers>,
+    parts: Vec<PartFindings>,
     statistics: SceneStatistics,
 }
 
@@ -129,8 +135,16 @@ impl Scene {
             findings: Findings::default(),
             before: Vec::new(),
             events: Events::default(),
+            workers: None,
+            parts: Vec::new(),
             statistics: SceneStatistics::default(),
         })
+    }
+
+    /// Lets several threads work on a query, or one again. It changes no bit of any answer. Queries that stop early, those without a
+    /// tolerance over many objects and those over few pairs are answered in the caller's thread alone.
+    pub fn set_workers(&mut self, workers: Option<Workers>) {
+        self.workers = workers.filter(|workers| workers.count() > 1);
     }
 
     // --- Objects ---

@@ -60,6 +60,30 @@ pub(crate) struct Pass<'a> {
     pub before: Option<&'a [PairResult]>,
 }
 
+/// What pairs remember, by place.
+pub(crate) trait Caches {
+    /// For reading.
+    fn peek(&self, place: u32) -> &PairCache;
+    /// Changes one.
+    ///
+    /// # Errors
+    /// Those of `change`, and [`Error::Memory`](crate::base::error::Error::Memory).
+    fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()>;
+}
+
+/// Nobody else uses them.
+impl Caches for [PairCache] {
+    #[inline(always)]
+    fn peek(&self, place: u32) -> &PairCache {
+        &self[place as usize]
+    }
+
+    #[inline(always)]
+    fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
+        change(&mut self[place as usize])
+    }
+}
+
 /// What came of a part of the pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
@@ -98,6 +122,20 @@ impl Findings {
         Ok(())
     }
 
+    /// Adds those of another part behind; gives where they begin.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn append(&mut self, part: &Findings) -> Result<u32> {
+        let first = self.count;
+        self.reserve(part.count)?;
+        self.slots[first..first + part.count].copy_from_slice(part.results());
+        self.count += part.count;
+        self.intersecting |= part.intersecting;
+        self.statistics.add(&part.statistics);
+        Ok(first as u32)
+    }
+
     /// Sum of `upper − lower` over the results.
     pub fn error_spent(&self) -> f64 {
         self.results().iter().map(|result| result.answer.upper - result.answer.lower).sum()
@@ -119,7 +157,12 @@ impl Pass<'_> {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn run(&self, pairs: &mut [NearPair], caches: &mut [PairCache], findings: &mut Findings) -> Result<bool> {
+    pub fn run<C: Caches + ?Sized>(
+        &self,
+        pairs: &mut [NearPair],
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
         for pairs in pairs.chunks_mut(BLOCK) {
             findings.left.clear();
             for k in 0..pairs.len() {
@@ -135,7 +178,7 @@ impl Pass<'_> {
             for k in 0..findings.left.len() {
                 if let Some((ahead, Look::Test)) = findings.left.get(k + TEST_AHEAD) {
                     let ahead = &pairs[*ahead];
-                    prefetch(&caches[ahead.cache as usize]);
+                    prefetch(caches.peek(ahead.cache));
                     for proxy in ahead.proxies {
                         prefetch(&self.proxies.poses[proxy as usize]);
                     }
@@ -182,7 +225,13 @@ impl Pass<'_> {
 
     /// Adds the pair's result if it is listed; true if the query is to stop there.
     #[inline(always)]
-    fn list(&self, look: Look, pair: &mut NearPair, caches: &mut [PairCache], findings: &mut Findings) -> Result<bool> {
+    fn list<C: Caches + ?Sized>(
+        &self,
+        look: Look,
+        pair: &mut NearPair,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
         let at = findings.count;
         let answer = &mut findings.slots[at].answer;
         match look {
@@ -197,7 +246,7 @@ impl Pass<'_> {
             }
             Look::Test => {
                 *answer = PairAnswer::default();
-                self.test(pair, &mut caches[pair.cache as usize], answer)?;
+                caches.change(pair.cache, |cache| self.test(pair, cache, answer))?;
                 findings.statistics.count(answer);
             }
         }

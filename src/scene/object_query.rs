@@ -41,7 +41,7 @@ impl Scene {
         let is_own = |pair: &&NearPair| pair.proxies.iter().any(|&proxy| rows.contains(&(proxy as usize)));
         let mut pairs = collected(near.pairs.iter().filter(is_own).copied())?;
         let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
-        let stopped = pass.run(&mut pairs, &mut near.caches, &mut self.findings)?;
+        let stopped = pass.run(&mut pairs, &mut near.caches[..], &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);
         Ok(stopped)
     }
@@ -114,7 +114,7 @@ impl Scene {
     fn ask_cold(&mut self, pairs: &mut [NearPair], asked: &Asked, early_exit: bool) -> Result<bool> {
         let mut caches = filled(PairCache::default(), pairs.len())?;
         let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
-        let stopped = pass.run(pairs, &mut caches, &mut self.findings)?;
+        let stopped = pass.run(pairs, &mut caches[..], &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);
         Ok(stopped)
     }

@@ -13,6 +13,7 @@ use crate::scene::narrow_phase::{BLOCK, Findings, Pass};
 use crate::scene::object::Object;
 use crate::scene::proxies::{Label, Proxies};
 use crate::scene::query::{PairResult, SceneAnswer, SceneQuery};
+use crate::scene::workers::{FEWEST_SHARED, run_in_parts};
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, beyond that none is.
 const MOST_KEPT: usize = 1 << 14;
@@ -84,7 +85,13 @@ impl Scene {
         let pass = asked.pass(&self.proxies, early_exit, self.passes, before);
         let near = &mut self.broad_phase.near;
         let stopped = if keeps_list {
-            pass.run(&mut near.pairs, &mut near.caches, &mut self.findings)?
+            match &self.workers {
+                Some(workers) if !early_exit && near.pairs.len() >= FEWEST_SHARED => {
+                    run_in_parts(workers, &pass, near, &mut self.parts, &mut self.findings)?;
+                    false
+                }
+                _ => pass.run(&mut near.pairs, &mut near.caches[..], &mut self.findings)?,
+            }
         } else {
             let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
             let rows = collected(objects.iter().map(Object::proxies))?;
@@ -107,9 +114,13 @@ impl Scene {
 
     /// Whether all that a query with this tolerance may list is kept in a list.
     pub(super) fn keeps_list(&self, tolerance: f64) -> bool {
+        tolerance < f64::INFINITY || self.is_small() || self.given.is_some()
+    }
+
+    /// Whether all pairs may be kept.
+    pub(super) fn is_small(&self) -> bool {
         let count = self.proxies.len() - self.proxies.gone;
-        let is_small = count * count.saturating_sub(1) / 2 <= MOST_KEPT;
-        tolerance < f64::INFINITY || is_small || self.given.is_some()
+        count * count.saturating_sub(1) / 2 <= MOST_KEPT
     }
 }
 
@@ -214,7 +225,7 @@ impl Block {
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let stopped = pass.run(&mut self.pairs, &mut self.caches, findings)?;
+        let stopped = pass.run(&mut self.pairs, &mut self.caches[..], findings)?;
         for (kept, cache) in self.kept.iter().zip(&self.caches) {
             if let Some(kept) = kept {
                 near.caches[*kept as usize] = *cache;

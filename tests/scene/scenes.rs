@@ -616,3 +616,31 @@ fn approximate_distances_and_a_budget_for_all() {
         assert!(matches!(scene.query_contacts(&query), Err(Error::Argument(_))));
     }
 }
+
+/// All pairs of a few objects are kept; when they become many, only near ones are.
+#[test]
+fn a_crowd_that_grows_keeps_no_state_of_all_pairs() {
+    let mut scene = scene();
+    let places: Vec<f64> = (0..2_000).map(|k| 1.5 * f64::from(k)).collect();
+    cubes(&mut scene, &places[..100]);
+    assert_eq!(distances(&mut scene, &SceneQuery::default()).len(), 4_950);
+    cubes(&mut scene, &places[100..]);
+    for shrunk in [false, true] {
+        if shrunk {
+            scene.shrink().unwrap();
+        }
+        scene.reset_statistics();
+        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1_999);
+        assert!(scene.statistics().pairs < 10_000, "{:?}", scene.statistics());
+    }
+    // Deactivated pairwise, by object and wholly, it stays as small.
+    let ids: Vec<ObjectId> = scene.objects().map(|object| object.id()).collect();
+    for pair in ids.windows(2).step_by(2) {
+        scene.set_pair_active(pair[0], pair[1], false).unwrap();
+    }
+    assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 999);
+    scene.set_all_active(false);
+    scene.reset_statistics();
+    assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 0);
+    assert_eq!(scene.statistics().pairs, 0);
+}

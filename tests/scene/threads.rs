@@ -3,12 +3,15 @@
 
 use std::sync::{Arc, Barrier};
 
+use swiftprox::math::Pose;
+use swiftprox::object::ObjectId;
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{PairAnswer, PairCache, PairConfig, contact};
-use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
 use testkit::models::ellipsoid;
+use testkit::random_scene::{Random, random_pose};
 use testkit::shapes::{at, cuboid};
 
 const THREADS: usize = 4;
@@ -65,4 +68,55 @@ fn threads_share_shapes_and_a_scene() {
         threads.into_iter().map(|thread| thread.join().expect("no panic")).collect()
     });
     assert!(all.iter().all(|distances| *distances == all[0]), "threads disturb each other");
+}
+
+/// A flight of many objects: what each query lists, every bit, and what the queries did.
+fn flight(workers: Option<Workers>) -> Vec<String> {
+    let mut random = Random::new(0x7f11);
+    let shape = Arc::new(Shape::from_mesh(&ellipsoid([0.8, 0.7, 0.5], 60).unwrap(), &ShapeOptions::default()).unwrap());
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    scene.set_workers(workers);
+    let mut poses: Vec<Pose> = (0..700).map(|_| random_pose(&mut random, 5.0)).collect();
+    let add = |(k, pose): (usize, &Pose)| {
+        let options = ObjectOptions { pose: *pose, user_data: k as u64, ..ObjectOptions::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap()
+    };
+    let ids: Vec<ObjectId> = poses.iter().enumerate().map(add).collect();
+    // Ids differ from scene to scene.
+    let told = |answer: SceneAnswer| {
+        let of = |pair: &PairResult| format!("{} {} {:?}", pair.user_data1, pair.user_data2, pair.answer);
+        let pairs: Vec<String> = answer.pairs.iter().map(of).collect();
+        format!("{} {pairs:?} {:?}", answer.intersecting, answer.found.map(of))
+    };
+    let mut seen = Vec::new();
+    for step in 0..if cfg!(miri) { 1 } else { 6 } {
+        for (pose, id) in poses.iter_mut().zip(&ids).skip(step % 2 * 300) {
+            *pose = Pose::new(&pose.rotation(), &(pose.translation() + random.vector() * 0.05));
+            scene.set_pose(*id, pose).unwrap();
+        }
+        let near = SceneQuery { distance_tolerance: 0.2, ..SceneQuery::default() };
+        let early = SceneQuery { early_exit: true, ..near };
+        seen.push(told(scene.query_intersection(&near).unwrap()));
+        // Twice: the second time most answers are given again.
+        seen.push(told(scene.query_exact_distance(&near).unwrap()));
+        seen.push(told(scene.query_exact_distance(&near).unwrap()));
+        seen.push(told(scene.query_intersection(&early).unwrap()));
+        seen.push(format!("{:?}", scene.statistics()));
+    }
+    assert!(scene.statistics().pairs > 6 * 2048, "parts are worth it: {:?}", scene.statistics());
+    seen
+}
+
+#[test]
+fn workers_change_no_bit() {
+    let expected = flight(None);
+    // Backwards, one part twice, one never.
+    let careless = |parts: usize, work: &(dyn Fn(usize) + Sync)| {
+        for part in (1..parts).rev().chain([1]) {
+            work(part);
+        }
+    };
+    for workers in [Workers::threads(2), Workers::threads(5), Workers::new(3, careless)] {
+        assert_eq!(flight(Some(workers)), expected);
+    }
 }

@@ -129,6 +129,30 @@ impl BroadPhase {
         self.tolerance
     }
 
+    /// Gives back all room but what the near pairs need; the next update looks for all pairs.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); nothing has changed then.
+    pub fn shrink(&mut self) -> Result<()> {
+        self.near.shrink()?;
+        *self = BroadPhase {
+            near: std::mem::take(&mut self.near),
+            leaves: std::mem::take(&mut self.leaves),
+            tolerance: self.tolerance,
+            is_broken: true,
+            ..BroadPhase::default()
+        };
+        Ok(())
+    }
+
+    /// A list of all pairs becomes one of those that are not farther apart than this.
+    pub fn end_of_all_pairs(&mut self, tolerance: f64) {
+        if self.tolerance == f64::INFINITY {
+            (self.tolerance, self.smaller) = (tolerance, (0, 0.0));
+            self.begin_anew();
+        }
+    }
+
     /// The next update looks for all pairs.
     pub fn begin_anew(&mut self) {
         self.is_broken = true;

@@ -47,6 +47,15 @@ impl NearPair {
     }
 }
 
+impl NearPair {
+    /// Its result, found among those of a part of the pairs, stands so many places later among all.
+    pub fn shift_result(&mut self, places: u32) {
+        if self.result != UNLISTED {
+            self.result += places;
+        }
+    }
+}
+
 /// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of its
 /// object, which is a name for that.
 #[inline(always)]
