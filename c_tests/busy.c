@@ -131,7 +131,7 @@ static void test_calls_inside_calls(void)
     swiftprox_scene_answer answer;
     int i;
     CHECK_OK(swiftprox_library_set_allocator(take, give_back, NULL));
-    CHECK_OK(swiftprox_scene_activate_all(scene)); /* so that the query makes its list anew */
+    CHECK_OK(swiftprox_scene_shrink(scene)); /* so that the query needs memory */
     inside = 1;
     CHECK_OK(swiftprox_scene_query_intersection(scene, NULL, &answer));
     for (i = 0; i < 3; ++i) {
