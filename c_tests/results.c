@@ -159,8 +159,8 @@ static void memory_comes_back(const swiftprox_shape *shape)
     const size_t most = held - without;
     CHECK(most > objects + PAIRS * sizeof(swiftprox_pair_result));
 
-    /* The results go; what the pairs remember stays, so that the next query makes as few steps. Without results none is given again:
-     * each pair is tested. */
+    /* The results go; what the pairs remember stays, so that the next query makes as few steps. Without results none is given
+     * again: each pair is tested. */
     CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
     CHECK_OK(swiftprox_scene_shrink(scene));
     CHECK_OK(swiftprox_scene_reset_statistics(scene));

@@ -757,8 +757,8 @@ typedef struct swiftprox_depth_statistics {
  */
 typedef struct swiftprox_depth_answer {
   /**
-   * SWIFTPROX_OUTCOME_INTERSECTING (touching included) or SWIFTPROX_OUTCOME_SEPARATED; of separated objects only a normal is said that
-   * separates them, and a depth of 0.
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included) or SWIFTPROX_OUTCOME_SEPARATED. Of separated objects only a normal that
+   * separates them is said, and a depth of 0.
    */
   swiftprox_outcome outcome;
   /** How the query ended. */
@@ -814,8 +814,8 @@ typedef struct swiftprox_depth_config {
 } swiftprox_depth_config;
 
 /**
- * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program was
- * compiled with. Null is ignored.
+ * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
+ * was compiled with. Null is ignored.
  */
 void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
                                        size_t struct_size);
@@ -838,12 +838,13 @@ swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
                                       struct swiftprox_depth_answer *answer);
 
 /**
- * Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any other:
- * then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
+ * Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any
+ * other: then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
  *
  * Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
- * that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify: points
- * and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not checked.
+ * that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify:
+ * points and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not
+ * checked.
  *
  * Takes time linear in the number of vertices and in the size of the cache.
  *
@@ -910,7 +911,10 @@ typedef struct swiftprox_manifold {
   uint32_t found_count;
 } swiftprox_manifold;
 
-/** What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are safe. */
+/**
+ * What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
+ * safe.
+ */
 typedef struct swiftprox_manifold_cache {
   /** Not to be looked at. */
   uint32_t words[384];
@@ -944,8 +948,8 @@ void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *conf
  * connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
  * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
  *
- * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0. On
- * failure the manifold is reset, and points are as they were.
+ * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
+ * On failure the manifold is reset, and points are as they were.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
@@ -975,9 +979,9 @@ typedef struct swiftprox_scene swiftprox_scene;
 typedef void (*swiftprox_task_callback)(uint32_t first, uint32_t end, void *context);
 
 /**
- * Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the pointer
- * given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must return; a
- * C++ exception that leaves it ends the program.
+ * Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the
+ * pointer given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must
+ * return; a C++ exception that leaves it ends the program.
  */
 typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
                                                  uint32_t item_count,
@@ -994,13 +998,13 @@ typedef struct swiftprox_scene_options {
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /**
-   * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early, those
-   * without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+   * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
+   * those without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
    */
   uint32_t worker_count;
   /**
-   * Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads for
-   * each query that is worth it.
+   * Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads
+   * for each query that is worth it.
    */
   swiftprox_enqueue_task_callback enqueue_task;
   /** Waits for what enqueue_task has shared out. Default: null. */
@@ -1483,9 +1487,9 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
 } swiftprox_query_kind;
 
 /**
- * As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded; the
- * tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near, if
- * nothing else has moved.
+ * As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded;
+ * the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
+ * if nothing else has moved.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
  * errors as of swiftprox_scene_query_intersection.
@@ -1498,8 +1502,8 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
                                               struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object of
- * the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+ * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
+ * of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
  *
  * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
  * swiftprox_scene_query_intersection.
@@ -1534,8 +1538,8 @@ typedef struct swiftprox_scene_events {
   /** How many. */
   size_t began_count;
   /**
-   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid as
-   * began are. Null when ended_count is 0.
+   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
+   * as began are. Null when ended_count is 0.
    */
   const struct swiftprox_object_pair *ended;
   /** How many. */
@@ -1547,8 +1551,8 @@ typedef struct swiftprox_scene_events {
  * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
  * failure `*events` is empty, and what was near stays remembered.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
- * events is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
+ * or events is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
@@ -1731,10 +1735,10 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
 
 /**
- * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. `pairs`
- * holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed objects are
- * heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs of before
- * stay.
+ * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
+ * `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
+ * objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
+ * of before stay.
  *
  * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
  * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.

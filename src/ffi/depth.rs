@@ -62,8 +62,8 @@ const _: () = {
     assert!(align_of::<DepthCache>() <= align_of::<CDepthCache>());
 };
 
-/// Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program was
-/// compiled with. Null is ignored.
+/// Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
+/// was compiled with. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_depth_config_init_sized(config: *mut CDepthConfig, struct_size: usize) {
     // SAFETY: the header's pointer rules.
@@ -118,12 +118,13 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
     status
 }
 
-/// Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any other:
-/// then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
+/// Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any
+/// other: then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
 ///
 /// Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
-/// that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify: points
-/// and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not checked.
+/// that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify:
+/// points and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not
+/// checked.
 ///
 /// Takes time linear in the number of vertices and in the size of the cache.
 ///
@@ -241,7 +242,8 @@ impl CManifoldConfig {
     };
 }
 
-/// What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are safe.
+/// What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
+/// safe.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CManifoldCache {
@@ -267,8 +269,8 @@ pub unsafe extern "C" fn swiftprox_manifold_config_init_sized(config: *mut CMani
 /// connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
 /// says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
 ///
-/// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0. On
-/// failure the manifold is reset, and points are as they were.
+/// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
+/// On failure the manifold is reset, and points are as they were.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold(
     shape1: *const Shape,

@@ -63,10 +63,10 @@ pub unsafe extern "C" fn swiftprox_scene_filter_again(scene: *mut SceneHandle) -
     }
 }
 
-/// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. `pairs`
-/// holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed objects are
-/// heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs of before
-/// stay.
+/// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
+/// `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
+/// objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
+/// of before stay.
 ///
 /// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
 /// message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.

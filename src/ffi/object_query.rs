@@ -18,8 +18,8 @@ pub struct CSceneEvents {
     pub began: *const ObjectPair,
     /// How many.
     pub began_count: usize,
-    /// Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid as
-    /// began are. Null when ended_count is 0.
+    /// Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
+    /// as began are. Null when ended_count is 0.
     pub ended: *const ObjectPair,
     /// How many.
     pub ended_count: usize,
@@ -40,9 +40,9 @@ impl CSceneEvents {
     }
 }
 
-/// As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded; the
-/// tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near, if
-/// nothing else has moved.
+/// As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded;
+/// the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
+/// if nothing else has moved.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
 /// errors as of swiftprox_scene_query_intersection.
@@ -66,8 +66,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
     }
 }
 
-/// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object of
-/// the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+/// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
+/// of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
 ///
 /// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
 /// swiftprox_scene_query_intersection.
@@ -99,8 +99,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_placed(
 /// lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
 /// failure `*events` is empty, and what was near stays remembered.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
-/// events is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
+/// or events is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_events(
     scene: *mut SceneHandle,

@@ -99,11 +99,11 @@ pub struct CSceneOptions {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early, those
-    /// without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+    /// How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
+    /// those without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
     pub worker_count: u32,
-    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads for
-    /// each query that is worth it.
+    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads
+    /// for each query that is worth it.
     pub enqueue_task: EnqueueTaskCallback,
     /// Waits for what enqueue_task has shared out. Default: null.
     pub finish_task: FinishTaskCallback,

@@ -11,9 +11,9 @@ use crate::scene::Workers;
 /// several at once, each item once.
 pub type TaskCallback = unsafe extern "C" fn(first: u32, end: u32, context: *mut c_void);
 
-/// Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the pointer
-/// given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must return; a
-/// C++ exception that leaves it ends the program.
+/// Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the
+/// pointer given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must
+/// return; a C++ exception that leaves it ends the program.
 pub type EnqueueTaskCallback = Option<
     unsafe extern "C-unwind" fn(
         task: TaskCallback,

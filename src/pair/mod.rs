@@ -83,8 +83,8 @@ pub fn intersection(
     query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
 }
 
-/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which the
-/// objects overlap least and the features that meet there: those of [`depth()`], which says how deep, and where.
+/// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which
+/// the objects overlap least and the features that meet there: those of [`depth()`], which says how deep, and where.
 ///
 /// # Errors
 /// As [`distance`].

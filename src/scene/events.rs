@@ -46,9 +46,9 @@ pub(crate) struct Events {
 }
 
 impl Scene {
-    /// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
-    /// lists all that are. Objects are near if any of their pieces are. It is a query like others, and [`SceneAnswer::pairs`] of those
-    /// before it end.
+    /// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first
+    /// call lists all that are. Objects are near if any of their pieces are. It is a query like others, and [`SceneAnswer::pairs`]
+    /// of those before it end.
     ///
     /// [`SceneAnswer::pairs`]: crate::scene::SceneAnswer::pairs
     ///

@@ -11,7 +11,7 @@ use crate::scene::object::{Object, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 
 impl Scene {
-    // --- Activation ----------------------------------------------------------------------------------------------------------------
+    // --- Activation --------------------------------------------------------------------------------------------------------------
 
     /// Activates or deactivates the pair of two objects, in either order, with all its pairs of pieces. No effect on two
     /// fixed objects.
@@ -76,11 +76,12 @@ impl Scene {
         object1.may_meet(object2) && self.activation.is_active(object1, object2)
     }
 
-    // --- A program's own word ------------------------------------------------------------------------------------------------------
+    // --- A program's own word ----------------------------------------------------------------------------------------------------
 
-    /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that becomes near,
-    /// and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are asked anew.
-    /// The filter is called with the earlier created object first, and should always say the same of a pair; it cannot use the scene.
+    /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that becomes
+    /// near, and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are asked
+    /// anew. The filter is called with the earlier created object first, and should always say the same of a pair; it cannot use
+    /// the scene.
     pub fn set_pair_filter(&mut self, filter: Option<PairFilter>) {
         self.filter = filter;
         self.filter_again();
@@ -92,8 +93,8 @@ impl Scene {
     }
 
     /// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. An
-    /// order is not needed, and what is there twice is tested once. Activation, filters and fixed objects are heeded as ever; ids of
-    /// objects removed later name no pair. Pairs that stay keep what they remember. `None`: the scene finds the pairs again.
+    /// order is not needed, and what is there twice is tested once. Activation, filters and fixed objects are heeded as ever; ids
+    /// of objects removed later name no pair. Pairs that stay keep what they remember. `None`: the scene finds the pairs again.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice in a pair,
@@ -110,7 +111,7 @@ impl Scene {
         Ok(())
     }
 
-    // --- Near pairs ----------------------------------------------------------------------------------------------------------------
+    // --- Near pairs --------------------------------------------------------------------------------------------------------------
 
     /// Gives back the memory that is kept for later: that of the results, and room for pairs that are no more. What the others
     /// remember stays.

@@ -141,8 +141,8 @@ impl Scene {
         })
     }
 
-    /// Lets several threads work on a query, or one again. It changes no bit of any answer. Queries that stop early, those without a
-    /// tolerance over many objects and those over few pairs are answered in the caller's thread alone.
+    /// Lets several threads work on a query, or one again. It changes no bit of any answer. Queries that stop early, those without
+    /// a tolerance over many objects and those over few pairs are answered in the caller's thread alone.
     pub fn set_workers(&mut self, workers: Option<Workers>) {
         self.workers = workers.filter(|workers| workers.count() > 1);
     }

@@ -65,8 +65,8 @@ impl Scene {
         self.ask_cold(&mut pairs, asked, early_exit)
     }
 
-    /// As [`Scene::query_object`], of a shape that is in no scene, put at `pose` for this question: each object of the scene is object
-    /// 1, object 2 has the null id. All objects are asked, whatever activation and filters say.
+    /// As [`Scene::query_object`], of a shape that is in no scene, put at `pose` for this question: each object of the scene is
+    /// object 1, object 2 has the null id. All objects are asked, whatever activation and filters say.
     ///
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, and as [`Scene::query_intersection`].

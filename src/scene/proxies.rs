@@ -1,5 +1,5 @@
-//! What the scene knows of each placed convex piece: one row of several arrays, in the order of results. Spheres, boxes and bounds of
-//! motion err on the safe side.
+//! What the scene knows of each placed convex piece: one row of several arrays, in the order of results. Spheres, boxes and bounds
+//! of motion err on the safe side.
 
 use std::sync::Arc;
 

@@ -9,18 +9,19 @@ pub struct SceneQuery {
     /// Stop at the first intersecting pair in the order of results, and then list no pairs at all: [`SceneAnswer::found`] is it.
     pub early_exit: bool,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to +∞ (the default: all pairs, which takes time in proportion to their number). [`query_intersection`](crate::scene::Scene::query_intersection) does without
-    /// it, but refuses one out of range.
+    /// to +∞ (the default: all pairs, which takes time in proportion to their number).
+    /// [`query_intersection`](crate::scene::Scene::query_intersection) does without it, but refuses one out of range.
     pub distance_tolerance: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate_distance): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed pairs together may come to, in
-    /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-    /// Which pairs are listed is found out first, which takes a query of its own. Default: +∞.
+    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed
+    /// pairs together may come to, in equal shares, whatever the two errors say; a pair whose share is less than that is answered
+    /// as narrowly as by exact queries. Which pairs are listed is found out first, which takes a query of its own. Default: +∞.
     pub error_budget: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
+    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as
+    /// [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
     pub step_budget: u32,
     /// Which levels of detail queries go through.
     pub levels: Levels,

@@ -1,5 +1,5 @@
-//! The near pairs of one pass, shared out among threads: parts of the list, put together again in order. Each pair's answer rests on
-//! its poses and its own memory alone, so results, their order and what pairs remember are bit for bit those of one thread.
+//! The near pairs of one pass, shared out among threads: parts of the list, put together again in order. Each pair's answer rests
+//! on its poses and its own memory alone, so results, their order and what pairs remember are bit for bit those of one thread.
 
 use std::fmt;
 use std::sync::atomic::{AtomicUsize, Ordering};
@@ -34,8 +34,8 @@ impl Workers {
         Workers { count, run: Box::new(move |parts, work| run_on_threads(count, parts, work)) }
     }
 
-    /// The program's own `count` threads: `run` is to call the function that it gets once for each number below the one that it gets,
-    /// in any threads, several at once, and to return when all calls have returned.
+    /// The program's own `count` threads: `run` is to call the function that it gets once for each number below the one that it
+    /// gets, in any threads, several at once, and to return when all calls have returned.
     pub fn new(count: usize, run: impl Fn(usize, &(dyn Fn(usize) + Sync)) + Send + Sync + 'static) -> Workers {
         Workers { count, run: Box::new(run) }
     }

@@ -66,8 +66,8 @@ pub fn placed_deep(random: &mut Random, shapes: [&Shape; 2]) -> [Pose; 2] {
     })
 }
 
-/// The width of an interval over what is promised: of ordinary pairs 2e-14 of their size or how far their origins are apart, of hard
-/// ones 1e-13 of the larger box and 2e-16 of the largest coordinate.
+/// The width of an interval over what is promised: of ordinary pairs 2e-14 of their size or how far their origins are apart, of
+/// hard ones 1e-13 of the larger box and 2e-16 of the largest coordinate.
 fn width_of(shapes: [&Shape; 2], poses: [&Pose; 2], is_hard: bool, answer: &DepthAnswer) -> f64 {
     let size = radius(shapes[0]) + radius(shapes[1]);
     let apart = (poses[0].translation() - poses[1].translation()).norm();

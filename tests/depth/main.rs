@@ -1,5 +1,5 @@
-//! Depth: against exact integers, against the independent check on many kinds of bodies, whatever the cache holds and the environment
-//! is, without allocation; and what the check refuses.
+//! Depth: against exact integers, against the independent check on many kinds of bodies, whatever the cache holds and the
+//! environment is, without allocation; and what the check refuses.
 
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]

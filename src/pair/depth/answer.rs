@@ -14,7 +14,8 @@ pub struct DepthConfig {
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as double precision can prove.
     pub relative_error: f64,
-    /// Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's own,
+    /// Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's
+    /// own,
     /// 400. What is then left of the verdict is decided all the same, in integers.
     pub step_budget: u32,
 }
@@ -76,8 +77,8 @@ pub struct DepthStatistics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct DepthAnswer {
-    /// [`Outcome::Intersecting`] (touching included) or [`Outcome::Separated`]; of separated objects only a normal is said that
-    /// separates them, and a depth of 0.
+    /// [`Outcome::Intersecting`] (touching included) or [`Outcome::Separated`]. Of separated objects only a normal that
+    /// separates them is said, and a depth of 0.
     pub outcome: Outcome,
     /// How the query ended.
     pub ending: DepthEnding,

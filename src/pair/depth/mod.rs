@@ -23,13 +23,13 @@ pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
 
-/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them than
-/// a normal that separates them: [`crate::pair::distance`] tells how far apart they are.
+/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them
+/// than a normal that separates them: [`crate::pair::distance`] tells how far apart they are.
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`], and
-/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and `cache`
-/// are as they were.
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and
+/// `cache` are as they were.
 pub fn depth(
     shape1: &Shape,
     pose1: &Pose,

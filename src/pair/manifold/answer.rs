@@ -13,8 +13,8 @@ pub struct ManifoldConfig {
     pub rotation_limit: f64,
     /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default.
     pub margin: f64,
-    /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the line
-    /// between. None is moved. By default all are.
+    /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the
+    /// line between. None is moved. By default all are.
     pub reduces: bool,
 }
 
@@ -35,8 +35,8 @@ impl ManifoldConfig {
     }
 }
 
-/// What a pair remembers of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of several
-/// least directions is said, and which of two faces that are about as parallel to it is the reference.
+/// What a pair remembers of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of
+/// several least directions is said, and which of two faces that are about as parallel to it is the reference.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct ManifoldCache {

@@ -1,5 +1,5 @@
-//! The common part of two outlines, in one sweep from left to right: its corners are corners of one inside the other, and crossings.
-//! Time in proportion to the corners; nothing is stored.
+//! The common part of two outlines, in one sweep from left to right: its corners are corners of one inside the other, and
+//! crossings. Time in proportion to the corners; nothing is stored.
 
 use super::outline::{Chain, Outline};
 use crate::base::math::Vector;

@@ -2,7 +2,8 @@
 //! penetration alike.
 //!
 //! The reference is the face most parallel to the normal, the incident face the other object's; what both cover, seen along the
-//! normal, is the manifold. Where no face is nearly parallel to the normal, as where edges cross, it is the one pair of witness points.
+//! normal, is the manifold. Where no face is nearly parallel to the normal, as where edges cross, it is the one pair of witness
+//! points.
 
 mod answer;
 mod outline;
@@ -25,11 +26,12 @@ pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::{Corner, common_part};
 use outline::{Axes, Outline};
 
-/// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is none.
+/// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is
+/// none.
 ///
-/// The normal and the interval are as certain as those of [`crate::pair::distance`] and [`crate::pair::depth`]. Points are those that
-/// the two faces have in common along the normal, with a gap of at most the margin; at least one. Equal shapes, poses, normals and
-/// caches give equal points in equal order.
+/// The normal and the interval are as certain as those of [`crate::pair::distance`] and [`crate::pair::depth`]. Points are those
+/// that the two faces have in common along the normal, with a gap of at most the margin; at least one. Equal shapes, poses, normals
+/// and caches give equal points in equal order.
 ///
 /// # Errors
 /// As of [`crate::pair::depth`]; then nothing is changed.
@@ -202,8 +204,8 @@ fn parallel(facing: &Option<Facing>) -> f64 {
     facing.map_or(-1.0, |facing| facing.parallel)
 }
 
-/// The face most parallel to the normal of those at the vertex that reaches farthest along it; the last reference, if it is about as
-/// parallel. `None` of bodies without faces.
+/// The face most parallel to the normal of those at the vertex that reaches farthest along it; the last reference, if it is about
+/// as parallel. `None` of bodies without faces.
 fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, cache: &ManifoldCache) -> Option<Facing> {
     let towards = pose.rotate_back(&if body == 0 { -normal } else { *normal });
     let cosine = |face: u32| Facing { face, parallel: polyhedron.faces[face as usize].normal.dot(&towards) };

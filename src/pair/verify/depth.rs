@@ -2,8 +2,8 @@
 //! triangles, each at least so far from the origin, that surrounds it.
 //!
 //! Whoever proposes the shell is not trusted. That it is closed is seen by its edges, how far a triangle is by double-double
-//! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as in
-//! the search.
+//! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as
+//! in the search.
 
 use super::bounds::Bounds;
 use super::{Witness, allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
@@ -18,8 +18,8 @@ use crate::shape::Shape;
 use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
 use std::cmp::Ordering;
 
-/// Re-checks an answer of [`crate::pair::depth`] for the same shapes and poses; `cache` is that of the query, which holds the proof,
-/// or any other.
+/// Re-checks an answer of [`crate::pair::depth`] for the same shapes and poses; `cache` is that of the query, which holds the
+/// proof, or any other.
 ///
 /// Verdict and interval are proved for the exact objects R·v + T, without tolerance:
 ///
@@ -146,7 +146,8 @@ fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &
 
 type Triangle = [VertexPair; 3];
 
-/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for, as a query does or until it proves it.
+/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for, as a query does or until it proves
+/// it.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
@@ -265,7 +266,8 @@ impl<'a> Facts<'a> {
     }
 }
 
-/// The sign of a determinant of columns right to u each, where it is clear: products and sums err by 6u of what their magnitudes make.
+/// The sign of a determinant of columns right to u each, where it is clear: products and sums err by 6u of what their magnitudes
+/// make.
 fn clear_sign(a: &Vector, b: &Vector, c: &Vector) -> Option<Ordering> {
     let value = a.dot(&b.cross(c));
     let is_clear = value.abs() > 16.0 * U * length(a) * length(b) * length(c) + f64::MIN_POSITIVE;

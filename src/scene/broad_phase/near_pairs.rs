@@ -1,5 +1,5 @@
-//! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the sorted
-//! candidates says which come and which go.
+//! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the
+//! sorted candidates says which come and which go.
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
@@ -56,8 +56,8 @@ impl NearPair {
     }
 }
 
-/// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of its
-/// object, which is a name for that.
+/// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of
+/// its object, which is a name for that.
 #[inline(always)]
 pub(crate) fn order(firsts: &[u32], [proxy1, proxy2]: [u32; 2]) -> (u64, u64) {
     let [object1, object2] = [firsts[proxy1 as usize], firsts[proxy2 as usize]];
@@ -148,8 +148,8 @@ pub(crate) struct NearPairs {
 }
 
 impl NearPairs {
-    /// Brings the list up to date: of the pairs that `is_open` those stay that are among the candidates, and candidates that were not
-    /// there come, `testing` saying whether they are tested. Candidates are sorted, and no more than a scratch afterwards.
+    /// Brings the list up to date: of the pairs that `is_open` those stay that are among the candidates, and candidates that were
+    /// not there come, `testing` saying whether they are tested. Candidates are sorted, and no more than a scratch afterwards.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); pairs may then be missing.

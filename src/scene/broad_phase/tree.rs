@@ -1,5 +1,5 @@
-//! A dynamic tree of boxes: leaves come, go and grow one at a time, all boxes are refitted at once, and it is built anew where it has
-//! become loose. Where a call lacks memory the tree is good for nothing but to be built anew.
+//! A dynamic tree of boxes: leaves come, go and grow one at a time, all boxes are refitted at once, and it is built anew where it
+//! has become loose. Where a call lacks memory the tree is good for nothing but to be built anew.
 
 use crate::base::error::Result;
 use crate::base::memory::{push, reserve};
@@ -360,8 +360,8 @@ impl Tree {
     }
 }
 
-/// Parts proxies by the middle of their boxes' middles along the longest side, or where that is lopsided into halves; gives the first
-/// of the second part. Neither is empty.
+/// Parts proxies by the middle of their boxes' middles along the longest side, or where that is lopsided into halves; gives the
+/// first of the second part. Neither is empty.
 fn split(proxies: &mut [u32], boxes: &[Aabb]) -> usize {
     let middle = |proxy: u32| boxes[proxy as usize].doubled_middle();
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);

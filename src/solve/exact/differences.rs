@@ -23,7 +23,8 @@ impl<'a> Differences<'a> {
         self.0.corner(pair).position.components
     }
 
-    /// On which side of the plane through the origin, a ray and the first difference the second one lies: the sign of det(ray, p, q).
+    /// On which side of the plane through the origin, a ray and the first difference the second one lies: the sign of det(ray, p,
+    /// q).
     pub fn side_of_ray(&self, ray: &Vector, [p, q]: [VertexPair; 2]) -> Ordering {
         let ray = DyadicVector::from_doubles((*ray).into()).components;
         dot(&ray, &cross(&self.components(p), &self.components(q))).cmp(&IBig::ZERO)

@@ -21,8 +21,8 @@ const MOST_STEPS: u32 = 400;
 /// long as a first shell.
 const MOST_STALE: usize = 8;
 
-/// A shell with more triangles than this, and than twice those that the last first shell came to, is given up, too: each query takes
-/// time in proportion to them.
+/// A shell with more triangles than this, and than twice those that the last first shell came to, is given up, too: each query
+/// takes time in proportion to them.
 const MOST_KEPT: usize = 72;
 
 /// The first shell is still so coarse that the tables know better where to climb from.

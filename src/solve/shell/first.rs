@@ -14,8 +14,8 @@ const LEAN: f64 = 1.4;
 /// In general position to anything a model or a scene is likely to be aligned with.
 const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 
-/// Makes the first shell. Returns the point inside from which to look at it; `None` where the differences are flat as far as rounding
-/// lets one see.
+/// Makes the first shell. Returns the point inside from which to look at it; `None` where the differences are flat as far as
+/// rounding lets one see.
 #[inline(always)]
 pub fn make<L: Lanes>(
     frame: &Frame<L>,

@@ -4,10 +4,10 @@
 //! as long as the origin is far from the boundary of C.
 //!
 //! *From below*: a closed oriented cycle of triangles with corners in C, of degree other than 0 about the origin, encloses the ball
-//! around the origin that meets no triangle. For a point outside C is parted from it by a plane, so that the cycle has degree 0 about
-//! it, and the degree does not change along a way that meets no triangle. Neither convexity nor a manifold is asked for.
-//! The ball's radius is the least distance of a triangle from the origin, and of each that is at least min m·v/|m| over its corners
-//! v, for whatever vector m.
+//! around the origin that meets no triangle. For a point outside C is parted from it by a plane, so that the cycle has degree 0
+//! about it, and the degree does not change along a way that meets no triangle. Neither convexity nor a manifold is asked for. The
+//! ball's radius is the least distance of a triangle from the origin, and of each that is at least min m·v/|m| over its corners v,
+//! for whatever vector m.
 //!
 //! *From above*: the support h(n) of C in any direction n.
 //!
@@ -40,10 +40,11 @@ pub use witness::{Witness, witness};
 pub struct Rounding {
     /// An upper bound of e.
     pub difference: f64,
-    /// How far m·v, as computed for a computed difference v and a computed unit vector m, is off from m·v/|m| for the exact v: 3u·M the
-    /// product, 5u·M the length of m, e the difference. It is given 10u·M and e.
+    /// How far m·v, as computed for a computed difference v and a computed unit vector m, is off from m·v/|m| for the exact v: 3u·M
+    /// the product, 5u·M the length of m, e the difference. It is given 10u·M and e.
     pub plane: f64,
-    /// With edges e and g of a triangle of computed corners det(v₀, v₁, v₂) = (e × g)·v, as computed, is off by less than this times
+    /// With edges e and g of a triangle of computed corners det(v₀, v₁, v₂) = (e × g)·v, as computed, is off by less than this
+    /// times
     /// |e||g|: each component of the cross product errs by 3u of its permanent and u of itself, which makes 5.3u·|e||g|, the
     /// product with v by 3u more, all times M.
     pub determinant: f64,

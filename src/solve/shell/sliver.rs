@@ -12,8 +12,9 @@ use crate::solve::frame::Frame;
 /// Steps of Gilbert's iteration towards the nearest point of a triangle; what they leave open the three sides settle.
 const GILBERT_STEPS: u32 = 12;
 
-/// Gives a triangle the plane whose normal is the cross product of its edges in double-double arithmetic, these from the bodies' own
-/// edges: of nearly parallel ones a rounded product is noise, and differences of vertices cancel. Whether the plane is another one.
+/// Gives a triangle the plane whose normal is the cross product of its edges in double-double arithmetic, these from the bodies'
+/// own edges: of nearly parallel ones a rounded product is noise, and differences of vertices cancel. Whether the plane is another
+/// one.
 pub fn straighten<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, rounding: &Rounding, triangle: usize) -> bool {
     let pairs = shell.pairs_of(triangle);
     let columns =

@@ -238,8 +238,8 @@ impl Shell<'_> {
         }
     }
 
-    /// Whether a shell of at most 128 triangles is a closed oriented cycle: half-edges are in pairs, and the ends of each are those of
-    /// its twin. Of corners and twins nothing is known.
+    /// Whether a shell of at most 128 triangles is a closed oriented cycle: half-edges are in pairs, and the ends of each are those
+    /// of its twin. Of corners and twins nothing is known.
     #[inline(always)]
     pub fn is_closed(&self) -> bool {
         const MOST: usize = 128;

@@ -95,8 +95,8 @@ enum Plateau {
     Large,
 }
 
-/// All vertices that one ties with, and that these tie with, and so on. From a vertex that is not farthest an edge leads up, be it by
-/// less than rounding shows: so if no edge leads clearly up, a farthest vertex is among them.
+/// All vertices that one ties with, and that these tie with, and so on. From a vertex that is not farthest an edge leads up, be it
+/// by less than rounding shows: so if no edge leads clearly up, a farthest vertex is among them.
 #[cold]
 #[inline(never)]
 fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {

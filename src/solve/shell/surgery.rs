@@ -236,8 +236,8 @@ impl Shell<'_> {
     }
 }
 
-/// Puts the cone from a vertex over the region's rim in the place of the region. Unless all new triangles are as demanded nothing is
-/// changed, but for the vertex itself, and the answer is no.
+/// Puts the cone from a vertex over the region's rim in the place of the region. Unless all new triangles are as demanded nothing
+/// is changed, but for the vertex itself, and the answer is no.
 #[inline(always)]
 pub fn replace<L: Lanes>(shell: &mut Shell, region: Region, apex: u8, rounding: &Rounding, demand: &Demand) -> bool {
     L::out_of_line(&mut Replacement { shell, region, apex, rounding, demand, lanes: PhantomData::<L> })
