@@ -275,7 +275,7 @@ static const char *status_word(swiftprox_decided_by decided_by)
         return "tolerance";
     case SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES:
         return "spheres";
-    case SWIFTPROX_PAIR_STATUS_INSCRIBED_SPHERES:
+    case SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES:
         return "inner spheres";
     default:
         return "none";

@@ -234,6 +234,10 @@ impl<L: Lanes> Search<'_, L> {
     /// that can be proved.
     #[inline(always)]
     fn target(&self) -> f64 {
+        // Nothing bounds it yet, and no share of infinity is 0.
+        if self.best.upper == f64::INFINITY {
+            return f64::INFINITY;
+        }
         let reach = self.best.upper - self.best.beyond;
         let share = self.share * reach;
         let target = reach - if share > self.width { share } else { self.width };

@@ -5,7 +5,7 @@
 use super::Rounding;
 use super::storage::{NO_PLANE, Shell};
 use crate::base::double_double::{WideVector, narrow, wide_cross, wide_difference};
-use crate::base::math::Vector;
+use crate::base::math::{Vector, divisor};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 
@@ -74,8 +74,8 @@ pub fn sharpen(shell: &mut Shell, rounding: &Rounding, triangle: usize, directio
 /// The point of a segment nearest to the origin, unless that is its first end.
 fn nearest_between(from: &Vector, to: &Vector) -> Option<Vector> {
     let along = to - from;
-    let t = -from.dot(&along) / along.norm_squared();
-    // False for a NaN.
+    // Both ends may be one point.
+    let t = -from.dot(&along) / divisor(along.norm_squared());
     (t > 0.0).then(|| from + along * t.min(1.0))
 }
 
