@@ -126,7 +126,7 @@ static swiftprox_status move_all(void)
     return swiftprox_scene_set_all_transforms(scene, rotations, translations, OBJECTS);
 }
 
-/* Not 0: what the refused call is about, a scene, may keep room that the call had made before; whoever sets it counts at the end. */
+/* Not 0: a scene may keep room that the refused call had made before. Whoever sets it counts at the end. */
 static int keeps_room;
 
 /*
