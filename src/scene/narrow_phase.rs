@@ -11,15 +11,14 @@
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
+use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
 use crate::scene::statistics::{SceneStatistics, Settled};
-use crate::shape::Shape;
 
 /// Pairs that are looked at before the first of them is tested.
 pub(crate) const BLOCK: usize = 256;
@@ -41,7 +40,7 @@ const INSCRIBED: PairAnswer = PairAnswer {
 };
 
 /// One of the pair queries of [`pair`](crate::pair).
-pub(crate) type Solver = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
 /// What one query asks of each pair.
 pub(crate) struct Pass<'a> {
@@ -271,10 +270,9 @@ impl Pass<'_> {
     #[inline(always)]
     fn test(&self, pair: &mut NearPair, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
-        let [shape1, shape2] = [&self.proxies.shapes[a], &self.proxies.shapes[b]];
-        let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
+        let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-        (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
+        (self.solver)([placed(a), placed(b)], cache, self.config, answer)?;
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {

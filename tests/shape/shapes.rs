@@ -246,7 +246,7 @@ fn check_usable(shape: &Shape) {
     let away = Pose::new(&Matrix::identity(), &Vector::new(4.0, 1.0, 0.5));
     let config = PairConfig { levels: Levels::All, absolute_error: 0.5, ..PairConfig::default() };
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-    pair::approximate(shape, &Pose::IDENTITY, shape, &away, &mut cache, &config, &mut answer).unwrap();
+    pair::approximate([shape.at(&Pose::IDENTITY), shape.at(&away)], &mut cache, &config, &mut answer).unwrap();
     assert_eq!(answer.outcome, Outcome::Separated);
     assert!(answer.statistics.levels[0] > 0, "{answer:?}");
 }

@@ -14,7 +14,6 @@ use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::frame::Frame;
@@ -31,15 +30,11 @@ use cache::{MOST_TRIANGLES, MOST_VERTICES};
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and
 /// `cache` are as they were.
 pub fn depth(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut DepthCache,
     config: &DepthConfig,
     answer: &mut DepthAnswer,
 ) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     with_default(|| answer_query(bodies, cache, config, answer))
 }
 
