@@ -208,7 +208,7 @@ impl Pass<'_> {
         let travelled = motion1.odometer + motion2.odometer;
         // With s the odometers' sum when the pair was tested and s' now: from fl(s')(1 + 8u) + τ < (s(1 − 8u) + lower)(1 − 8u), all
         // rounded, s' + τ < s + lower follows, and so lower − (s' − s) > τ.
-        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.reach {
+        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.apart_until {
             statistics.count_settled(Settled::OutOfReach);
             return Look::Settled;
         }
@@ -275,7 +275,7 @@ impl Pass<'_> {
         let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
         (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
-        pair.reach = self.reach(answer, a, b);
+        pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
             pair.looked_at = 0;
@@ -291,9 +291,9 @@ impl Pass<'_> {
         (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
     }
 
-    /// See [`NearPair::reach`] and [`Pass::look`].
+    /// See [`NearPair::apart_until`] and [`Pass::look`].
     #[inline(always)]
-    fn reach(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
+    fn apart_until(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
         if !(answer.lower > 0.0) {
             return f64::NEG_INFINITY;
         }

@@ -19,7 +19,7 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::solve::frame::{Frame, Marker};
 use swiftprox::solve::state::State;
 use swiftprox::tables::nearest_vertex::{AllVertices, NearestVertex};
-use swiftprox::tables::tuning::LEAST_VERTICES;
+use swiftprox::tables::tuning::LEAST_VERTICES_FOR_TABLE;
 use swiftprox::tables::{LookupKind, LookupOptions, build_table, table};
 use swiftprox::verify::verify;
 use testkit::models::{cuboid, ellipsoid, grid_on_cube, prism, random_hull};
@@ -309,12 +309,12 @@ fn thin_bodies_have_shells_within_their_bounding_sphere() {
 #[test]
 fn tables_are_made_where_they_are_asked_for() {
     let made = |mesh: &PolygonMesh, kind| table(shape(mesh, kind, 0).polyhedron()).clone();
-    let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES).unwrap());
+    let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES_FOR_TABLE).unwrap());
     assert_eq!(made(&small, LookupKind::Automatic), Table::None);
     assert!(matches!(made(&large, LookupKind::Automatic), Table::Shells(_)));
     assert_eq!(made(&large, LookupKind::None), Table::None);
     // Squares on a cube make no large body of it.
-    assert!(turned_grid(5, LookupKind::Automatic).polyhedron().vertices.len() > LEAST_VERTICES);
+    assert!(turned_grid(5, LookupKind::Automatic).polyhedron().vertices.len() > LEAST_VERTICES_FOR_TABLE);
     assert_eq!(*table(turned_grid(5, LookupKind::Automatic).polyhedron()), Table::None);
     assert!(matches!(made(&small, LookupKind::Shells), Table::Shells(_)));
     assert!(matches!(made(&small, LookupKind::Spherical), Table::Spherical(t) if t.resolution == 32));

@@ -85,7 +85,7 @@ fn the_filter_accepts_only_what_integers_confirm() {
         }
         let pairs = [[0, 0], [1, 0], [2, 0], [3, 0]];
         let frame = Frame::<Portable>::new(polyhedra, [&pose, &Pose::IDENTITY], ROTATION_LIMIT);
-        assert!(frame.usual);
+        assert!(frame.in_range);
         let truth = exact::encloses_origin(polyhedra[0], &pose, polyhedra[1], &Pose::IDENTITY, &pairs);
         match encloses_origin(&frame, &pairs) {
             Some(weights) => {

@@ -202,11 +202,11 @@ fn check_normal(
     between: &Vector,
     least: f64,
 ) -> Result<()> {
-    let reach = |i: usize, direction: Vector| {
+    let support = |i: usize, direction: Vector| {
         let local = poses[i].rotate_back(&direction);
         polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
     };
-    let gap = normal.dot(between) - reach(0, -normal) - reach(1, *normal);
+    let gap = normal.dot(between) - support(0, -normal) - support(1, *normal);
     if gap >= least {
         return Ok(());
     }
