@@ -171,7 +171,7 @@ def crowds(machine, bodies, rows):
         return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
 
     names = {"all": "all move a little", "5%": "one in 20 moves", "rest": "a pile at rest", "teleport": "all jump anywhere"}
-    asked = {"intersection": "intersection", "distance": "distance within 0.25"}
+    asked = {"intersection": "intersection", "distance": "distance within 0.25", "contact": "depth and manifold"}
 
     def row(question):
         values = [t for key, times in found.items() if key[0] == question for t in times]
