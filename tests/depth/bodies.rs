@@ -209,6 +209,42 @@ fn depths_of_polygons_of_many_sides_hold() {
     }
 }
 
+/// A body 10¹³ times as long as the other: rounding hides all but that they overlap, and the witness points are a common point, not
+/// what the weights of a thin triangle of the shell make. From fuzzing.
+#[test]
+fn witness_points_of_bodies_of_very_different_sizes_hold() {
+    let long = hull(&[
+        Vector::new(-0.5, -0.5, -0.5),
+        Vector::new(-0.5, -0.5, -32.0),
+        Vector::new(3.0, -25.0, 0.0),
+        Vector::new(0.0, 0.0, 16.0),
+        Vector::new(16.0, 16.0, 1.1368683772161603e-13),
+        Vector::new(16.0, 16.0, 16.0),
+        Vector::new(0.0, 281474976710656.0, 16.0),
+    ]);
+    let cube = cuboid([16.0; 3]);
+    let turn = Matrix::new(
+        -0.11236050770934487,
+        0.18621688389130242,
+        0.9760626969929295,
+        0.9876480109038247,
+        0.12888661725871023,
+        0.08910469375585656,
+        -0.10920862083652783,
+        0.9740182298321831,
+        -0.19839850072408208,
+    );
+    let poses = [
+        Pose::new(&turn, &Vector::new(16.0, 16.0, 16.0)),
+        Pose::new(&turn, &Vector::new(43.63847005707471, 50.456086549110445, 6.158525235060484)),
+    ];
+    let (pair, placed) = ([&long, &cube], [&poses[0], &poses[1]]);
+    let mut cache = DepthCache::default();
+    let answer = query(pair, placed, &mut cache);
+    assert_eq!(answer.outcome, Outcome::Intersecting);
+    check(pair, placed, &cache, &answer);
+}
+
 /// As narrow as asked for, and no more steps than that takes; a budget ends in an interval that holds.
 #[test]
 fn errors_and_budgets_are_kept() {

@@ -185,7 +185,7 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
             match known {
                 // The bounds have met, next to 0.
-                Some(found) if found.expansion.ending == Ending::Narrow && found.triangles > 0 => {
+                Some(found) if found.expansion.ending == Ending::Narrow && has_witness(found, polyhedra, poses) => {
                     fill_overlapping(answer, polyhedra, poses, found);
                     answer.statistics.exact_iterations = common.iterations;
                 }
@@ -202,6 +202,17 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             }
         }
     }
+}
+
+/// Whether the shell's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is
+/// thin beside bodies of very different sizes may be anything.
+fn has_witness(found: &Found, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Found { expansion: Expansion { upper, direction, .. }, witness, triangles } = found;
+    let points = combinations(polyhedra, &witness.pairs[..witness.count], &witness.weights);
+    let [world1, world2] = contact::placed_points(polyhedra, poses, &points).world.map(Vector::from);
+    let along = Vector::from(contact::normalised(direction)) * clamp(witness.depth, 0.0, *upper);
+    // False for a NaN.
+    *triangles > 0 && (world2 - world1 + along).norm() <= *upper
 }
 
 /// Of objects that are apart only a normal is said.
