@@ -4,10 +4,10 @@
 //! has no vertex list: there, vertices are numbered by first occurrence. Nothing is allocated from a count that the file
 //! only claims.
 
+mod scanner;
 mod obj;
 mod off;
 mod registered;
-mod scanner;
 mod stl;
 mod tri_poly;
 
