@@ -1,4 +1,5 @@
-//! Readers for TRI, POLY, OFF, OBJ and STL files, and for others that a program registers.
+//! Readers for TRI, POLY, OFF, OBJ and STL files, and for others that a program registers. Each format is a file here, and one of
+//! [`Format`].
 //!
 //! Vertices and faces keep the file's order, so that index i of the file (counted from 0) is index i of the mesh. STL
 //! has no vertex list: there, vertices are numbered by first occurrence. Nothing is allocated from a count that the file
