@@ -304,7 +304,7 @@ fn shape_files() {
 fn distance(shape: &Shape, config: &PairConfig) -> PairAnswer {
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
     let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
-    pair::distance(shape, &Pose::IDENTITY, shape, &there, &mut cache, config, &mut answer).unwrap();
+    pair::distance([shape.at(&Pose::IDENTITY), shape.at(&there)], &mut cache, config, &mut answer).unwrap();
     answer
 }
 
@@ -353,7 +353,7 @@ fn automatic_levels() {
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
         let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
         let config = PairConfig { relative_error: 0.2, ..PairConfig::default() };
-        pair::approximate(shape, &Pose::IDENTITY, shape, &there, &mut cache, &config, &mut answer).unwrap();
+        pair::approximate([shape.at(&Pose::IDENTITY), shape.at(&there)], &mut cache, &config, &mut answer).unwrap();
         answer
     };
     let shape = new();

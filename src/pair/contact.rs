@@ -269,7 +269,7 @@ pub fn refined_weights(
 ) -> [f64; 4] {
     let &[p0, p1, p2, p3] = pairs else { return weights };
     let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
-    if !frame.usual {
+    if !frame.in_range {
         return weights;
     }
     let corners = [p0, p1, p2, p3].map(|[v, w]| {

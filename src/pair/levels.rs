@@ -186,7 +186,7 @@ impl<'a> PairQuery<'a> {
     fn is_still_enclosed(&mut self) -> bool {
         let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
         let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
-        if !frame.usual {
+        if !frame.in_range {
             return false;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return false };

@@ -290,7 +290,7 @@ pub struct Lookup {
     pub plan: Plan,
     /// How far, in radians, a pair of bodies like this one may have moved and turned before a start from the tables, or without any
     /// one afresh, leads to the nearest features sooner than the last features do; +∞ without a plan.
-    pub reach: f64,
+    pub jump: f64,
     /// The table, once made.
     pub made: OnNeed<Table>,
 }
@@ -322,7 +322,7 @@ pub enum Plan {
 /// Of one body equal plans make equal tables, whether they are made yet or not.
 impl PartialEq for Lookup {
     fn eq(&self, other: &Lookup) -> bool {
-        (self.plan, self.reach) == (other.plan, other.reach)
+        (self.plan, self.jump) == (other.plan, other.jump)
     }
 }
 
@@ -333,9 +333,9 @@ impl Lookup {
     }
 
     /// A plan that needs no table.
-    pub fn without_table(plan: Plan, reach: f64) -> Lookup {
+    pub fn without_table(plan: Plan, jump: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan, reach, made: OnNeed::from(Table::None) }
+        Lookup { plan, jump, made: OnNeed::from(Table::None) }
     }
 
     /// The same plan without the table.
@@ -355,10 +355,10 @@ impl Lookup {
         )
     }
 
-    /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::reach`].
+    /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::jump`].
     #[inline(always)]
-    pub fn square_reach(&self, other: &Lookup) -> f64 {
-        self.reach * other.reach
+    pub fn square_jump(&self, other: &Lookup) -> f64 {
+        self.jump * other.jump
     }
 
     /// Memory that it holds beyond its own size: none until the table is made.

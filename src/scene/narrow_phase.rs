@@ -11,15 +11,14 @@
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
+use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
 use crate::scene::statistics::{SceneStatistics, Settled};
-use crate::shape::Shape;
 
 /// Pairs that are looked at before the first of them is tested.
 pub(crate) const BLOCK: usize = 256;
@@ -41,7 +40,7 @@ const INSCRIBED: PairAnswer = PairAnswer {
 };
 
 /// One of the pair queries of [`pair`](crate::pair).
-pub(crate) type Solver = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
 /// What one query asks of each pair.
 pub(crate) struct Pass<'a> {
@@ -208,7 +207,7 @@ impl Pass<'_> {
         let travelled = motion1.odometer + motion2.odometer;
         // With s the odometers' sum when the pair was tested and s' now: from fl(s')(1 + 8u) + τ < (s(1 − 8u) + lower)(1 − 8u), all
         // rounded, s' + τ < s + lower follows, and so lower − (s' − s) > τ.
-        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.reach {
+        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.apart_until {
             statistics.count_settled(Settled::OutOfReach);
             return Look::Settled;
         }
@@ -271,11 +270,10 @@ impl Pass<'_> {
     #[inline(always)]
     fn test(&self, pair: &mut NearPair, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
-        let [shape1, shape2] = [&self.proxies.shapes[a], &self.proxies.shapes[b]];
-        let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
+        let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-        (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
-        pair.reach = self.reach(answer, a, b);
+        (self.solver)([placed(a), placed(b)], cache, self.config, answer)?;
+        pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
             pair.looked_at = 0;
@@ -291,9 +289,9 @@ impl Pass<'_> {
         (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
     }
 
-    /// See [`NearPair::reach`] and [`Pass::look`].
+    /// See [`NearPair::apart_until`] and [`Pass::look`].
     #[inline(always)]
-    fn reach(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
+    fn apart_until(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
         if !(answer.lower > 0.0) {
             return f64::NEG_INFINITY;
         }

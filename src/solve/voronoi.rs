@@ -41,7 +41,7 @@ pub enum VertexTest {
         head: u32,
         /// How far the edge is to be followed, for a direction of the length of the way to the other body: where the nearest point
         /// on its line is.
-        reach: f32,
+        parameter: f32,
     },
 }
 
@@ -88,7 +88,7 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
         if (edge == NONE) | (rule == Rule::First) {
             leave_by_edge(rule, corner.polyhedron, corner.index, g.to_vector(), length, head)
         } else {
-            VertexTest::Leaves { edge, head, reach: slope }
+            VertexTest::Leaves { edge, head, parameter: slope }
         }
     } else if slope < -clear {
         VertexTest::Strict
@@ -102,7 +102,7 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
 fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length: f64, tolerance: f64) -> VertexTest {
     match polyhedron.steepest_closely(vertex, g, length) {
         Some(Steepest { slope, edge, head }) if slope > tolerance => {
-            VertexTest::Leaves { edge, head, reach: slope as f32 }
+            VertexTest::Leaves { edge, head, parameter: slope as f32 }
         }
         Some(Steepest { slope, .. }) if !(slope < -STRICT * length) => VertexTest::Tied,
         _ => VertexTest::Strict,
@@ -162,11 +162,11 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
 fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
     let rough = g.map(|d| d as f32).into();
     let edge = polyhedron.edge_by_flat_vertex(vertex).unwrap_or(NONE);
-    let mut best = (clear_slope(length), VertexTest::Leaves { edge, head, reach: 0.0 });
+    let mut best = (clear_slope(length), VertexTest::Leaves { edge, head, parameter: 0.0 });
     for block in polyhedron.neighbour_blocks(vertex) {
         for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
             if slope > best.0 && block.edge[lane] != NONE {
-                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane], reach: slope });
+                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane], parameter: slope });
                 if rule == Rule::First {
                     return best.1;
                 }

@@ -6,7 +6,7 @@ use crate::base::memory::{copied, extend, filled, push, reserve, with_capacity};
 use crate::base::normal::unit;
 use crate::base::progress::Progress;
 use crate::build::merge::MergedFaces;
-use crate::build::slack::Flood;
+use crate::build::slack::RiseBounds;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
 
@@ -149,7 +149,7 @@ impl Polyhedron {
         positions: &[Vector],
         merged: &MergedFaces,
         slacks: &[f64],
-        flood: &mut Flood,
+        rises: &mut RiseBounds,
         progress: &mut Progress,
     ) -> Result<Vec<u32>> {
         let mut edge_of = filled(NONE, surface.twins.len())?;
@@ -174,7 +174,7 @@ impl Polyhedron {
                 let mut edge = edge_between([tail, surface.head(last)], positions, faces, merged, slacks);
                 if edge.normals[0].dot(&edge.normals[1]) < 0.0 {
                     edge.bevel = self.bevels.len() as u32;
-                    let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), flood);
+                    let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), rises);
                     edge.slack = edge.slack.max(bevel.slack);
                     push(&mut self.bevels, bevel)?;
                 }
@@ -273,10 +273,10 @@ impl Polyhedron {
 /// The plane that halves a sharp edge; `vertices` are those of the edge beyond its tail, flat ones included: a query may end at any
 /// of them. n_left + n_right cancels for a thin plate; minus the sum of the inward side directions has the same direction and does
 /// not.
-fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, flood: &mut Flood) -> Bevel {
+fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, rises: &mut RiseBounds) -> Bevel {
     let normal = unit(&(plane_normal(&edge.planes, 2) + plane_normal(&edge.planes, 3)));
     // No limit: the exterior angles of the sharp edges at a vertex sum to less than 2π, so there are at most three.
-    let rise = flood.rise(&normal, edge.tail(), usize::MAX).unwrap_or(f64::INFINITY);
-    let fall = flood.fall(&normal, edge.tail(), vertices);
+    let rise = rises.rise(&normal, edge.tail(), usize::MAX).unwrap_or(f64::INFINITY);
+    let fall = rises.fall(&normal, edge.tail(), vertices);
     Bevel { normal, slack: (rise + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF) }
 }

@@ -20,7 +20,6 @@ use crate::pair::contact::faces_at;
 use crate::pair::ladder::climb;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::state::FeatureId;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::{Corner, common_part};
@@ -36,17 +35,13 @@ use outline::{Axes, Outline};
 /// # Errors
 /// As of [`crate::pair::depth`]; then nothing is changed.
 pub fn manifold(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
     let capacity = points.len();
     let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write })
 }
 
@@ -130,8 +125,7 @@ fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &Manifol
 fn find_depth(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &ManifoldConfig) -> Result<Option<Contact>> {
     let mut answer = DepthAnswer::default();
     let depth_config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
-    let [first, second] = bodies;
-    depth(first.shape, first.pose, second.shape, second.pose, &mut cache.depth, &depth_config, &mut answer)?;
+    depth(bodies, &mut cache.depth, &depth_config, &mut answer)?;
     if answer.outcome != Outcome::Intersecting {
         return Ok(None);
     }

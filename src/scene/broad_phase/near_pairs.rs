@@ -21,7 +21,7 @@ pub(crate) enum Testing {
 pub(crate) struct NearPair {
     pub proxies: [u32; 2],
     /// While both odometers together are below this by more than a tolerance, the pieces are farther apart than that.
-    pub reach: f64,
+    pub apart_until: f64,
     /// The query in which it was last looked at: its number from 1 on.
     pub looked_at: u64,
     /// Where its memory is.
@@ -38,7 +38,7 @@ impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
         NearPair {
             proxies,
-            reach: f64::NEG_INFINITY,
+            apart_until: f64::NEG_INFINITY,
             looked_at: 0,
             cache: 0,
             result: UNLISTED,

@@ -1,7 +1,7 @@
 //! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's
 //! end, or into the face.
 
-use super::{Step, Way};
+use super::{Step, Transition};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
@@ -99,7 +99,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
 #[inline(always)]
 pub(super) fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &Vector) -> Step {
     let support = support_towards(far, point, face);
-    Step { way: Way::Behind, at: State::vertex_vertex(ordered(NEAR, vertex, support)) }
+    Step { transition: Transition::Behind, at: State::vertex_vertex(ordered(NEAR, vertex, support)) }
 }
 
 /// Out of line, with a number for an answer: a step would be handed back in memory, where then all steps would be made.
