@@ -189,11 +189,11 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 /// listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
 /// number in common. That holds on every machine, but for queries with a step budget, whose answers are not checked. The answer is
 /// as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
-/// intervals, points and normals are bit for bit the recorded ones, else 0; `identical` may be null. On failure the answer is
-/// empty.
+/// intervals, points and normals are bit for bit the recorded ones, else 0; `identical` may be null.
 ///
-/// SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. SWIFTPROX_ERROR_INVALID_ARGUMENT:
-/// there is no such query, or the step has not been done; or the recorded program asked so and was ended.
+/// SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. The answer is there all the same;
+/// on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
+/// query is out of range, and ended the recorded program before it was told.
 /// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_ask(
@@ -219,7 +219,7 @@ pub unsafe extern "C" fn swiftprox_replay_ask(
             if let Some(identical) = identical.as_mut() {
                 *identical = i32::from(said.is_identical);
             }
-            Ok(())
+            Ok(said.check?)
         })
     }
 }

@@ -32,7 +32,7 @@ use crate::shape::Shape;
 /// while let Some(step) = replay.read()? {
 ///     replay.change(&mut scene)?;
 ///     if step.query.is_some() {
-///         println!("{} pairs", replay.ask(&mut scene)?.answer.pairs.len());
+///         replay.ask(&mut scene)?.check?;
 ///     }
 /// }
 /// # Ok::<(), swiftprox::error::Error>(())
@@ -104,10 +104,14 @@ pub struct ReplayStep {
 }
 
 /// The answer to a recorded query.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct ReplayAnswer<'a> {
     /// As of the query itself; of one about events the pairs of pieces that are near.
     pub answer: SceneAnswer<'a>,
+    /// Whether it says what the recorded one does: the same pairs are listed, with the same outcomes, and the sums of lower ends
+    /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, but for
+    /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
+    pub check: Result<()>,
     /// Whether its distances, intervals, points and normals are bit for bit the recorded ones. They need not be with another
     /// version of the library, on another processor, or where the recording began in the middle of the scene's life.
     pub is_identical: bool,
@@ -356,13 +360,8 @@ impl Replay {
 
     /// Makes the query of the step that was read and done, and holds the answer against the recorded one.
     ///
-    /// The same pairs are to be listed, with the same outcomes, and the sums of lower ends and upper ends are to be those of
-    /// intervals that have a number in common. That holds wherever a recording is replayed, but for queries with a step budget,
-    /// whose answers are not checked.
-    ///
     /// # Errors
-    /// [`Error::Unverified`] if the answer is not the recorded one: the message says what of it. What the query itself does not
-    /// accept, as an error of its own. [`Error::Argument`] if there is no such query, or the step is not done.
+    /// Those of the query. [`Error::Argument`] if there is none, or the step is not done.
     pub fn ask<'a>(&mut self, scene: &'a mut Scene) -> Result<ReplayAnswer<'a>> {
         let is_open = self.changes.is_empty() && self.decided.is_empty();
         let Some(Question { subject, kind, query, outcome }) = self.question.filter(|_| is_open) else {
@@ -386,12 +385,10 @@ impl Replay {
         let answer = scene.said(stopped);
         let digest = Digest::of(&answer, |id| self.number(scene, id).unwrap_or(u32::MAX));
         let Recorded::Answer(recorded) = outcome else {
-            return Ok(ReplayAnswer { answer, is_identical: false });
+            return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
         };
-        if query.step_budget == u32::MAX {
-            digest.check(&recorded)?;
-        }
-        Ok(ReplayAnswer { answer, is_identical: digest.is(&recorded) })
+        let check = if query.step_budget == u32::MAX { digest.check(&recorded) } else { Ok(()) };
+        Ok(ReplayAnswer { answer, check, is_identical: digest.is(&recorded) })
     }
 
     /// The number of an object of the scene: how many there were before it in the recording.
