@@ -114,10 +114,12 @@ static size_t play(int exact, const double *sums, swiftprox_status *ending, int 
         before = step.fraction;
         CHECK_OK(swiftprox_replay_change(replay));
         if (!step.has_query) {
-            CHECK(swiftprox_replay_ask(replay, &answer, &identical) == SWIFTPROX_ERROR_INVALID_ARGUMENT && identical == 0);
+            CHECK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_TOLERANCE, &answer, &identical) ==
+                      SWIFTPROX_ERROR_INVALID_ARGUMENT &&
+                  identical == 0);
             continue;
         }
-        CHECK_OK(swiftprox_replay_ask(replay, &answer, &identical));
+        CHECK_OK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_TOLERANCE, &answer, &identical));
         CHECK(!exact || identical == 1);
         double sum = 0;
         for (size_t i = 0; i < answer.count; ++i) {
@@ -246,7 +248,7 @@ static void bad_arguments(const char *folder)
     CHECK(swiftprox_replay_open(folder, NULL, &replay) == SWIFTPROX_ERROR_FILE);
     CHECK(swiftprox_replay_read(NULL, &step) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_replay_change(NULL) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_replay_ask(NULL, &answer, NULL) == SWIFTPROX_ERROR_NULL_POINTER && answer.count == 0);
+    CHECK(swiftprox_replay_ask(NULL, 0.5, &answer, NULL) == SWIFTPROX_ERROR_NULL_POINTER && answer.count == 0);
     CHECK(swiftprox_replay_scene(NULL) == NULL);
     CHECK_OK(swiftprox_replay_close(NULL));
     CHECK_OK(swiftprox_scene_record(scene, path));
@@ -255,7 +257,7 @@ static void bad_arguments(const char *folder)
     step.struct_size = 3;
     CHECK(swiftprox_replay_read(replay, &step) == SWIFTPROX_ERROR_STRUCT_SIZE);
     CHECK(swiftprox_replay_read(replay, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_replay_ask(replay, NULL, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_replay_ask(replay, 0.5, NULL, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK_OK(swiftprox_replay_close(replay));
 }
 

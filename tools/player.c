@@ -66,6 +66,7 @@ int player_open(struct player *player, const struct player_options *options)
     *player = (struct player){.options = options, .is_recording = looks_recorded(options->path)};
     swiftprox_scene_query_init(&player->query);
     player->query.distance_tolerance = options->tolerance;
+    player->query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
     if (player->is_recording) {
         return GOOD;
     }
@@ -195,29 +196,17 @@ static int play_text(struct player *player, swiftprox_scene_answer *answer)
     return query(player->scene, &player->query, answer) == SWIFTPROX_OK ? GOOD : player_failed();
 }
 
-/* The query of another tolerance that is as the recorded one otherwise. */
-static scene_query *recorded_query(swiftprox_query_kind kind)
-{
-    return kind == SWIFTPROX_QUERY_INTERSECTION  ? swiftprox_scene_query_intersection
-           : kind == SWIFTPROX_QUERY_CONTACT     ? swiftprox_scene_query_contacts
-           : kind == SWIFTPROX_QUERY_APPROXIMATE ? swiftprox_scene_query_approximate_distance
-                                                 : swiftprox_scene_query_exact_distance;
-}
-
 static int play_recording(struct player *player, swiftprox_scene_answer *answer)
 {
     const struct player_options *const options = player->options;
-    const bool another_tolerance = options->tolerance != SWIFTPROX_DEFAULT_TOLERANCE;
     swiftprox_status status = swiftprox_replay_change(player->replay);
-    if (status == SWIFTPROX_OK && !options->query && !another_tolerance) {
-        status = swiftprox_replay_ask(player->replay, answer, NULL);
+    if (status == SWIFTPROX_OK && !options->query) {
+        status = swiftprox_replay_ask(player->replay, options->tolerance, answer, NULL);
         if (status == SWIFTPROX_ERROR_UNVERIFIED && !options->verify) {
             status = SWIFTPROX_OK;
         }
     } else if (status == SWIFTPROX_OK) {
-        scene_query *const query = options->query ? options->query : recorded_query(player->info.kind);
-        player->query.distance_tolerance = another_tolerance ? options->tolerance : player->info.distance_tolerance;
-        status = query(player->scene, &player->query, answer);
+        status = options->query(player->scene, &player->query, answer);
     }
     return status == SWIFTPROX_OK ? GOOD : failed_in_file(player, 0, status);
 }

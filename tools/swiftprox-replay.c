@@ -27,7 +27,7 @@ static const char HELP[] =
     "                        blank lines and others that start with # are skipped\n"
     "  --query intersection  list the pairs that intersect\n"
     "  --query distance      list the pairs within the tolerance (the default of text), with their distances\n"
-    "  --query contact       the same with witness points and normals of intersecting pairs, too\n"
+    "  --query contact       the same with depths and contact manifolds, too\n"
     "                        (default of a recording: the queries that were made)\n"
     "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance; of a\n"
     "                        recording: as it was)\n"
@@ -47,7 +47,7 @@ static const char HELP[] =
     "  outcome         separated, intersecting or undecided\n"
     "  distance        best estimate; 0 when the objects touch or intersect\n"
     "  lower, upper    the true distance lies between them, rounding included, as printed\n"
-    "  depth           nan: penetration depth is not computed yet\n"
+    "  depth           how deep the objects are in each other; 0 when they touch (query contact)\n"
     "What a query does not say is nan.\n"
     "\n"
     "With --bench the output is one line: the mean, the median and the worst milliseconds a step (poses set,\n"
@@ -159,7 +159,8 @@ static const char *outcome_word(swiftprox_outcome outcome)
                                                        : "undecided";
 }
 
-static void print_pair(const struct player *player, const swiftprox_pair_result *pair)
+/* `contact` is NULL where none was asked for. */
+static void print_pair(const struct player *player, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
     printf("%zu", player->step - 1);
     player_print_object(player, pair->object1, pair->user_data1);
@@ -168,12 +169,13 @@ static void print_pair(const struct player *player, const swiftprox_pair_result 
     print_number(pair->answer.distance, FE_TONEAREST);
     print_number(pair->answer.lower, FE_DOWNWARD);
     print_number(pair->answer.upper, FE_UPWARD);
-    print_number(NAN, FE_TONEAREST); /* depth */
+    print_number(contact ? contact->depth.depth : NAN, FE_TONEAREST);
     putchar('\n');
 }
 
-static int verify_pair(const struct player *player, const swiftprox_pair_result *pair)
+static int verify_pair(const struct player *player, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
+    const swiftprox_depth_cache cold = {{0}};
     double poses[2][12];
     const swiftprox_shape *shapes[2];
     const swiftprox_object_id ids[2] = {pair->object1, pair->object2};
@@ -187,8 +189,11 @@ static int verify_pair(const struct player *player, const swiftprox_pair_result 
             return player_failed();
         }
     }
-    if (swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], &pair->answer) != SWIFTPROX_OK) {
-        print_pair(player, pair);
+    const bool has_depth = contact && pair->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+    if (swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], &pair->answer) != SWIFTPROX_OK ||
+        (has_depth && swiftprox_pair_depth_verify(shapes[0], poses[0], shapes[1], poses[1], &cold, &contact->depth) !=
+                          SWIFTPROX_OK)) {
+        print_pair(player, pair, contact);
         fflush(stdout);
         fprintf(stderr, "%s: step %zu, the pair above: %s\n", player->options->path, player->step - 1,
                 swiftprox_library_last_error_message());
@@ -202,11 +207,13 @@ static int print_answer(const struct player *player, const swiftprox_scene_answe
 {
     const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
     const size_t count = answer->found ? 1 : answer->count;
-    int result = GOOD;
+    swiftprox_scene_contacts contacts;
+    int result = swiftprox_scene_get_contacts(player->scene, &contacts) == SWIFTPROX_OK ? GOOD : player_failed();
     for (size_t i = 0; i < count && result == GOOD; i++) {
-        result = player->options->verify ? verify_pair(player, &pairs[i]) : GOOD;
+        const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
+        result = player->options->verify ? verify_pair(player, &pairs[i], contact) : GOOD;
         if (result == GOOD) {
-            print_pair(player, &pairs[i]);
+            print_pair(player, &pairs[i], contact);
         }
     }
     return result;

@@ -3,7 +3,7 @@
 use std::ffi::c_char;
 
 use super::arrays::read_path;
-use super::query::CSceneAnswer;
+use super::query::{CSceneAnswer, DEFAULT_TOLERANCE};
 use super::scene::{CSceneOptions, SceneHandle, change, look, new_scene, swiftprox_scene_destroy};
 use super::{
     Checked, QueryNumber, StatusCode, Versioned, exclusive, guard, input, keep_panics_quiet, output, read_struct,
@@ -66,8 +66,6 @@ pub struct CReplayStep {
     pub kind: QueryNumber,
     /// 1 at the end of a recording that was not ended, as when the program was, else 0.
     pub cut_off: i32,
-    /// The query's distance tolerance. Of queries of intersection it says nothing.
-    pub distance_tolerance: f64,
     /// How much of the file is read, from 0 to 1.
     pub fraction: f64,
 }
@@ -84,7 +82,6 @@ impl CReplayStep {
         has_query: 0,
         kind: Query::Intersection as i32,
         cut_off: 0,
-        distance_tolerance: f64::NAN,
         fraction: f64::NAN,
     };
 }
@@ -166,7 +163,6 @@ pub unsafe extern "C" fn swiftprox_replay_read(replay: *mut ReplayHandle, step: 
                 has_query: i32::from(query.is_some()),
                 kind: query.map_or(Query::Intersection, |(kind, _)| kind) as i32,
                 cut_off: i32::from(read.is_none() && replay.is_cut_off()),
-                distance_tolerance: query.map_or(f64::NAN, |(_, query)| query.distance_tolerance),
                 fraction: read.map_or(1.0, |read| read.fraction),
                 ..CReplayStep::NONE
             };
@@ -189,15 +185,19 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 /// listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
 /// number in common. That holds on every machine, but for queries with a step budget, whose answers are not checked. The answer is
 /// as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
-/// intervals, points and normals are bit for bit the recorded ones, else 0; `identical` may be null.
+/// intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
+///
+/// With another `distance_tolerance` than SWIFTPROX_DEFAULT_TOLERANCE that is taken in place of the recorded one, and the answer is
+/// not checked.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. The answer is there all the same;
 /// on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
-/// query is out of range, and ended the recorded program before it was told.
+/// query is out of range, as the last of a recording that is cut off may be.
 /// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_ask(
     replay: *mut ReplayHandle,
+    distance_tolerance: f64,
     answer: *mut CSceneAnswer,
     identical: *mut i32,
 ) -> StatusCode {
@@ -214,7 +214,8 @@ pub unsafe extern "C" fn swiftprox_replay_ask(
     // SAFETY: the header's pointer rules; `answer` was written before.
     unsafe {
         with_replay(replay, |replay, scene| {
-            let said = replay.ask(scene)?;
+            let tolerance = (distance_tolerance != DEFAULT_TOLERANCE).then_some(distance_tolerance);
+            let said = replay.ask(scene, tolerance)?;
             answer.write(CSceneAnswer::new(&said.answer));
             if let Some(identical) = identical.as_mut() {
                 *identical = i32::from(said.is_identical);

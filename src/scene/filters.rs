@@ -6,7 +6,7 @@ use crate::base::memory::{copied, push};
 use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
-use crate::scene::narrow_phase::Findings;
+use crate::scene::narrow_phase::{Before, Findings};
 use crate::scene::object::{Object, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 use crate::scene::recording::format::Record;
@@ -133,7 +133,7 @@ impl Scene {
         self.note_decisions();
         updated?;
         self.broad_phase.shrink()?;
-        (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
+        (self.findings, self.before, self.last) = (Findings::default(), Before::default(), None);
         self.parts = Vec::new();
         self.note(|notes| notes.write(&Record::Shrink));
         Ok(())

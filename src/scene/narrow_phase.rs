@@ -14,8 +14,9 @@ use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed};
+use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Placed, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
+use crate::scene::contacts::{ContactMemory, Contacts, Details};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
 use crate::scene::statistics::{SceneStatistics, Settled};
@@ -56,7 +57,17 @@ pub(crate) struct Pass<'a> {
     /// The number of this pass over the pairs, from 1 on.
     pub number: u64,
     /// The results of the pass before if it asked the same, else none.
-    pub before: Option<&'a [PairResult]>,
+    pub before: Option<&'a Before>,
+    /// What is asked of listed pairs beside their answers.
+    pub details: Option<&'a Details>,
+}
+
+/// The results of a pass, when another has begun.
+#[derive(Debug, Default)]
+pub(crate) struct Before {
+    /// They, and what is left of earlier ones.
+    pairs: Vec<PairResult>,
+    contacts: Contacts,
 }
 
 /// What pairs remember, by place.
@@ -68,18 +79,50 @@ pub(crate) trait Caches {
     /// # Errors
     /// Those of `change`, and [`Error::Memory`](crate::base::error::Error::Memory).
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()>;
+    /// Changes what is remembered of one's contact: of its depth where the two intersect.
+    ///
+    /// # Errors
+    /// As of [`Caches::change`].
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()>;
 }
 
 /// Nobody else uses them.
-impl Caches for [PairCache] {
+pub(crate) struct Own<'a> {
+    pub caches: &'a mut [PairCache],
+    /// None for pairs that are forgotten.
+    pub contacts: Option<&'a mut ContactMemory>,
+}
+
+impl Caches for Own<'_> {
     #[inline(always)]
     fn peek(&self, place: u32) -> &PairCache {
-        &self[place as usize]
+        &self.caches[place as usize]
     }
 
     #[inline(always)]
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
-        change(&mut self[place as usize])
+        change(&mut self.caches[place as usize])
+    }
+
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()> {
+        match &mut self.contacts {
+            Some(contacts) if intersects => {
+                let (reference, cache) = contacts.of_intersecting(place)?;
+                change(reference, Some(cache))
+            }
+            Some(contacts) => change(contacts.reference(place), None),
+            None => change(&mut Reference::default(), intersects.then_some(&mut DepthCache::default())),
+        }
     }
 }
 
@@ -89,6 +132,8 @@ pub(crate) struct Findings {
     /// Kept from pass to pass, with what is left of earlier ones behind the results.
     slots: Vec<PairResult>,
     count: usize,
+    /// Of each result, where they are asked for.
+    pub contacts: Contacts,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
     /// Of one block of pairs those that the first look has not settled.
@@ -99,6 +144,7 @@ impl Findings {
     /// For another pass.
     pub fn clear(&mut self) {
         self.count = 0;
+        self.contacts.clear();
         self.statistics = SceneStatistics::default();
         self.intersecting = false;
     }
@@ -109,8 +155,9 @@ impl Findings {
     }
 
     /// Takes the place of the results of before, and gives it to them.
-    pub fn swap_results(&mut self, before: &mut Vec<PairResult>) {
-        std::mem::swap(&mut self.slots, before);
+    pub fn swap_results(&mut self, before: &mut Before) {
+        std::mem::swap(&mut self.slots, &mut before.pairs);
+        std::mem::swap(&mut self.contacts, &mut before.contacts);
     }
 
     /// Room for `count` more results.
@@ -130,6 +177,7 @@ impl Findings {
         self.reserve(part.count)?;
         self.slots[first..first + part.count].copy_from_slice(part.results());
         self.count += part.count;
+        self.contacts.append_all(&part.contacts)?;
         self.intersecting |= part.intersecting;
         self.statistics.add(&part.statistics);
         Ok(first as u32)
@@ -236,7 +284,9 @@ impl Pass<'_> {
         match look {
             Look::Settled => {}
             Look::Again(result) => {
-                *answer = self.before.unwrap_or_default()[result as usize].answer;
+                if let Some(before) = self.before {
+                    *answer = before.pairs[result as usize].answer;
+                }
                 findings.statistics.count_again(answer);
             }
             Look::Intersects => {
@@ -259,6 +309,9 @@ impl Pass<'_> {
             return Ok(false);
         }
         let intersects = answer.outcome == Outcome::Intersecting;
+        if let Some(details) = self.details {
+            self.find_details(details, look, pair, at, caches, findings)?;
+        }
         pair.result = at as u32;
         self.sign(pair, &mut findings.slots[at]);
         findings.count += 1;
@@ -276,6 +329,34 @@ impl Pass<'_> {
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
+            pair.looked_at = 0;
+        }
+        Ok(())
+    }
+
+    /// What is asked beside the answer, which is the one at `at`.
+    #[inline(never)]
+    fn find_details<C: Caches + ?Sized>(
+        &self,
+        details: &Details,
+        look: Look,
+        pair: &mut NearPair,
+        at: usize,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<()> {
+        let Findings { slots, contacts, .. } = findings;
+        if let (Look::Again(result), Some(before)) = (look, self.before) {
+            return contacts.again(&before.contacts, result as usize);
+        }
+        let answer = &slots[at].answer;
+        let bodies =
+            pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));
+        caches.change_contact(pair.cache, answer.outcome == Outcome::Intersecting, |reference, cache| {
+            details.find(bodies, answer, reference, cache, contacts)
+        })?;
+        // As of distances.
+        if contacts.last_ending() == Some(DepthEnding::Budget) {
             pair.looked_at = 0;
         }
         Ok(())

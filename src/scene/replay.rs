@@ -32,7 +32,7 @@ use crate::shape::Shape;
 /// while let Some(step) = replay.read()? {
 ///     replay.change(&mut scene)?;
 ///     if step.query.is_some() {
-///         replay.ask(&mut scene)?.check?;
+///         replay.ask(&mut scene, None)?.check?;
 ///     }
 /// }
 /// # Ok::<(), swiftprox::error::Error>(())
@@ -112,7 +112,7 @@ pub struct ReplayAnswer<'a> {
     /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, but for
     /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
     pub check: Result<()>,
-    /// Whether its distances, intervals, points and normals are bit for bit the recorded ones. They need not be with another
+    /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with another
     /// version of the library, on another processor, or where the recording began in the middle of the scene's life.
     pub is_identical: bool,
 }
@@ -358,15 +358,17 @@ impl Replay {
         Ok(())
     }
 
-    /// Makes the query of the step that was read and done, and holds the answer against the recorded one.
+    /// Makes the query of the step that was read and done, and holds the answer against the recorded one. With a distance tolerance
+    /// of the caller's it is another query, whose answer is not checked.
     ///
     /// # Errors
     /// Those of the query. [`Error::Argument`] if there is none, or the step is not done.
-    pub fn ask<'a>(&mut self, scene: &'a mut Scene) -> Result<ReplayAnswer<'a>> {
+    pub fn ask<'a>(&mut self, scene: &'a mut Scene, tolerance: Option<f64>) -> Result<ReplayAnswer<'a>> {
         let is_open = self.changes.is_empty() && self.decided.is_empty();
-        let Some(Question { subject, kind, query, outcome }) = self.question.filter(|_| is_open) else {
+        let Some(Question { subject, kind, mut query, outcome }) = self.question.filter(|_| is_open) else {
             return Err(Error::Argument("the step has no query, or has not been done".into()));
         };
+        query.distance_tolerance = tolerance.unwrap_or(query.distance_tolerance);
         let stopped = match subject {
             Subject::AllPairs => match kind {
                 Query::Intersection => scene.query_intersection(&query),
@@ -384,7 +386,7 @@ impl Replay {
         let scene = &*scene;
         let answer = scene.said(stopped);
         let digest = Digest::of(&answer, |id| self.number(scene, id).unwrap_or(u32::MAX));
-        let Recorded::Answer(recorded) = outcome else {
+        let (Recorded::Answer(recorded), None) = (outcome, tolerance) else {
             return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
         };
         let check = if query.step_budget == u32::MAX { digest.check(&recorded) } else { Ok(()) };

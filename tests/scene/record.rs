@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use swiftprox::error::{Error, Result};
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{PairFilter, Query, Replay, Scene, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{ContactDetail, PairFilter, Query, Replay, Scene, SceneOptions, SceneQuery, Workers};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 use testkit::shapes::at;
 
@@ -51,7 +51,7 @@ pub fn play(bytes: &[u8], workers: Option<Workers>) -> Result<Played> {
         played.steps += 1;
         if step.query.is_some() {
             played.asked += 1;
-            match replay.ask(&mut scene) {
+            match replay.ask(&mut scene, None) {
                 Ok(answer) => {
                     answer.check?;
                     played.identical += usize::from(answer.is_identical);
@@ -117,7 +117,7 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
         match round % 8 {
             0 => drop(scene.query_intersection(&near).unwrap()),
             1 => drop(scene.query_exact_distance(&near).unwrap()),
-            2 => drop(scene.query_contacts(&near).unwrap()),
+            2 => drop(scene.query_contacts(&SceneQuery { detail: ContactDetail::Manifold, ..near }).unwrap()),
             3 => drop(scene.query_approximate_distance(&SceneQuery { error_budget: 0.3, ..near }).unwrap()),
             4 => drop(scene.query_object(any, Query::Distance, &near).unwrap()),
             5 => drop(scene.query_placed(shape, &random_pose(&mut random, 1.0), Query::Contact, &near).unwrap()),
@@ -163,7 +163,7 @@ fn a_session_played_again_answers_the_same_bits() {
     while let Some(step) = replay.read().unwrap() {
         replay.change(&mut scene).unwrap();
         if step.query.is_some() {
-            replay.ask(&mut scene).unwrap();
+            replay.ask(&mut scene, None).unwrap();
         }
     }
     scene.end_recording().unwrap();
@@ -210,12 +210,12 @@ fn another_answer_than_the_recorded_one_is_found() {
         assert!(replay.is_whole());
         replay.read().unwrap();
         assert!(matches!(replay.read(), Err(Error::Argument(_))), "the step is not done");
-        assert!(matches!(replay.ask(&mut scene), Err(Error::Argument(_))), "the step is not done");
+        assert!(matches!(replay.ask(&mut scene, None), Err(Error::Argument(_))), "the step is not done");
         replay.change(&mut scene).unwrap();
         let second = scene.objects().nth(1).unwrap().id();
         assert_eq!(replay.number(&scene, second).unwrap(), 1);
         scene.set_pose(second, &at(x, 0.0, 0.0)).unwrap();
-        let answer = replay.ask(&mut scene).unwrap();
+        let answer = replay.ask(&mut scene, None).unwrap();
         assert_eq!((answer.answer.pairs.len(), answer.is_identical), (1, tells.is_empty()));
         match answer.check {
             Err(Error::Unverified(message)) => assert!(!tells.is_empty() && message.contains(tells), "{message}"),

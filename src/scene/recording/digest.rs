@@ -4,7 +4,7 @@ use crate::base::binary::{CHECKSUM_PRIME, EMPTY_CHECKSUM, Reader, Writer};
 use crate::base::error::{Error, Result};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::scene::object::ObjectId;
-use crate::scene::query::{PairResult, SceneAnswer};
+use crate::scene::query::{Contact, PairResult, SceneAnswer};
 
 /// Of one answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -18,7 +18,7 @@ pub(crate) struct Digest {
     /// Sums over the listed pairs: the true one lies in between.
     lower: f64,
     upper: f64,
-    /// Of all bits of distances, intervals, points and normals.
+    /// Of all bits of distances, intervals, points, normals and depths.
     bits: u64,
 }
 
@@ -54,6 +54,10 @@ impl Digest {
             vectors.as_flattened().iter().for_each(|x| bits.add_real(*x));
             lower += answer.lower;
             upper += answer.upper;
+        }
+        for Contact { depth, manifold, .. } in answer.contacts.contacts {
+            bits.add_real(depth.depth);
+            bits.add(u64::from(manifold.point_count));
         }
         Digest {
             intersecting: answer.intersecting,

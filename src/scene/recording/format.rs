@@ -349,12 +349,15 @@ impl Writer {
             levels,
             refinement,
             start,
+            detail,
+            margin,
         } = *query;
         self.flag(early_exit)?;
-        for real in [distance_tolerance, absolute_error, relative_error, error_budget] {
+        for real in [distance_tolerance, absolute_error, relative_error, error_budget, margin] {
             self.real(real)?;
         }
-        [step_budget, levels as u32, refinement as u32, start as u32].iter().try_for_each(|x| self.number(*x))
+        let choices = [step_budget, levels as u32, refinement as u32, start as u32, detail as u32];
+        choices.iter().try_for_each(|x| self.number(*x))
     }
 }
 
@@ -406,10 +409,12 @@ impl Reader<'_> {
             absolute_error: self.real()?,
             relative_error: self.real()?,
             error_budget: self.real()?,
+            margin: self.real()?,
             step_budget: self.number()?,
             levels: self.choice()?,
             refinement: self.choice()?,
             start: self.choice()?,
+            detail: self.choice()?,
         })
     }
 }

@@ -236,7 +236,8 @@ impl Scene {
     pub(super) fn said(&self, stopped: bool) -> SceneAnswer<'_> {
         let (results, intersecting) = (self.findings.results(), self.findings.intersecting);
         let pairs = if stopped { &[] } else { results };
-        SceneAnswer { intersecting, pairs, found: if stopped { results.last() } else { None } }
+        let (found, contacts) = (if stopped { results.last() } else { None }, self.findings.contacts.view());
+        SceneAnswer { intersecting, pairs, found, contacts }
     }
 
     // --- What there is when a recording begins ---------------------------------------------------------------------------------------
