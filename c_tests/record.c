@@ -78,9 +78,9 @@ static size_t session(swiftprox_scene *scene, double *sums)
         if (step % 3 == 0)
             CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
         else if (step % 3 == 1)
-            CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_CONTACT, NULL, &answer));
+            CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
         else
-            CHECK_OK(swiftprox_scene_query_object(scene, ids[5], SWIFTPROX_QUERY_DISTANCE, &query, &answer));
+            CHECK_OK(swiftprox_scene_query_object(scene, ids[5], SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
         sums[asked] = 0;
         for (size_t i = 0; i < answer.count; ++i)
             sums[asked] += answer.pairs[i].answer.distance;
@@ -98,7 +98,7 @@ static size_t session(swiftprox_scene *scene, double *sums)
 static size_t play(int exact, const double *sums, swiftprox_status *ending, int *cut_off)
 {
     swiftprox_replay *replay;
-    swiftprox_replay_step_info step = {sizeof step};
+    swiftprox_replay_step_info step = {.struct_size = sizeof step};
     size_t asked = 0;
     *cut_off = 0;
     *ending = swiftprox_replay_open(path, NULL, &replay);
@@ -237,7 +237,7 @@ static void bad_arguments(const char *folder)
 {
     swiftprox_scene *scene;
     swiftprox_replay *replay = (swiftprox_replay *)path;
-    swiftprox_replay_step_info step = {sizeof step};
+    swiftprox_replay_step_info step = {.struct_size = sizeof step};
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK(swiftprox_scene_record(NULL, path) == SWIFTPROX_ERROR_NULL_POINTER);
