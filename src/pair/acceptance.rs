@@ -69,7 +69,7 @@ impl Acceptance<'_> {
         answer.decided_by = DecidedBy::Marching;
         set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
         if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
-            contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
+            contact::fill_separated(answer, frame, minimum, normal, state.features());
         } else {
             contact::fill_normal(answer, normal);
         }

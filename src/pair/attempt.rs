@@ -50,6 +50,15 @@ pub(super) enum Leg {
 }
 
 impl Leg {
+    /// With so many steps of a budget left; `u32::MAX` is none. A trial may go on for longer than a budget.
+    pub(super) fn of(left: u32, is_trial: bool) -> Leg {
+        match left {
+            u32::MAX if is_trial => Leg::Trial,
+            u32::MAX => Leg::Whole,
+            left => Leg::Budget(left),
+        }
+    }
+
     /// The most steps.
     #[inline(always)]
     pub(super) fn limit(self, polyhedra: [&Polyhedron; 2]) -> u32 {

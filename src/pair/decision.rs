@@ -122,7 +122,8 @@ impl PairQuery<'_> {
                     let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
                     cache.remember_features(State::of_features(features).unwrap_or(vertices));
                     if answer.outcome == Outcome::Separated {
-                        contact::fill_placed(answer, polyhedra, poses, points, direction, features);
+                        contact::fill_placed(answer, polyhedra, poses, points, features);
+                        answer.normal = contact::normalised(direction);
                         return;
                     }
                 }

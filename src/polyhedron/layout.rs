@@ -178,6 +178,18 @@ pub struct MassProperties {
     pub upper: Vector,
 }
 
+impl MassProperties {
+    /// Those of the body moved so that its origin comes to `centre`.
+    pub fn about(self, centre: &Vector) -> MassProperties {
+        MassProperties {
+            centre_of_mass: self.centre_of_mass + centre,
+            lower: self.lower + centre,
+            upper: self.upper + centre,
+            ..self
+        }
+    }
+}
+
 /// A convex polyhedron, immutable once built but for its look-up table.
 ///
 /// What every query reads comes first, together.

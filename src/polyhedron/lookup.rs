@@ -90,25 +90,30 @@ pub struct Shells {
     first_cells: [u32; DISTANCES],
 }
 
+/// What [`Shells`] are made from; see its members.
+pub struct ShellSamples {
+    /// As of the shells.
+    pub resolution: usize,
+    /// As of the shells.
+    pub radii: Vec<f64>,
+    /// As of the shells.
+    pub positions: Vec<[f32; 4]>,
+    /// The vertex of each cell.
+    pub cells: Vec<u32>,
+}
+
 /// Squared distances are told apart by two bits of the mantissa, from 2⁻⁸ to 2⁸; beyond that the outermost shells serve.
 const DISTANCES: usize = 64;
 const MANTISSA_BITS: u32 = 2;
 const LEAST: i32 = (127 - 8) << MANTISSA_BITS;
 
 impl Shells {
-    /// From the radii (ascending), the vertices' positions, the cells' vertices, the core's radius and what turns outwards.
+    /// From what was sampled, the core's radius and what turns outwards.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(
-        resolution: usize,
-        radii: Vec<f64>,
-        positions: Vec<[f32; 4]>,
-        cells: &[u32],
-        core: f64,
-        outward: [[f32; 3]; 3],
-        rounds: u32,
-    ) -> Result<Shells> {
+    pub fn new(samples: ShellSamples, core: f64, outward: [[f32; 3]; 3], rounds: u32) -> Result<Shells> {
+        let ShellSamples { resolution, radii, positions, cells } = samples;
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
         let mut first_cells = [0; DISTANCES];
@@ -118,7 +123,7 @@ impl Shells {
             let shell = radii.windows(2).take_while(|pair| 0.5 / pair[0] + 0.5 / pair[1] > reciprocal).count();
             *first = (shell * resolution * resolution) as u32;
         }
-        let cells = Cells::new(cells, positions.len())?;
+        let cells = Cells::new(&cells, positions.len())?;
         let grid = Grid::new(resolution);
         Ok(Shells { resolution, radii, cells, positions, core, outward, rounds, grid, first_cells })
     }

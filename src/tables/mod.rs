@@ -11,7 +11,7 @@ pub use options::{LookupKind, LookupOptions};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, collected, filled, found, push};
-use crate::polyhedron::lookup::{Lookup, Plan, Shells, Spherical, Table};
+use crate::polyhedron::lookup::{Lookup, Plan, ShellSamples, Shells, Spherical, Table};
 use crate::polyhedron::surface_walk::{Surface, nearest_of};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 
@@ -180,7 +180,8 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
     };
     let positions = collected(search.positions.iter().map(position))?;
     let rounds = rounds(&thickness, polyhedron.corner_count());
-    Shells::new(resolution, radii, positions, &cells, inner, thickness.outward(), rounds)
+    let samples = ShellSamples { resolution, radii, positions, cells };
+    Shells::new(samples, inner, thickness.outward(), rounds)
 }
 
 /// How often to look up, see [`Shells::rounds`].

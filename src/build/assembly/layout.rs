@@ -116,6 +116,15 @@ fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
     Vector::new(block.x[lane], block.y[lane], block.z[lane])
 }
 
+/// A hull whose triangles are merged into faces.
+pub(super) struct MergedHull<'a> {
+    pub surface: &'a Triangulation,
+    pub positions: &'a [Vector],
+    pub merged: &'a MergedFaces,
+    /// σ of each face.
+    pub slacks: &'a [f64],
+}
+
 impl Polyhedron {
     /// Adds the next vertex with its neighbour blocks.
     pub(super) fn add_vertex(&mut self, positions: &[Vector], v: u32, neighbours: &[(u32, u32)]) -> Result<()> {
@@ -145,13 +154,11 @@ impl Polyhedron {
     /// [`Error::Cancelled`] when the caller does not want to go on.
     pub(super) fn add_edges(
         &mut self,
-        surface: &Triangulation,
-        positions: &[Vector],
-        merged: &MergedFaces,
-        slacks: &[f64],
+        hull: &MergedHull,
         rises: &mut RiseBounds,
         progress: &mut Progress,
     ) -> Result<Vec<u32>> {
+        let MergedHull { surface, positions, merged, slacks } = *hull;
         let mut edge_of = filled(NONE, surface.twins.len())?;
         // Euler: corners − edges + faces = 2.
         let most = merged.normals.len() + merged.corners.iter().filter(|c| **c).count();
@@ -186,15 +193,8 @@ impl Polyhedron {
     }
 
     /// Adds all faces with their sides.
-    pub(super) fn add_faces(
-        &mut self,
-        surface: &Triangulation,
-        positions: &[Vector],
-        merged: &MergedFaces,
-        slacks: &[f64],
-        edge_of: &[u32],
-        progress: &mut Progress,
-    ) -> Result<()> {
+    pub(super) fn add_faces(&mut self, hull: &MergedHull, edge_of: &[u32], progress: &mut Progress) -> Result<()> {
+        let MergedHull { surface, positions, merged, slacks } = *hull;
         reserve(&mut self.faces, merged.normals.len())?;
         reserve(&mut self.sides, 2 * self.edges.len())?;
         for (face, normal) in merged.normals.iter().enumerate() {

@@ -14,13 +14,13 @@ use crate::base::progress::Progress;
 use crate::build::hull::{Hull, convex_hull};
 use crate::build::labels::{label_by_index, label_by_polygons};
 use crate::build::mass::mass_properties;
-use crate::build::merge::{MergedFaces, merge_bound, merge_faces};
+use crate::build::merge::{MergedFaces, Triangles, merge_bound, merge_faces};
 use crate::build::slack::RiseBounds;
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
-use layout::neighbours_of;
+use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
 
 /// The polyhedron of the exact convex hull of `points`. `polygons`, over the same points, gives the faces' labels; they lie on the
@@ -212,7 +212,8 @@ impl HullSurface {
         // The norm is right to 3u.
         let radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
         let of_mass = &mut progress.part(0.0, 0.05);
-        let mass = mass_properties(self.dimension, &self.positions, &centre, &self.triangles, &self.areas, of_mass)?;
+        let mass =
+            mass_properties(self.dimension, &self.positions, &self.triangles, &self.areas, of_mass)?.about(&centre);
         let mut polyhedron = Polyhedron {
             dimension: self.dimension,
             centre,
@@ -249,14 +250,17 @@ impl HullSurface {
         let of_surface = &mut progress.part(0.05, 0.15);
         let surface = Triangulation::new_in_steps(self.triangles, &self.normals, self.positions.len(), of_surface)?;
         let bound = merge_bound(radius);
+        let triangles =
+            Triangles { surface: &surface, positions: &self.positions, normals: &self.normals, areas: &sizes };
         let of_merging = &mut progress.part(0.15, 0.3);
-        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, bound, of_merging)?;
+        let merged = merge_faces(&triangles, bound, of_merging)?;
         let mut rises = RiseBounds::new(&surface, &self.positions, radius)?;
         let slacks = face_slacks(&surface, &self.normals, &merged, &mut rises, &mut progress.part(0.3, 0.5))?;
+        let hull = MergedHull { surface: &surface, positions: &self.positions, merged: &merged, slacks: &slacks };
         let of_edges = &mut progress.part(0.5, 0.7);
-        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut rises, of_edges)?;
+        let edge_of = polyhedron.add_edges(&hull, &mut rises, of_edges)?;
         let of_faces = &mut progress.part(0.7, 0.8);
-        polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of, of_faces)?;
+        polyhedron.add_faces(&hull, &edge_of, of_faces)?;
         let of_vertices = &mut progress.part(0.8, 0.9);
         reserve(&mut polyhedron.vertices, self.positions.len())?;
         for v in 0..self.positions.len() as u32 {

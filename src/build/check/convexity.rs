@@ -109,7 +109,7 @@ pub fn check_convexity(
             exact.from_scaled(distance)
         ));
     }
-    check_single_cover(mesh, hull, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
+    check_single_cover(mesh, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
 }
 
 /// A vertex farther from a plane than allowed.
@@ -260,14 +260,13 @@ impl Extent {
 /// The surface has the area and the volume of its hull.
 fn check_single_cover(
     mesh: &PolygonMesh,
-    hull: &Hull,
     boundary: &Boundary,
     surface: &Extent,
     allowed: f64,
     progress: &mut Progress,
 ) -> Result<()> {
     let position = boundary.position;
-    let whole = Extent::of(hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
+    let whole = Extent::of(boundary.hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
     let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
     let volume_allowed =
         2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();

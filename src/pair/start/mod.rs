@@ -3,7 +3,7 @@
 mod alternate;
 pub mod policy;
 
-use alternate::Alternate;
+use alternate::LookUps;
 use policy::StartFrom;
 
 use crate::base::math::{Pose, Vector};
@@ -68,44 +68,24 @@ pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFro
 #[inline(never)]
 fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], rounds: u32) -> StartPair {
     let [body1, body2] = polyhedra;
+    let from = LookUps { polyhedra, poses, last, most_rounds: rounds };
     // Returned from where it is found (R1).
     match [body1.lookup.plan, body2.lookup.plan] {
         [Plan::Shells { .. }, Plan::Shells { .. }] => {
             if let (Table::Shells(first), Table::Shells(second)) = (table(body1), table(body2)) {
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::AllVertices { rounds: wanted }, Plan::Shells { .. }] => {
             if let Table::Shells(second) = table(body2) {
                 let first = &AllVertices { polyhedron: body1, rounds: wanted };
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::Shells { .. }, Plan::AllVertices { rounds: wanted }] => {
             if let Table::Shells(first) = table(body1) {
                 let second = &AllVertices { polyhedron: body2, rounds: wanted };
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::Spherical { .. }, Plan::Spherical { .. }] => {

@@ -208,7 +208,7 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
     // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
     let inside = values.greater(L::splat(MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
     if (record.side_count > 3) | !inside
-        && let Some(side) = violated_side(C::RULE, far.polyhedron, record, values, point, frame.tolerance)
+        && let Some(side) = violated_side(C::RULE, far.polyhedron, record, [point, values], frame.tolerance)
     {
         let edge = far.polyhedron.side(record, side);
         let another = over_another_feature::<L, C, NEAR>(frame, corner, record, edge, [point, values]);
@@ -223,7 +223,7 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let towards_far = body.rotate_back(direction).negate();
     let test = test_corner::<L, C>(corner, towards_far, NEARLY_UNIT, STRICT);
     if let VertexTest::Leaves { edge: leaving, head, .. } = test {
-        return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], leaving, head);
+        return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], [leaving, head]);
     }
     let foot = normal.negated_mul_add(L::splat(height), point);
     let square = direction.dot(direction);
@@ -322,10 +322,10 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
         let lane = C::RULE.violated(across, slack);
         return if lane < 2 {
             let face = if lane == 0 { record1.left() } else { record1.right() };
-            walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)
+            walk_along_edge::<L, 1>(frame, indices, t, face, (&record1.planes, lane + 2))
         } else {
             let face = if lane == 2 { record2.left() } else { record2.right() };
-            walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
+            walk_along_edge::<L, 0>(frame, indices, s, face, (&record2.planes, lane))
         };
     }
     // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
