@@ -13,16 +13,25 @@ int player_failed(void)
     return FAILED;
 }
 
-/* A call on the file that failed. */
-static int failed_in_file(const struct player *player, size_t line, swiftprox_status status)
+static int status_of(swiftprox_status status)
+{
+    return status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH || status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
+}
+
+/* A call about a line of text that failed. */
+static int failed_in_line(const struct player *player, size_t line, swiftprox_status status)
 {
     fflush(stdout);
-    if (line > 0) {
-        fprintf(stderr, "%s:%zu: %s\n", player->options->path, line, swiftprox_library_last_error_message());
-    } else {
-        fprintf(stderr, "%s: step %zu: %s\n", player->options->path, player->step, swiftprox_library_last_error_message());
-    }
-    return status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH || status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
+    fprintf(stderr, "%s:%zu: %s\n", player->options->path, line, swiftprox_library_last_error_message());
+    return status_of(status);
+}
+
+/* A call about a step of a recording, numbered from 0, that failed. */
+static int failed_in_step(const struct player *player, size_t step, swiftprox_status status)
+{
+    fflush(stdout);
+    fprintf(stderr, "%s: step %zu: %s\n", player->options->path, step, swiftprox_library_last_error_message());
+    return status_of(status);
 }
 
 /* ---- the file ---- */
@@ -53,7 +62,7 @@ static int load_shapes(struct player *player)
         const swiftprox_status status = swiftprox_shape_create_from_file(shape->path, &options, &player->shapes[i]);
         if (status != SWIFTPROX_OK) {
             progress_erase(&progress);
-            result = failed_in_file(player, shape->line, status);
+            result = failed_in_line(player, shape->line, status);
         }
         progress_look(&progress, i + 1, player->file.shape_count);
     }
@@ -156,7 +165,7 @@ static enum next_step next_of_recording(struct player *player)
     player->info.struct_size = sizeof player->info;
     const swiftprox_status status = swiftprox_replay_read(player->replay, &player->info);
     if (status != SWIFTPROX_OK) {
-        failed_in_file(player, 0, status);
+        failed_in_step(player, player->step, status);
         return BAD_STEP;
     }
     player->fraction = player->info.fraction;
@@ -164,16 +173,15 @@ static enum next_step next_of_recording(struct player *player)
     if (!player->info.has_step) {
         return NO_MORE;
     }
-    player->step++;
     if (player->info.has_query) {
+        player->step++;
         return STEP;
     }
     const swiftprox_status changed = swiftprox_replay_change(player->replay);
     if (changed != SWIFTPROX_OK) {
-        failed_in_file(player, 0, changed);
+        failed_in_step(player, player->step, changed);
         return BAD_STEP;
     }
-    player->step--; /* steps are counted by their queries */
     return NO_QUERY;
 }
 
@@ -189,7 +197,7 @@ static int play_text(struct player *player, swiftprox_scene_answer *answer)
         const struct scene_move *const move = &player->file.moves[m];
         const swiftprox_status status = swiftprox_scene_set_pose(player->scene, player->ids[move->object], move->pose);
         if (status != SWIFTPROX_OK) {
-            return failed_in_file(player, move->line, status);
+            return failed_in_line(player, move->line, status);
         }
     }
     scene_query *const query = player->options->query ? player->options->query : swiftprox_scene_query_exact_distance;
@@ -208,7 +216,7 @@ static int play_recording(struct player *player, swiftprox_scene_answer *answer)
     } else if (status == SWIFTPROX_OK) {
         status = options->query(player->scene, &player->query, answer);
     }
-    return status == SWIFTPROX_OK ? GOOD : failed_in_file(player, 0, status);
+    return status == SWIFTPROX_OK ? GOOD : failed_in_step(player, player->step - 1, status);
 }
 
 int player_play(struct player *player, swiftprox_scene_answer *answer)

@@ -28,7 +28,7 @@ struct player {
     const struct player_options *options;
     bool is_recording;
     swiftprox_scene *scene;
-    size_t step;     /* steps that were read, from the beginning of the pass */
+    size_t step;     /* steps with a query that were read in this pass */
     double fraction; /* of the pass that is read */
     bool cut_off;    /* the recording ended with the program that was recorded */
     swiftprox_scene_query query;
