@@ -73,7 +73,7 @@ fn scene() -> Scene {
 /// A filter, which is not asked of objects that are gone.
 fn by_threes(object1: ObjectId, object2: ObjectId) -> bool {
     assert!(object1 != ObjectId::NULL && object2 != ObjectId::NULL);
-    (object1.to_bits() + object2.to_bits()) % 3 > 0
+    !(object1.to_bits() + object2.to_bits()).is_multiple_of(3)
 }
 
 /// Every call there is, in turns: how many queries it made.
@@ -83,7 +83,7 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
     let mut ids: Vec<ObjectId> = Vec::new();
     let mut asked = 0;
     for round in 0..rounds {
-        let pieces = vec![shapes[round % 2].clone(), shapes[1].clone()];
+        let pieces = [shapes[round % 2].clone(), shapes[1].clone()];
         let options =
             ObjectOptions { pose: random_pose(&mut random, 2.0), user_data: round as u64, ..Default::default() };
         ids.push(scene.add_object(pieces[..1 + round % 2].to_vec(), &options).unwrap());
@@ -175,7 +175,7 @@ fn a_session_played_again_answers_the_same_bits() {
 fn a_scene_recorded_from_the_middle_of_its_life_lists_the_same() {
     let (tape, mut scene) = (Tape::default(), scene());
     session(&mut scene, 65);
-    scene.set_pair_filter(Some(PairFilter::new(|a, b| (a.to_bits() + b.to_bits()) % 5 > 0)));
+    scene.set_pair_filter(Some(PairFilter::new(|a, b| !(a.to_bits() + b.to_bits()).is_multiple_of(5))));
     scene.query_events(0.3).unwrap();
     scene.record_to(tape.clone()).unwrap();
     let queries = [0.0, 0.2, 1.0].map(|distance_tolerance| SceneQuery { distance_tolerance, ..Default::default() });
