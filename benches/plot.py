@@ -139,18 +139,19 @@ def steps(machine, rows):
     bodies, motions = in_order(r["body"] for r in rows), in_order(r["motion"] for r in rows)
     sizes = sorted({r["n"] for r in rows})
     x = Axis("vertices n of each body", sizes[0] / 1.3, sizes[-1] * 1.3, [(n, charts.count(n)) for n in sizes if math.log10(n) % 1 == 0])
-    legend = {"bound": Style("bound, 81 + n", charts.GREY, DASHED)}
+    legend = {"bound": Style("bound, 81 + n" + ("; of depths 400" if "depth" in motions else ""), charts.GREY, DASHED)}
     legend.update((body, Style(body, colour, marker=marker)) for body, (colour, marker) in zip(bodies, BODIES))
-    bound = [(n, 81 + n) for n in sizes]
+    bounds = {motion: [(n, 400 if motion == "depth" else 81 + n) for n in sizes] for motion in motions}
     made = []
     for column, name, label in (("worst_steps", "steps", charts.count), ("worst_ns", "longest query", charts.duration)):
         # A query that needs no step at all is drawn at one.
-        values = {(r["motion"], r["body"], r["n"]): max(r[column], 1.0) for r in rows}
-        limits = [Curve("bound", bound, Kind.LINE)] if column == "worst_steps" else []
-        y = charts.value_axis("most steps of a query" if limits else "longest query",
-                              [*values.values(), *(value for curve in limits for _, value in curve.points)], label)
+        values = {(r["motion"], r["body"], r["n"]): max(r[column], 1.0) for r in rows if not math.isnan(r[column])}
+        counts = column == "worst_steps"
+        y = charts.value_axis("most steps of a query" if counts else "longest query",
+                              [*values.values(), *(value for m in motions if counts for _, value in bounds[m])], label)
         panels = []
-        for motion in motions:
+        for motion in (m for m in motions if any(key[0] == m for key in values)):  # depths have no times
+            limits = [Curve("bound", bounds[motion], Kind.LINE)] if counts else []
             points = {body: [(n, values[motion, body, n]) for n in sizes if (motion, body, n) in values] for body in bodies}
             panels.append(Panel(f"{name}, {motion}", limits + [Curve(body, found) for body, found in points.items()]))
         made.append(Row(panels, y, 210))
