@@ -5,6 +5,7 @@ mod build_time;
 #[cfg(ccd)]
 mod ccd;
 mod crowd;
+mod depth;
 mod distance;
 #[cfg(fcl)]
 mod fcl;
@@ -42,6 +43,8 @@ fn main() -> ExitCode {
             crowd::run(&options, counts)
         } else if options.build {
             build_time::run(&options)
+        } else if options.depth {
+            depth::run(&options)
         } else {
             distance::run(&options)
         }

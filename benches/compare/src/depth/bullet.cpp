@@ -1,0 +1,99 @@
+// Bullet's EPA in double precision, from its header alone: Debian's library is of single precision. Its tolerance, 1e-4, and its 64
+// vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
+
+#define BT_USE_DOUBLE_PRECISION
+#include <LinearMath/btTransform.h>
+#include <BulletCollision/NarrowPhaseCollision/btGjkEpa3.h>
+
+#include <limits>
+#include <vector>
+
+#include "../hull.h"
+extern "C" {
+#include "peer.h"
+}
+
+namespace {
+
+struct Placed {
+    const hull *body;
+    btTransform at;
+    unsigned *last;
+
+    const btTransform &getWorldTransform() const
+    {
+        return at;
+    }
+    btVector3 getObjectCenterInWorld() const
+    {
+        return at.getOrigin();
+    }
+    btVector3 getLocalSupportWithMargin(const btVector3 &towards) const
+    {
+        const double direction[3] = {towards.x(), towards.y(), towards.z()};
+        *last = hull_climb(body, direction, *last);
+        const double *vertex = body->vertices + 3 * *last;
+        return btVector3(vertex[0], vertex[1], vertex[2]);
+    }
+};
+
+btTransform transform(const double *m)
+{
+    return btTransform(btMatrix3x3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), btVector3(m[3], m[7], m[11]));
+}
+
+} // namespace
+
+struct peer {
+    hull *body;
+    std::vector<btTransform> poses;
+    btVector3 guess;
+    unsigned last[2];
+};
+
+extern "C" {
+
+void bullet_depth_forget(peer *peer)
+{
+    peer->guess = btVector3(1, 0, 0);
+    peer->last[0] = peer->last[1] = 0;
+}
+
+peer *bullet_depth_create(const peer_mesh *mesh, double)
+{
+    hull *body = hull_create(mesh->vertices, mesh->vertex_count, mesh->corners, mesh->triangle_count);
+    if (!body) {
+        return nullptr;
+    }
+    peer *made = new peer{body, {}, {}, {}};
+    bullet_depth_forget(made);
+    return made;
+}
+
+void bullet_depth_free(peer *peer)
+{
+    hull_free(peer->body);
+    delete peer;
+}
+
+void bullet_depth_load(peer *peer, const double *poses, size_t count)
+{
+    peer->poses.clear();
+    for (size_t i = 0; i < 2 * count; ++i) {
+        peer->poses.push_back(transform(poses + 12 * i));
+    }
+}
+
+double bullet_depth_ask(peer *peer, size_t i)
+{
+    const Placed first{peer->body, peer->poses[2 * i], &peer->last[0]};
+    const Placed second{peer->body, peer->poses[2 * i + 1], &peer->last[1]};
+    btGjkEpaSolver3::sResults results;
+    if (btGjkEpaSolver3_Penetration(first, second, peer->guess, results)) {
+        peer->guess = results.normal;
+        return -results.distance;
+    }
+    const bool failed = results.status == btGjkEpaSolver3::sResults::EPA_Failed || results.status == btGjkEpaSolver3::sResults::GJK_Failed;
+    return failed ? std::numeric_limits<double>::quiet_NaN() : 0;
+}
+}
