@@ -190,7 +190,7 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
         let mut translation2 = random.direction() * apart;
         if motion == Motion::Close {
             let pose2 = Pose::new(&rotation2, &translation2);
-            pair::distance(shape, &pose1, shape, &pose2, &mut PairCache::default(), &config, &mut answer)?;
+            pair::distance([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), &config, &mut answer)?;
             let gap = 10.0_f64.powf(random.uniform(-9.0, -1.0));
             translation2 += Vector::from(answer.normal) * (answer.distance - gap);
         }
@@ -205,7 +205,7 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
         for _ in 0..REPEATS {
             cache = before;
             let start = Instant::now();
-            query(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer)?;
+            query([shape.at(&pose1), shape.at(&pose2)], &mut cache, &config, &mut answer)?;
             nanoseconds = nanoseconds.min(start.elapsed().as_secs_f64() * 1e9);
         }
         row.add(&answer, nanoseconds);

@@ -169,6 +169,99 @@ static void caches_and_roundings(const swiftprox_shape *a, const swiftprox_shape
     }
 }
 
+static swiftprox_object_id put(swiftprox_scene *scene, const swiftprox_shape *shape, double x, double z)
+{
+    swiftprox_object_options options;
+    swiftprox_object_id id = {0};
+    swiftprox_object_options_init(&options);
+    place(options.pose, x, 0, z);
+    CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &id));
+    return id;
+}
+
+/* A box stands in another one, another beside it a little above, a third far away: depths and manifolds of the pairs, and how long
+ * they are there. */
+static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
+{
+    swiftprox_scene *scene = NULL;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    swiftprox_scene_contacts contacts, none;
+    swiftprox_depth_cache cold = {{0}};
+    swiftprox_object_info info1, info2;
+    const int32_t unknown = 77;
+    size_t i;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    const swiftprox_object_id ground = put(scene, b, 0, 0);
+    const swiftprox_object_id sunk = put(scene, a, -1.125, 0.9375);
+    put(scene, a, 1, 1.0078125);
+    put(scene, a, 50, 0);
+    swiftprox_scene_query_init(&query);
+    CHECK(query.detail == SWIFTPROX_CONTACT_DETAIL_NONE && isinf(query.margin));
+
+    /* Nothing was asked, nothing is said. */
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(contacts.count == 0 && contacts.contacts == NULL && contacts.points == NULL && contacts.point_count == 0);
+    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(answer.count == 1 && contacts.count == 0);
+
+    query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
+    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(answer.count == 1 && contacts.count == 1 && contacts.point_count == 0);
+    CHECK(answer.pairs[0].object1.bits == ground.bits && answer.pairs[0].object2.bits == sunk.bits);
+    const swiftprox_depth_answer depth = contacts.contacts[0].depth;
+    CHECK(depth.lower <= 0.0625 && 0.0625 <= depth.upper && depth.upper - depth.lower < 1e-13);
+    CHECK(fabs(depth.normal[2] + 1) < 1e-14);
+    info1.struct_size = sizeof info1;
+    info2.struct_size = sizeof info2;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, ground, &info1));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, sunk, &info2));
+    CHECK_OK(swiftprox_pair_depth_verify(b, info1.pose, a, info2.pose, &cold, &depth));
+
+    /* The manifold of the near pair, too, and a margin that leaves it out. */
+    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
+    query.distance_tolerance = 0.01;
+    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(answer.count == 2 && contacts.count == 2 && contacts.point_count == 8);
+    for (i = 0; i < contacts.count; ++i) {
+        const swiftprox_contact *const contact = &contacts.contacts[i];
+        const double gap = i == 0 ? -0.0625 : 0.0078125;
+        uint32_t k;
+        CHECK(contact->manifold.outcome == answer.pairs[i].answer.outcome && contact->manifold.point_count == 4);
+        CHECK(isnan(contact->depth.depth) == (i == 1));
+        for (k = 0; k < contact->manifold.point_count; ++k) {
+            const swiftprox_manifold_point *const point = &contacts.points[contact->first_point + k];
+            CHECK(fabs(point->gap_lower - gap) < 1e-12 && fabs(point->gap_upper - gap) < 1e-12);
+        }
+    }
+    query.margin = 0.001;
+    query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
+    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(contacts.count == 2 && contacts.point_count == 4);
+    CHECK(contacts.contacts[1].manifold.outcome == SWIFTPROX_OUTCOME_BEYOND);
+
+    /* While objects move and go they stay, until the next query. */
+    const swiftprox_contact first = contacts.contacts[0];
+    CHECK_OK(swiftprox_scene_remove_object(scene, sunk));
+    CHECK(contacts.contacts[0].depth.depth == first.depth.depth && contacts.points[3].id != 0);
+
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", swiftprox_scene_get_contacts(scene, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
+    CHECK(none.count == 0 && none.contacts == NULL);
+    query.margin = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    CHECK(contacts.count == 0 && contacts.contacts == NULL);
+    query.margin = 0;
+    memcpy(&query.detail, &unknown, sizeof unknown);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_destroy(scene));
+}
+
 int main(void)
 {
     const swiftprox_shape *a = box(1, 1, 0.5);
@@ -177,6 +270,7 @@ int main(void)
     manifolds(a, b);
     mistakes(a);
     caches_and_roundings(a, b);
+    scenes(a, b);
     swiftprox_shape_release(a);
     swiftprox_shape_release(b);
     return check_report("depth");

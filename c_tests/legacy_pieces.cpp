@@ -3,9 +3,7 @@
  * which are one object with several contacts; copies of pieces, levels of detail, and decomposition files in all forms, damaged
  * ones as well.
  */
-#include <stdint.h>
-
-#include "legacy_test.h"
+#include "legacy_rod.h"
 
 namespace {
 
@@ -147,95 +145,12 @@ void levels(const Folder& folder)
     CHECK(messages.has("Invalid filename given to read file") && id == 4);
 }
 
-/* A file of SWIFT++'s decomposer. */
-class Decomposition {
-public:
-    bool is_big_endian, is_float, has_maps;
-
-    Decomposition(bool big_endian, bool floats, bool maps) : is_big_endian(big_endian), is_float(floats), has_maps(maps) {}
-
-    /*
-     * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles
-     * there, which are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i.
-     */
-    std::string text(int piece_count, const char* magic = "Convex_Decomposition") const
-    {
-        std::ostringstream out;
-        out << magic << " binary " << (is_big_endian ? "big_endian" : "little_endian") << " real " << (is_float ? "float" : "double")
-            << " vertices 12 faces 20 map_vids " << (has_maps ? 12 : 0) << " map_fids " << (has_maps ? 20 : 0) << " pieces "
-            << piece_count << "\n";
-        for (int v = 0; v < 12; ++v) {
-            /* Three rows of four around the x axis: x = -1, 0, 1. */
-            const int row = v / 4, corner = v % 4;
-            real(out, row - 1);
-            real(out, corner == 1 || corner == 2 ? 1 : 0);
-            real(out, corner >= 2 ? 1 : 0);
-        }
-        static const int corners[60] = {0, 2, 1, 0, 3, 2, 0, 1, 5, 0, 5, 4, 1, 2, 6, 1, 6, 5, 2, 3,  7, 2,  7,  6, 3, 0, 4, 3, 4, 7,
-                                        4, 5, 9, 4, 9, 8, 5, 6, 10, 5, 10, 9, 6, 7, 11, 6, 11, 10, 7, 4, 8, 7, 8, 11, 8, 9, 10, 8, 10, 11};
-        for (int i = 0; i < 60; ++i) {
-            integer(out, corners[i]);
-        }
-        for (int i = 0; has_maps && i < 12; ++i) {
-            integer(out, 10 + i);
-        }
-        for (int i = 0; has_maps && i < 20; ++i) {
-            integer(out, 20 + i);
-        }
-        for (int i = 0; i < 20; ++i) {
-            integer(out, i / 10);
-        }
-        for (int i = 0; i < 2; ++i) {
-            integer(out, 10);
-        }
-        for (int i = 0; i < 2; ++i) {
-            integer(out, 2);
-        }
-        for (int i = 0; i < 20; ++i) {
-            integer(out, i);
-        }
-        static const int closing[12] = {4, 5, 6, 4, 6, 7, 4, 6, 5, 4, 7, 6};
-        for (int i = 0; i < 12; ++i) {
-            integer(out, closing[i]);
-        }
-        return out.str();
-    }
-
-private:
-    template <class Number> void put(std::ostringstream& out, Number number) const
-    {
-        char bytes[sizeof number];
-        std::memcpy(bytes, &number, sizeof number);
-        const uint16_t one = 1;
-        char low;
-        std::memcpy(&low, &one, 1);
-        if (is_big_endian == (low == 1)) {
-            std::reverse(bytes, bytes + sizeof number);
-        }
-        out.write(bytes, sizeof number);
-    }
-
-    void real(std::ostringstream& out, double number) const
-    {
-        if (is_float) {
-            put(out, static_cast<float>(number));
-        } else {
-            put(out, number);
-        }
-    }
-
-    void integer(std::ostringstream& out, int number) const
-    {
-        put(out, static_cast<int32_t>(number));
-    }
-};
-
 void decompositions(const Folder& folder)
 {
     const BoxMesh box(0.5, 0.5, 0.5);
-    for (int form = 0; form < 8; ++form) {
-        const Decomposition file((form & 1) != 0, (form & 2) != 0, (form & 4) != 0);
-        const std::string path = folder.write("rod.dcp", file.text(2));
+    for (int form = 0; form < 16; ++form) {
+        const Rod file((form & 1) != 0, (form & 2) != 0, (form & 4) != 0);
+        const std::string path = folder.write("rod.bin", (form & 8) != 0 ? file.hulls() : file.decomposition());
         SWIFT_Scene scene(false);
         int rod = -1, other = -1;
         CHECK(scene.Add_General_Object(path.c_str(), rod) && rod == 0);
@@ -303,15 +218,15 @@ void refused_decompositions(const Folder& folder)
     Messages messages;
     SWIFT_Scene scene(false);
     int id = 44;
-    const std::string good = Decomposition(false, false, true).text(2);
-    const std::size_t header = good.find('\n') + 1;
+    const std::string good = Rod(false, false, true).decomposition();
+    const std::size_t header = good.find("pieces 2\n") + 9;
     /* However much is missing, and one byte too much. */
     for (std::size_t length = 0; length < good.size(); length += length < header ? 7 : 61) {
         CHECK(!scene.Add_General_Object(folder.write("cut.dcp", good.substr(0, length)).c_str(), id) && !messages.take().empty());
     }
     CHECK(!scene.Add_General_Object(folder.write("more.dcp", good + "x").c_str(), id));
     CHECK(messages.has("damaged: there are more bytes than its header says"));
-    CHECK(!scene.Add_General_Object(folder.write("order.dcp", Decomposition(true, false, true).text(2).replace(28, 3, "lit")).c_str(), id));
+    CHECK(!scene.Add_General_Object(folder.write("order.dcp", Rod(true, false, true).decomposition().replace(29, 3, "lit")).c_str(), id));
     CHECK(messages.has("damaged: the byte order is missing"));
     /* The bytes of the other order: numbers of vertices that there are not. */
     std::string swapped = good;
@@ -330,7 +245,7 @@ void refused_decompositions(const Folder& folder)
         {"pieces 2\n", "pieces 2 ", "the header does not end in a new line"},
         {"vertices 12", "vertices 2000000000", "its maps have other lengths"},
         {"pieces 2", "pieces 1", "a face is in a piece that there is not"},
-        {"faces 20 map_vids 12 map_fids 20", "faces 19 map_vids 12 map_fids 19", "damaged: "},
+        {"faces 20\nmap_vids 12\nmap_fids 20", "faces 19\nmap_vids 12\nmap_fids 19", "damaged: "},
     };
     for (std::size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
         std::string bad = good;
@@ -350,18 +265,136 @@ void refused_decompositions(const Folder& folder)
     other = good;
     other.replace(header, 8, 8, static_cast<char>(-1));
     CHECK(!scene.Add_General_Object(folder.write("nan.dcp", other).c_str(), id) && messages.has("vertex 0 is not finite"));
-    /* What is not convex, and what is not read, is told where to go. */
+    /* What is not convex is told where to go. */
     std::ostringstream dented;
     BoxMesh box(1, 1, 1);
     box.vertices[0] = box.vertices[1] = box.vertices[2] = static_cast<SWIFT_Real>(0.5);
     CHECK(!scene.Add_General_Object(folder.write("dented.tri", box_file(box, false)).c_str(), id));
     const std::string said = messages.take();
     CHECK(said.find("outside of its plane") != std::string::npos && said.find("decomposition file (Convex_Decomposition)") != std::string::npos);
-    CHECK(!scene.Add_General_Object(folder.write("hulls.chr", Decomposition(false, true, false).text(2, "Convex_Hierarchy")).c_str(), id));
-    CHECK(messages.has("give the decomposition file (Convex_Decomposition) that it was made from"));
     CHECK(!scene.Add_General_Object(NULL, id) && messages.has("Error: Invalid filename given to read file"));
     CHECK(id == 44);
     CHECK(scene.Add_General_Object(folder.write("good.dcp", good).c_str(), id) && id == 0);
+}
+
+/* Where hulls() has, from the end of its header on, the first node: behind records of 4 and 8 bytes. */
+std::size_t first_node(const std::string& hulls)
+{
+    return hulls.find("nodes 3\n") + 8 + 4 + 7 * 8 + 12 * 24 + 4 * (12 + 20 + 24 * 4 + 40 + 60 + 4 * 4 + 120);
+}
+
+void refused_hulls(const Folder& folder)
+{
+    Messages messages;
+    SWIFT_Scene scene(false);
+    int id = 44;
+    const std::string good = Rod(false, false, true).hulls();
+    const std::size_t header = good.find("nodes 3\n") + 8, node = first_node(good);
+    const struct {
+        const char* what;
+        const char* by;
+        const char* message;
+    } words[] = {
+        {"little", "middle", "the byte order is missing"},
+        {"real double", "real half", "the kind of its real numbers is missing"},
+        {"orig_faces", "orig_fences", "the number of orig_faces is missing"},
+        {"edge_twins 120", "edge_twins -1", "the number of edge_twins is missing"},
+        {"edge_twins 120", "edge_twins 2147483647", "the twins of its edges"},
+        {"edge_twins 120", "edge_twins 99999999999", "the number of edge_twins is missing"},
+        {"map_fids 20", "map_fids 24", "its maps have other lengths"},
+        {"total_faces 24", "total_faces 19", "its numbers of faces do not fit"},
+        {"total_faces 24", "total_faces 2147483647", "its numbers of faces do not fit"},
+        {"copied_faces 40", "copied_faces 2147483647", "copied faces"},
+        {"nodes 3\n", "nodes 0\n", "it has no vertices, faces or nodes"},
+        {"nodes 3\n", "nodes 2\n", "node 0 has a child that there is not"},
+        {"nodes 3\n", "nodes 4\n", "it is cut off in node 3"},
+        {"nodes 3\n", "nodes 3 ", "the header does not end in a new line"},
+    };
+    for (std::size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
+        std::string bad = good;
+        bad.replace(bad.find(words[i].what), std::strlen(words[i].what), words[i].by);
+        CHECK(!scene.Add_General_Object(folder.write("changed.chr", bad).c_str(), id));
+        const std::string said = messages.take();
+        if (!CHECK(said.find("the convex hierarchy is damaged: ") != std::string::npos && said.find(words[i].message) != std::string::npos)) {
+            std::printf("%s: %s", words[i].by, said.c_str());
+        }
+    }
+    /* One byte of a number: where, its new value, and what is then wrong. */
+    const std::size_t faces = header + 4 + 56 + 12 * 24 + 4 * (12 + 20), shared = faces + 24 * 16, twins = shared + 40 * 4;
+    const std::size_t second = node + 9 * 4 + 32 + 114 * 4;
+    const struct {
+        std::size_t at;
+        char value;
+        const char* message;
+    } bytes[] = {
+        {header + 4 + 56 + 7, 127, "vertex 0 is not finite"}, {faces, 12, "face 0 has a vertex that there is not"},
+        {faces + 3, -1, "face 0 has a vertex that there is not"}, {shared + 4, 24, "copied faces, or there is no such face"},
+        {twins, 96, "twins of its edges, or one is of a face that there is not"}, {twins + 60 * 4, 24, "that it holds twice"},
+        {node, 41, "node 0 has faces that there are not"}, {node + 3, -1, "node 0 has faces that there are not"},
+        {node + 4, 21, "node 0 has faces that there are not"}, {node + 8, 5, "node 0 has faces that there are not"},
+        {node + 20, 0, "node 0 has a child that there is not"}, {node + 20, 3, "node 0 has a child that there is not"},
+        {node + 20, 2, "node 2 is a child twice"}, {second + 16, 2, "node 1 is no child of its parent"},
+        {node + 64, 3, "node 0 has a look-up table of a kind that there is not"}, {node + 68, 96, "the look-up table of node 0"},
+    };
+    for (std::size_t i = 0; i < sizeof bytes / sizeof bytes[0]; ++i) {
+        std::string bad = good;
+        bad[bytes[i].at] = bytes[i].value;
+        if (bytes[i].at == header + 4 + 56 + 7) {
+            bad[bytes[i].at - 1] = -16;
+        }
+        CHECK(!scene.Add_General_Object(folder.write("changed.chr", bad).c_str(), id));
+        const std::string said = messages.take();
+        if (!CHECK(said.find(bytes[i].message) != std::string::npos)) {
+            std::printf("%d, not %s: %s", static_cast<int>(i), bytes[i].message, said.c_str());
+        }
+    }
+    CHECK(!scene.Add_General_Object(folder.write("more.chr", good + "x").c_str(), id));
+    CHECK(messages.has("there are more bytes than its header says") && id == 44);
+
+    /* One hull alone is one piece. */
+    CHECK(scene.Add_General_Object(folder.write("one.chr", Rod(true, true, false).hulls(1)).c_str(), id) && id == 0);
+    SWIFT_Real x, y, z;
+    scene.Get_Center_Of_Mass(id, x, y, z);
+    CHECK(is_near(x, 0) && is_near(y, 0.5) && is_near(z, 0.5) && messages.take().empty());
+}
+
+/* However much of a file is missing it is refused; whatever byte is another it is refused, or an object that can be asked. */
+void damaged_files(const Folder& folder)
+{
+    Messages messages;
+    const BoxMesh box(0.5, 0.5, 0.5);
+    SWIFT_Scene scene(false);
+    int other = -1, id = -1;
+    CHECK(box.add(scene, other));
+    move_to(scene, other, 3, 0.25, 0.75);
+    const std::string whole[2] = {Rod(true, true, false).hulls(1), Rod(false, false, true).decomposition()};
+    unsigned int random = 1;
+    int refused = 0, taken = 0;
+    for (int kind = 0; kind < 2; ++kind) {
+        for (std::size_t length = 0; length < whole[kind].size(); ++length) {
+            CHECK(!scene.Add_General_Object(folder.write("cut.bin", whole[kind].substr(0, length)).c_str(), id));
+            CHECK(!messages.take().empty());
+        }
+        for (int round = 0; round < 1000; ++round) {
+            std::string bad = whole[kind];
+            random = random * 1664525u + 1013904223u;
+            const std::size_t at = (random >> 8) % bad.size();
+            random = random * 1664525u + 1013904223u;
+            bad[at] = static_cast<char>(bad[at] ^ static_cast<char>(1 + (random >> 8) % 255));
+            if (!scene.Add_General_Object(folder.write("flipped.bin", bad).c_str(), id)) {
+                CHECK(!messages.take().empty());
+                ++refused;
+                continue;
+            }
+            int pairs, *ids;
+            SWIFT_Real* distances;
+            scene.Query_Exact_Distance(false, SWIFT_INFINITY, pairs, &ids, &distances);
+            CHECK(pairs == 1 && (is_same(distances[0], -1) || distances[0] >= 0));
+            scene.Delete_Object(id);
+            ++taken;
+        }
+    }
+    CHECK(refused > 200 && taken > 200);
 }
 
 } // namespace
@@ -374,5 +407,7 @@ int main(int argc, char** argv)
     levels(folder);
     decompositions(folder);
     refused_decompositions(folder);
+    refused_hulls(folder);
+    damaged_files(folder);
     return check_report("legacy_pieces");
 }

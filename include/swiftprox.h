@@ -1342,6 +1342,21 @@ swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
 /** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries. */
 #define SWIFTPROX_DEFAULT_TOLERANCE (-1.0)
 
+/** What a query of contacts says of each pair beside its answer. */
+typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
+  /** Nothing. */
+  SWIFTPROX_CONTACT_DETAIL_NONE = 0,
+  /** How deep intersecting pairs are in each other. */
+  SWIFTPROX_CONTACT_DETAIL_DEPTH = 1,
+  /** That, and the manifold, of pairs up to the margin apart, too. */
+  SWIFTPROX_CONTACT_DETAIL_MANIFOLD = 2,
+  /**
+   * That, and of more than four points of a manifold four: the deepest, the farthest from it and the extremes on either side of
+   * the line between them. None is moved.
+   */
+  SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD = 3
+} swiftprox_contact_detail;
+
 /** What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ. */
 typedef struct swiftprox_scene_query {
   /** Set by swiftprox_scene_query_init. */
@@ -1374,6 +1389,16 @@ typedef struct swiftprox_scene_query {
   int32_t early_exit;
   /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
+  /**
+   * swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one; from
+   * 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+   */
+  double margin;
+  /**
+   * swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
+   * are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
+   */
+  swiftprox_contact_detail detail;
 } swiftprox_scene_query;
 
 /**
@@ -1467,12 +1492,55 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
 
 /**
  * As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
- * says otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
+ * says otherwise, so that only pairs that touch or intersect are listed.
+ *
+ * With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
+ * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
+ *
+ * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is none for depths and points.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
                                                 const struct swiftprox_scene_query *query,
                                                 struct swiftprox_scene_answer *answer);
+
+/** What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing. */
+typedef struct swiftprox_contact {
+  /** How deep the two are in each other; of a pair that does not intersect nothing is said. */
+  struct swiftprox_depth_answer depth;
+  /** Where they meet, or nearly do. */
+  struct swiftprox_manifold manifold;
+  /** Where among all points those of the manifold begin, as many as its `point_count`. */
+  size_t first_point;
+} swiftprox_contact;
+
+/** What a query of contacts said beside its answers. */
+typedef struct swiftprox_scene_contacts {
+  /**
+   * One for each of the pairs that the query listed, in their order; of a query that stopped that of swiftprox_scene_answer.found
+   * alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+   */
+  const struct swiftprox_contact *contacts;
+  /** How many. */
+  size_t count;
+  /**
+   * The points of their manifolds: those of a contact begin at its first_point. Owned and valid as contacts are. Null when
+   * point_count is 0.
+   */
+  const struct swiftprox_manifold_point *points;
+  /** How many. */
+  size_t point_count;
+} swiftprox_scene_contacts;
+
+/**
+ * Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
+ * swiftprox_scene_query.detail. On failure `*contacts` is empty.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER: scene or contacts is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
+                                              struct swiftprox_scene_contacts *contacts);
 
 /** What is asked of a pair. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {

@@ -10,7 +10,7 @@
 //! let (here, there) = (Pose::IDENTITY, Pose::new(&Matrix::identity(), &Vector::new(3.0, 0.0, 0.0)));
 //! let mut cache = PairCache::default(); // keep one for each pair
 //! let mut answer = PairAnswer::default();
-//! pair::distance(&tetrahedron, &here, &tetrahedron, &there, &mut cache, &PairConfig::default(), &mut answer)?;
+//! pair::distance([tetrahedron.at(&here), tetrahedron.at(&there)], &mut cache, &PairConfig::default(), &mut answer)?;
 //! assert_eq!(answer.outcome, Outcome::Separated);
 //! assert!(answer.lower <= 2.0 && 2.0 <= answer.upper);
 //! # Ok::<(), swiftprox::error::Error>(())

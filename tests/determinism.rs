@@ -225,7 +225,7 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
             };
             for query in [pair::intersection, pair::distance, pair::contact, pair::approximate] {
                 let mut answer = PairAnswer::default();
-                query(a, pose1, b, pose2, cache, &config, &mut answer).unwrap();
+                query([a.at(pose1), b.at(pose2)], cache, &config, &mut answer).unwrap();
                 flight.add([step as u64, k as u64, 0, 0], &answer, true);
             }
         }

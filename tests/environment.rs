@@ -11,7 +11,7 @@ use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{Format, parse_mesh, register_mesh_reader, unregister_mesh_reader};
 use swiftprox::object::ObjectOptions;
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -41,8 +41,7 @@ fn inside<T>(environment: Environment, body: impl FnOnce() -> T) -> T {
 }
 
 const QUERIES: [Query; 4] = [pair::distance, pair::intersection, pair::contact, pair::approximate];
-type Query =
-    fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 /// Every query at some poses, each with a cache of its own carried on.
 fn answers(environment: Environment, shapes: [&Shape; 2], poses: &[[Pose; 2]]) -> Bits {
@@ -52,9 +51,10 @@ fn answers(environment: Environment, shapes: [&Shape; 2], poses: &[[Pose; 2]]) -
         let mut cache = PairCache::default();
         for [pose1, pose2] in poses {
             let mut answer = PairAnswer::default();
-            let asked =
-                inside(environment, || query(shapes[0], pose1, shapes[1], pose2, &mut cache, &config, &mut answer));
-            let verified = inside(environment, || verify(shapes[0], pose1, shapes[1], pose2, &answer));
+            let asked = inside(environment, || {
+                query([shapes[0].at(pose1), shapes[1].at(pose2)], &mut cache, &config, &mut answer)
+            });
+            let verified = inside(environment, || verify([shapes[0].at(pose1), shapes[1].at(pose2)], &answer));
             said.push(format!("{asked:?} {verified:?} {}", bits(&answer)));
         }
     }
@@ -144,7 +144,7 @@ fn a_gap_below_the_normal_numbers_is_one() {
             let mut answer = PairAnswer::default();
             let (here, there) = (at(x, 0.0, 0.0), Pose::IDENTITY);
             let (mut cache, config) = (PairCache::default(), PairConfig::default());
-            inside(environment, || pair::distance(&cube, &here, &cube, &there, &mut cache, &config, &mut answer))
+            inside(environment, || pair::distance([cube.at(&here), cube.at(&there)], &mut cache, &config, &mut answer))
                 .unwrap();
             assert_eq!(answer.outcome, outcome, "{environment:?} {x:e}");
         }
@@ -163,8 +163,10 @@ fn a_gap_below_the_normal_numbers_is_one() {
                 let mut answer = PairAnswer::default();
                 let (mut cache, config) = (PairCache::default(), PairConfig::default());
                 let here = at(x, 0.0, 0.0);
-                inside(environment, || query(&unit, &here, &below, &Pose::IDENTITY, &mut cache, &config, &mut answer))
-                    .unwrap();
+                inside(environment, || {
+                    query([unit.at(&here), below.at(&Pose::IDENTITY)], &mut cache, &config, &mut answer)
+                })
+                .unwrap();
                 assert_eq!(answer.outcome, outcome, "{environment:?} {x:e}");
                 if outcome == Outcome::Separated {
                     assert!(answer.lower <= 1e-310 && answer.upper >= 1e-310, "{environment:?} {answer:?}");
@@ -308,11 +310,11 @@ fn nothing_without_a_value_is_computed() {
                 for (number, [pose1, pose2]) in poses.iter().enumerate() {
                     let config = PairConfig { relative_error: 0.01, levels: Levels::All, ..PairConfig::default() };
                     let mut answer = PairAnswer::default();
-                    let ask = || query(&made[0], pose1, &made[1], pose2, &mut cache, &config, &mut answer);
+                    let ask = || query([made[0].at(pose1), made[1].at(pose2)], &mut cache, &config, &mut answer);
                     if is_invalid(ask) {
                         invalid.push(format!("{} at pose {number}: {}", sequence.name, bits(&answer)));
                     }
-                    if is_invalid(|| verify(&made[0], pose1, &made[1], pose2, &answer)) {
+                    if is_invalid(|| verify([made[0].at(pose1), made[1].at(pose2)], &answer)) {
                         invalid.push(format!("{} at pose {number}: verified", sequence.name));
                     }
                 }

@@ -19,7 +19,7 @@ fn query(
     config: &ManifoldConfig,
 ) -> (Manifold, Vec<ManifoldPoint>) {
     let mut points = vec![ManifoldPoint::default(); 20_000];
-    let answer = manifold(shapes[0], poses[0], shapes[1], poses[1], cache, config, &mut points).unwrap();
+    let answer = manifold([shapes[0].at(poses[0]), shapes[1].at(poses[1])], cache, config, &mut points).unwrap();
     points.truncate(answer.point_count as usize);
     (answer, points)
 }
@@ -247,7 +247,7 @@ fn any_cache_gives_the_same_depth() {
     let (clean, _) = query([&upper, &lower], placed, &mut cache, &ALL);
     let mut answer = DepthAnswer::default();
     let config = DepthConfig::default();
-    depth(&upper, placed[0], &lower, placed[1], &mut DepthCache::default(), &config, &mut answer).unwrap();
+    depth([upper.at(placed[0]), lower.at(placed[1])], &mut DepthCache::default(), &config, &mut answer).unwrap();
     assert!(-answer.upper <= clean.upper && clean.lower <= -answer.lower);
     // Another pair's.
     let far = at(0.0, 0.0, 5.0);

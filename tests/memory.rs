@@ -17,7 +17,7 @@ use swiftprox::mesh_io::{parse_mesh, read_mesh};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ContactDetail, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
 use testkit::random::Random;
@@ -304,7 +304,7 @@ fn shape_files() {
 fn distance(shape: &Shape, config: &PairConfig) -> PairAnswer {
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
     let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
-    pair::distance(shape, &Pose::IDENTITY, shape, &there, &mut cache, config, &mut answer).unwrap();
+    pair::distance([shape.at(&Pose::IDENTITY), shape.at(&there)], &mut cache, config, &mut answer).unwrap();
     answer
 }
 
@@ -353,7 +353,7 @@ fn automatic_levels() {
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
         let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
         let config = PairConfig { relative_error: 0.2, ..PairConfig::default() };
-        pair::approximate(shape, &Pose::IDENTITY, shape, &there, &mut cache, &config, &mut answer).unwrap();
+        pair::approximate([shape.at(&Pose::IDENTITY), shape.at(&there)], &mut cache, &config, &mut answer).unwrap();
         answer
     };
     let shape = new();
@@ -444,4 +444,28 @@ fn scenes() {
         }
     }
     assert!(refusals.iter().all(|count| *count > 1), "{refusals:?}");
+}
+
+/// Depths, their memory and the points of manifolds: each block is refused once, and the next query says all of it.
+#[test]
+fn contacts_of_scenes() {
+    let (mut scene, _) = row(60);
+    let query = SceneQuery { detail: ContactDetail::Manifold, distance_tolerance: 0.5, ..SceneQuery::default() };
+    let mut refusals = 0;
+    for number in 1.. {
+        let (said, came_to_that) = without(number, number % 4 == 0, || {
+            scene.query_contacts(&query).map(|said| (said.pairs.len(), said.contacts.points.len()))
+        });
+        if !came_to_that {
+            assert_eq!(said, Ok((59, 59 * 4)), "each stands on the next by four corners");
+            break;
+        }
+        refusals += 1;
+        assert!(matches!(said, Err(Error::Memory(_))), "{said:?}");
+        assert!(scene.contacts().contacts.is_empty());
+        let [room, used] = scene.remembered_depths();
+        assert!(used <= 59 && room <= 59);
+    }
+    assert!(refusals > 5, "{refusals}");
+    assert_eq!(scene.remembered_depths()[1], 59);
 }

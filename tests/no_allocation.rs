@@ -92,7 +92,7 @@ fn pair_queries_allocate_nothing() {
         for query in queries {
             let mut answer = PairAnswer::default();
             let count = allocations(|| {
-                query(shape1, &pose1, shape2, &pose2, &mut cache, &config, &mut answer).unwrap();
+                query([shape1.at(&pose1), shape2.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
             });
             let exact_tier = answer.statistics.exact_iterations > 0;
             assert!(count == 0 || exact_tier, "{count} allocations: {answer:?}");

@@ -32,7 +32,7 @@ static const char HELP[] =
     "                        blank lines and others that start with # are skipped\n"
     "  --query intersection  list the pairs that intersect\n"
     "  --query distance      list the pairs within the tolerance (the default), with their distances\n"
-    "  --query contact       the same with witness points and normals of intersecting pairs, too\n"
+    "  --query contact       the same with depths and contact manifolds, too\n"
     "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
@@ -47,7 +47,7 @@ static const char HELP[] =
     "  outcome         separated, intersecting or undecided\n"
     "  distance        best estimate; 0 when the objects touch or intersect\n"
     "  lower, upper    the true distance lies between them, rounding included, as printed\n"
-    "  depth           nan: penetration depth is not computed yet\n"
+    "  depth           how deep the objects are in each other; 0 when they touch (query contact)\n"
     "What a query does not say is nan.\n"
     "\n"
     "With --bench the output is one line: the mean, the median and the worst milliseconds a step (poses set,\n"
@@ -234,19 +234,22 @@ static const char *outcome_word(swiftprox_outcome outcome)
                                                        : "undecided";
 }
 
-static void print_pair(size_t step, const swiftprox_pair_result *pair)
+/* `contact` is NULL where none was asked for. */
+static void print_pair(size_t step, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
     printf("%zu %llu %llu %s", step, (unsigned long long)pair->user_data1, (unsigned long long)pair->user_data2,
            outcome_word(pair->answer.outcome));
     print_number(pair->answer.distance, FE_TONEAREST);
     print_number(pair->answer.lower, FE_DOWNWARD);
     print_number(pair->answer.upper, FE_UPWARD);
-    print_number(NAN, FE_TONEAREST); /* depth */
+    print_number(contact ? contact->depth.depth : NAN, FE_TONEAREST);
     putchar('\n');
 }
 
-static int verify_pair(const struct player *player, size_t step, const swiftprox_pair_result *pair)
+static int verify_pair(const struct player *player, size_t step, const swiftprox_pair_result *pair,
+                       const swiftprox_contact *contact)
 {
+    const swiftprox_depth_cache cold = {{0}};
     swiftprox_object_info infos[2] = {{.struct_size = sizeof *infos}, {.struct_size = sizeof *infos}};
     const swiftprox_shape *shapes[2];
     const swiftprox_object_id ids[2] = {pair->object1, pair->object2};
@@ -257,7 +260,10 @@ static int verify_pair(const struct player *player, size_t step, const swiftprox
             return failed();
         }
     }
-    if (swiftprox_pair_verify(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &pair->answer) != SWIFTPROX_OK) {
+    const bool has_depth = contact && pair->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+    if (swiftprox_pair_verify(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &pair->answer) != SWIFTPROX_OK ||
+        (has_depth && swiftprox_pair_depth_verify(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &cold,
+                                                  &contact->depth) != SWIFTPROX_OK)) {
         fflush(stdout);
         fprintf(stderr, "%s: step %zu, objects %llu and %llu: %s\n", player->arguments->path, step,
                 (unsigned long long)pair->user_data1, (unsigned long long)pair->user_data2,
@@ -273,11 +279,16 @@ static int print_answers(struct player *player)
     struct progress progress = progress_start();
     for (size_t step = 0; step < player->file.step_count && result == GOOD; step++) {
         swiftprox_scene_answer answer;
+        swiftprox_scene_contacts contacts;
         result = play_step(player, step, &answer);
+        if (result == GOOD && swiftprox_scene_get_contacts(player->scene, &contacts) != SWIFTPROX_OK) {
+            result = failed();
+        }
         for (size_t i = 0; result == GOOD && i < answer.count; i++) {
-            print_pair(step, &answer.pairs[i]);
+            const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
+            print_pair(step, &answer.pairs[i], contact);
             if (player->arguments->verify) {
-                result = verify_pair(player, step, &answer.pairs[i]);
+                result = verify_pair(player, step, &answer.pairs[i], contact);
             }
         }
         progress_look(&progress, step + 1, player->file.step_count);
@@ -367,6 +378,7 @@ static int run(const struct arguments *arguments)
     struct player player = {.arguments = arguments};
     swiftprox_scene_query_init(&player.query);
     player.query.distance_tolerance = arguments->tolerance;
+    player.query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
     int result = BAD_FILE;
     if (scene_file_read(arguments->path, &player.file)) {
         player.shapes = calloc(player.file.shape_count + 1, sizeof *player.shapes);

@@ -69,6 +69,18 @@ class Replay(unittest.TestCase):
         self.assertEqual(self.play(scene, "--query", "contact"), [])
         self.assertEqual(len(self.play(scene, "--query", "contact", "--tolerance", "0.6")), 1)
 
+    def test_depths(self):
+        scene = BOXES + "step\n" + at(1, 1.5) + at(2, 9) + "step\n" + at(1, 1.6, 0, 0.5) + "step\n" + at(1, 1.7)
+        rows = self.play(scene, "--query", "contact", "--tolerance", "0.2", "--verify")
+        self.assertEqual([row[:4] for row in rows], [
+            ["0", "0", "1", "intersecting"], ["1", "0", "1", "intersecting"], ["2", "0", "1", "separated"]])
+        self.assertAlmostEqual(float(rows[0][7]), 0.1)
+        self.assertLessEqual(float(rows[1][7]), 1e-7)  # the model's coordinates are as the file has them
+        self.assertEqual(rows[2][7], "nan")
+        self.assertEqual([row[4] for row in rows[:2]], ["0", "0"])
+        distances = self.play(scene, "--query", "distance", "--tolerance", "0.2")
+        self.assertTrue(all(row[7] == "nan" for row in distances))
+
     def test_the_verdict_alone(self):
         rows = self.play(BOXES + "step\n" + at(1, 0.5) + at(2, 9), "--query", "intersection", "--verify")
         self.assertEqual([row[:4] for row in rows], [["0", "0", "1", "intersecting"]])

@@ -4,9 +4,9 @@
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
-use swiftprox::error::Error;
-use swiftprox::build::hull::{Hull, convex_hull};
 use swiftprox::build::check::check_hull;
+use swiftprox::build::hull::{Hull, convex_hull};
+use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::polyhedron::Polyhedron;

@@ -8,18 +8,17 @@ use std::sync::Mutex;
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
+use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
 use swiftprox::pair::{
-    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
-    intersection,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance, intersection,
 };
 use swiftprox::shape::Shape;
-use swiftprox::base::simd::environment::Environment;
 use swiftprox::verify::verify;
+use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
 use testkit::bodies::Body;
 use testkit::cases::{Case, Random};
-use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
 use testkit::properties::{Placed, Session, Work};
 
 /// The oracle takes time in the fourth power of this.
@@ -76,7 +75,7 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
     let mut answer = PairAnswer::default();
     if placed.poses.iter().any(|pose| pose.check(ROTATION_LIMIT).is_err()) {
         let (mut cache, config) = (session.own, PairConfig::default());
-        let refused = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
+        let refused = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
         assert!(matches!(refused, Err(Error::Pose(_))), "{refused:?}");
         assert!(cache == session.own && answer.outcome == Outcome::None);
         return Ok(());
@@ -108,8 +107,8 @@ fn check_environment(environment: Environment, placed: &Placed, own: PairCache) 
     for query in [distance, intersection, contact, approximate] {
         let ask = || {
             let (mut cache, mut answer) = (own, PairAnswer::default());
-            let asked = query(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
-            let verified = asked.is_ok().then(|| verify(&body1.shape, pose1, &body2.shape, pose2, &answer));
+            let asked = query([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
+            let verified = asked.is_ok().then(|| verify([body1.shape.at(pose1), body2.shape.at(pose2)], &answer));
             (asked, answer, cache, verified)
         };
         let [expected, found] = [ask(), inside(environment, ask)].map(|told| format!("{told:?}"));
@@ -152,7 +151,7 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     let distance_tolerance = any_number(u, &mut last)?;
     let config = PairConfig { distance_tolerance, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
-    let asked = distance(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer);
+    let asked = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
     if !(distance_tolerance >= 0.0) {
         assert!(matches!(asked, Err(Error::Argument(_))), "{asked:?}");
         return Ok(());
@@ -169,7 +168,7 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
         assert!(points.as_flattened().iter().all(|x| x.is_nan()), "{answer:?}");
         assert!(answer.upper == f64::INFINITY && answer.distance == answer.lower, "{answer:?}");
     }
-    match verify(&body1.shape, pose1, &body2.shape, pose2, &answer) {
+    match verify([body1.shape.at(pose1), body2.shape.at(pose2)], &answer) {
         Ok(()) | Err(Error::Argument(_)) => {}
         Err(error) => panic!("{error}: {answer:?}"),
     }
@@ -193,10 +192,11 @@ fn check_levels(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, col
         return Ok(());
     }
     let mut answer = PairAnswer::default();
-    approximate(&body1.shape, pose1, &body2.shape, pose2, &mut cache, &config, &mut answer).expect("accepted poses");
+    approximate([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer)
+        .expect("accepted poses");
     let same = (answer.outcome == Outcome::Intersecting) == (cold.outcome == Outcome::Intersecting);
     assert!(same && answer.lower <= cold.upper && cold.lower <= answer.upper, "{config:?} {answer:?}\n{cold:?}");
-    match verify(&body1.shape, pose1, &body2.shape, pose2, &answer) {
+    match verify([body1.shape.at(pose1), body2.shape.at(pose2)], &answer) {
         Ok(()) | Err(Error::Argument(_)) => {}
         Err(error) => panic!("{error}: {config:?} {answer:?}"),
     }

@@ -73,8 +73,9 @@ fn check_answers(one: &Shape, other: &Shape, [pose1, pose2]: [swiftprox::math::P
     }
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
     for _ in 0..2 {
-        contact(one, &pose1, other, &pose2, &mut cache, &PairConfig::default(), &mut answer).expect("accepted poses");
-        match verify(one, &pose1, other, &pose2, &answer) {
+        contact([one.at(&pose1), other.at(&pose2)], &mut cache, &PairConfig::default(), &mut answer)
+            .expect("accepted poses");
+        match verify([one.at(&pose1), other.at(&pose2)], &answer) {
             // Beyond the range of doubles.
             Ok(()) | Err(Error::Argument(_)) => {}
             Err(error) => panic!("{error}: {answer:?}"),

@@ -3,11 +3,11 @@
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use nalgebra::{Quaternion, UnitQuaternion};
+use swiftprox::base::simd::environment::Environment;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::shape::{InputPolicy, ShapeOptions};
-use swiftprox::base::simd::environment::Environment;
+use swiftprox::tables::{LookupKind, LookupOptions};
 
 /// What doubles do badly.
 const SPECIAL: [f64; 16] = [

@@ -3,4 +3,3 @@
 
 pub mod c_program;
 pub mod geometry;
-

@@ -6,7 +6,7 @@ use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::progress::Progress;
 use crate::polyhedron::MassProperties;
 
-/// Mass properties of a hull. `areas` are the triangles' area vectors (doubled); `positions` are relative to `centre`.
+/// Mass properties of a hull. `areas` are the triangles' area vectors (doubled).
 ///
 /// The volume is the sum of the signed tetrahedra over the triangles from the local origin, in double-double: the terms of a
 /// plate of aspect 10⁶ cancel to 10⁻⁶ of their size.
@@ -16,7 +16,6 @@ use crate::polyhedron::MassProperties;
 pub fn mass_properties(
     dimension: u8,
     positions: &[Vector],
-    centre: &Vector,
     triangles: &[[u32; 3]],
     areas: &[WideVector],
     progress: &mut Progress,
@@ -29,20 +28,19 @@ pub fn mass_properties(
         _ => (0.0, positions.iter().sum::<Vector>() / positions.len() as f64),
     };
     let farthest = positions.iter().map(|p| (p - local_centre).norm()).fold(0.0, f64::max);
-    let [lower, upper] = bounding_box(positions, centre);
+    let [lower, upper] = bounding_box(positions);
     Ok(MassProperties {
         volume,
-        centre_of_mass: local_centre + centre,
+        centre_of_mass: local_centre,
         radius: farthest * (1.0 + 8.0 * UNIT_ROUNDOFF),
         lower,
         upper,
     })
 }
 
-/// Lower and upper corner of the box around centre + positions; sums that are exact, like those of the vertices.
-pub fn bounding_box(positions: &[Vector], centre: &Vector) -> [Vector; 2] {
-    [f64::min, f64::max]
-        .map(|pick| positions.iter().copied().reduce(|a, b| a.zip_map(&b, pick)).unwrap_or_default() + centre)
+/// Lower and upper corner of the box around positions.
+pub fn bounding_box(positions: &[Vector]) -> [Vector; 2] {
+    [f64::min, f64::max].map(|pick| positions.iter().copied().reduce(|a, b| a.zip_map(&b, pick)).unwrap_or_default())
 }
 
 /// Volume and centre of mass; `None` if the body is so thin that not even double-double sees a volume.

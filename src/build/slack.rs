@@ -27,7 +27,7 @@ const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
 
 /// A hull whose extent along directions is asked for, with scratch for it.
 #[derive(Debug, Clone)]
-pub struct Flood<'a> {
+pub struct RiseBounds<'a> {
     surface: &'a Triangulation,
     positions: &'a [Vector],
     radius: f64,
@@ -40,15 +40,15 @@ pub struct Flood<'a> {
     stack: Vec<u32>,
 }
 
-impl<'a> Flood<'a> {
+impl<'a> RiseBounds<'a> {
     /// For a hull within `radius` of the local origin.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(surface: &'a Triangulation, positions: &'a [Vector], radius: f64) -> Result<Flood<'a>> {
+    pub fn new(surface: &'a Triangulation, positions: &'a [Vector], radius: f64) -> Result<RiseBounds<'a>> {
         let coarse = 0.25 * UNIT_ROUNDOFF * radius;
         let (seen_in, stack) = (filled(0, positions.len())?, with_capacity(positions.len())?);
-        Ok(Flood { surface, positions, radius, coarse, seen_in, round: 0, stack })
+        Ok(RiseBounds { surface, positions, radius, coarse, seen_in, round: 0, stack })
     }
 
     /// An upper bound, rounded up, of max over the hull of n·x minus n·(position of `start`); at least 0. `None` if that takes a

@@ -109,7 +109,7 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
             relative_error: config.relative_error,
             step_budget: config.step_budget,
         };
-        Ok(pair::depth(shape1, pose1, shape2, pose2, cache, &config, answer)?)
+        Ok(pair::depth([shape1.at(pose1), shape2.at(pose2)], cache, &config, answer)?)
     });
     if status == StatusCode::ErrorBug {
         // SAFETY: null or writable by the caller.
@@ -150,7 +150,7 @@ pub unsafe extern "C" fn swiftprox_pair_depth_verify(
                 read_depth(answer)?,
             )
         };
-        Ok(verify_depth(shape1, pose1, shape2, pose2, cache, answer)?)
+        Ok(verify_depth([shape1.at(pose1), shape2.at(pose2)], cache, answer)?)
     })
 }
 

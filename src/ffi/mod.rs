@@ -38,6 +38,7 @@ use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
+use crate::scene::ContactDetail;
 use crate::shape::InputPolicy;
 
 /// What a call returns. The numbers are never reused.
@@ -314,6 +315,7 @@ enumerator!(DecidedBy {
     InscribedSpheres
 });
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
+enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 
 // Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
@@ -329,6 +331,8 @@ pub type OutcomeNumber = i32;
 pub type DecidedByNumber = i32;
 /// A [`FeatureKind`].
 pub type FeatureKindNumber = i32;
+/// A [`ContactDetail`].
+pub type ContactDetailNumber = i32;
 /// A [`DepthEnding`].
 pub type DepthEndingNumber = i32;
 /// An [`InputPolicy`].

@@ -8,7 +8,7 @@ use super::{
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify;
-use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::shape::Shape;
 
 /// What a pair query is asked for. Fill it with swiftprox_pair_config_init, then change what should differ.
@@ -98,7 +98,7 @@ pub unsafe extern "C" fn swiftprox_pair_distance(
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::distance, shape1, pose1, shape2, pose2, cache, config, answer) }
+    unsafe { query(pair::distance, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
 }
 
 /// The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
@@ -115,7 +115,7 @@ pub unsafe extern "C" fn swiftprox_pair_intersection(
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::intersection, shape1, pose1, shape2, pose2, cache, config, answer) }
+    unsafe { query(pair::intersection, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
 }
 
 /// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
@@ -132,7 +132,7 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::contact, shape1, pose1, shape2, pose2, cache, config, answer) }
+    unsafe { query(pair::contact, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
@@ -152,7 +152,7 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::approximate, shape1, pose1, shape2, pose2, cache, config, answer) }
+    unsafe { query(pair::approximate, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
 }
 
 /// Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn swiftprox_pair_verify(
                 read_answer(answer)?,
             )
         };
-        Ok(verify(shape1, pose1, shape2, pose2, answer)?)
+        Ok(verify([shape1.at(pose1), shape2.at(pose2)], answer)?)
     })
 }
 
@@ -202,13 +202,9 @@ pub unsafe extern "C" fn swiftprox_pair_verify(
 /// # Safety
 /// The pointers meet the header's pointer rules.
 #[inline(always)]
-#[allow(clippy::too_many_arguments, reason = "the seven of the C functions, and which one it is")]
 unsafe fn query(
-    run: impl Fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    run: impl Fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
+    [(shape1, pose1), (shape2, pose2)]: [(*const Shape, *const f64); 2],
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
@@ -222,7 +218,7 @@ unsafe fn query(
         let pose2 = input(pose2.cast::<Pose>(), "pose2")?;
         let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
         let config = read_config(config)?;
-        Ok(run(shape1, pose1, shape2, pose2, cache, &config, answer)?)
+        Ok(run([shape1.at(pose1), shape2.at(pose2)], cache, &config, answer)?)
     });
     if status != StatusCode::Ok {
         // SAFETY: the caller's.
@@ -345,7 +341,13 @@ mod tests {
             // SAFETY: every pointer is valid, and cache and answer are this call's.
             unsafe {
                 if inject {
-                    query(|_, _, _, _, _, _, _| panic!("injected"), &shape, pose1, &shape, pose2, cache, null(), answer)
+                    query(
+                        |_, _, _, _| panic!("injected"),
+                        [(&raw const shape, pose1), (&raw const shape, pose2)],
+                        cache,
+                        null(),
+                        answer,
+                    )
                 } else {
                     swiftprox_pair_distance(&shape, pose1, &shape, pose2, cache, null(), answer)
                 }

@@ -2,8 +2,13 @@
 
 use super::scene::{SceneHandle, change, look};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
-use super::{Checked, StatusCode, Versioned, guard, init_struct, output, read_struct};
-use crate::scene::{PairResult, Scene, SceneAnswer, SceneQuery, SceneStatistics};
+use super::{
+    Checked, ContactDetailNumber, StatusCode, Versioned, guard, init_struct, output, read_enumerator, read_struct,
+};
+use crate::pair::ManifoldPoint;
+use crate::scene::{
+    Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
+};
 
 /// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries.
 pub const DEFAULT_TOLERANCE: f64 = -1.0;
@@ -34,6 +39,12 @@ pub struct CSceneQuery {
     pub early_exit: i32,
     /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
+    /// swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one; from
+    /// 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+    pub margin: f64,
+    /// swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
+    /// are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
+    pub detail: ContactDetailNumber,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -51,6 +62,8 @@ impl CSceneQuery {
         step_budget: u32::MAX,
         early_exit: 0,
         tuning: std::ptr::null(),
+        margin: f64::INFINITY,
+        detail: ContactDetail::None as i32,
     };
 }
 
@@ -141,7 +154,12 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
 }
 
 /// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
-/// says otherwise, so that only pairs that touch or intersect are listed. Errors as of swiftprox_scene_query_intersection.
+/// says otherwise, so that only pairs that touch or intersect are listed.
+///
+/// With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
+/// hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
+///
+/// Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is none for depths and points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     scene: *mut SceneHandle,
@@ -150,6 +168,56 @@ pub unsafe extern "C" fn swiftprox_scene_query_contacts(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { ask(|scene, query| Ok(scene.query_contacts(query)?), 0.0, scene, query, answer) }
+}
+
+/// What a query of contacts said beside its answers.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CSceneContacts {
+    /// One for each of the pairs that the query listed, in their order; of a query that stopped that of swiftprox_scene_answer.found
+    /// alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+    pub contacts: *const Contact,
+    /// How many.
+    pub count: usize,
+    /// The points of their manifolds: those of a contact begin at its first_point. Owned and valid as contacts are. Null when
+    /// point_count is 0.
+    pub points: *const ManifoldPoint,
+    /// How many.
+    pub point_count: usize,
+}
+
+impl CSceneContacts {
+    const EMPTY: CSceneContacts =
+        CSceneContacts { contacts: std::ptr::null(), count: 0, points: std::ptr::null(), point_count: 0 };
+
+    fn new(said: &SceneContacts) -> CSceneContacts {
+        let SceneContacts { contacts, points } = said;
+        CSceneContacts {
+            contacts: if contacts.is_empty() { std::ptr::null() } else { contacts.as_ptr() },
+            count: contacts.len(),
+            points: if points.is_empty() { std::ptr::null() } else { points.as_ptr() },
+            point_count: points.len(),
+        }
+    }
+}
+
+/// Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
+/// swiftprox_scene_query.detail. On failure `*contacts` is empty.
+///
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or contacts is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_get_contacts(
+    scene: *const SceneHandle,
+    contacts: *mut CSceneContacts,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(contacts, "contacts", CSceneContacts::EMPTY)?;
+        look(scene, |scene| {
+            contacts.write(CSceneContacts::new(&scene.contacts()));
+            Ok(())
+        })
+    })
 }
 
 /// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
@@ -222,6 +290,8 @@ pub(super) unsafe fn ask(
                 levels,
                 refinement,
                 start,
+                detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
+                margin: query.margin,
             };
             let listed = run(scene, &query)?;
             if !listed.pairs.is_empty() {

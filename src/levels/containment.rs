@@ -31,7 +31,7 @@ pub fn contains(outer: &Polyhedron, inner: &Polyhedron) -> Result<bool> {
     points.extend(outer.vertices.iter().chain(&inner.vertices).map(|v| v.position));
     let exact = ExactPoints::new(&points)?;
     let (seen_in, stack) = (filled(0, count)?, with_capacity(count)?);
-    let mut flood = Flood { inner, exact: &exact, first_inner, seen_in, round: 0, stack };
+    let mut search = ContainmentSearch { inner, exact: &exact, first_inner, seen_in, round: 0, stack };
 
     // The vertices are in an order that keeps neighbours together, the triangles are not.
     let mut order: Vec<[u32; 3]> = copied(&outer.triangles)?;
@@ -40,7 +40,7 @@ pub fn contains(outer: &Polyhedron, inner: &Polyhedron) -> Result<bool> {
     let mut last = 0;
     for corners in order {
         let start = corners.iter().find_map(|&v| extreme[v as usize]).unwrap_or(last);
-        match flood.extreme_vertex_below(corners, start) {
+        match search.extreme_vertex_below(corners, start) {
             Some(vertex) => last = vertex,
             None => return Ok(false),
         }
@@ -52,7 +52,7 @@ pub fn contains(outer: &Polyhedron, inner: &Polyhedron) -> Result<bool> {
 }
 
 /// Scratch for one containment test.
-struct Flood<'a> {
+struct ContainmentSearch<'a> {
     inner: &'a Polyhedron,
     /// The vertices of the outer polyhedron and then those of the inner one.
     exact: &'a ExactPoints,
@@ -64,7 +64,7 @@ struct Flood<'a> {
     stack: Vec<u32>,
 }
 
-impl Flood<'_> {
+impl ContainmentSearch<'_> {
     /// If no vertex of the inner polyhedron lies above a triangle: one that is about the farthest along its normal.
     fn extreme_vertex_below(&mut self, corners: [u32; 3], start: u32) -> Option<u32> {
         let [a, b, c] = corners.map(|v| self.exact.approximate(v));

@@ -93,15 +93,15 @@ impl<'a> PointDistance<'a> {
             row[3] = *x;
         }
         // Beyond these magnitudes the decision is left to integers.
-        let usual = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
+        let in_range = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
         let hint = corners.map(|v| [0, v]);
         let poses = [&pose, &Pose::IDENTITY];
         let wanted = Wanted { tight: true, distance_tolerance: f64::INFINITY };
-        let (pairs, found, upper) = match decide::decide([&self.probe, self.polyhedron], poses, usual, &hint, wanted).0
-        {
-            Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
-            Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
-        };
+        let (pairs, found, upper) =
+            match decide::decide([&self.probe, self.polyhedron], poses, in_range, &hint, wanted).0 {
+                Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
+                Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
+            };
         let corners: Vec<u32> = pairs.as_slice().iter().map(|pair| pair[1]).collect();
         NearestPoint { point: found, upper, vertex: nearest_of(self.polyhedron, point, &corners) }
     }

@@ -69,7 +69,7 @@ impl Acceptance<'_> {
         answer.decided_by = DecidedBy::Marching;
         set_interval(answer, &gap.interval, gap.distance, self.config.distance_tolerance);
         if self.query != Query::Intersection && answer.outcome == Outcome::Separated {
-            contact::fill_separated(answer, frame, minimum.points, minimum.rotated, normal, state.features());
+            contact::fill_separated(answer, frame, minimum, normal, state.features());
         } else {
             contact::fill_normal(answer, normal);
         }
@@ -83,7 +83,7 @@ impl Acceptance<'_> {
 
 /// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
 pub(super) struct Closely<'a, const BETWEEN_PLANES: bool> {
-    pub(super) judge: Acceptance<'a>,
+    pub(super) certifier: Acceptance<'a>,
     pub(super) polyhedra: [&'a Polyhedron; 2],
     pub(super) poses: [&'a Pose; 2],
     pub(super) at: State,
@@ -98,9 +98,9 @@ impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, BETWEEN_PLANES> {
         let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
         marching::march(&frame, self.at, 1, &mut closer);
         if let Some((minimum, gap)) = &closer.found {
-            self.judge.accepted = self.judge.is_enough(frame.size, &gap.interval);
-            if self.judge.accepted {
-                self.judge.fill(&frame, self.at, minimum, gap);
+            self.certifier.accepted = self.certifier.is_enough(frame.size, &gap.interval);
+            if self.certifier.accepted {
+                self.certifier.fill(&frame, self.at, minimum, gap);
             }
         }
     }

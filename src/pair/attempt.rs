@@ -10,7 +10,7 @@ use super::{Start, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::polyhedron::Polyhedron;
 use crate::solve::frame::Frame;
-use crate::solve::marching::{self, March, Way, step_limit};
+use crate::solve::marching::{self, March, Transition, step_limit};
 use crate::solve::state::State;
 
 impl PairQuery<'_> {
@@ -50,6 +50,15 @@ pub(super) enum Leg {
 }
 
 impl Leg {
+    /// With so many steps of a budget left; `u32::MAX` is none. A trial may go on for longer than a budget.
+    pub(super) fn of(left: u32, is_trial: bool) -> Leg {
+        match left {
+            u32::MAX if is_trial => Leg::Trial,
+            u32::MAX => Leg::Whole,
+            left => Leg::Budget(left),
+        }
+    }
+
     /// The most steps.
     #[inline(always)]
     pub(super) fn limit(self, polyhedra: [&Polyhedron; 2]) -> u32 {
@@ -73,20 +82,20 @@ impl Kernel for Coherent<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Attempt {
         let frame = Frame::<L>::of_rigid(self.pair.polyhedra(), self.pair.poses());
         let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
-        if !frame.usual {
+        if !frame.in_range {
             return Attempt::Untried;
         }
         let Some(state) = cache.features() else { return Attempt::Untried };
-        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
-        let step = marching::visit(&frame, state, &mut AtFirst(&mut judge));
-        if judge.accepted {
-            judge.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
+        let mut certifier = Acceptance { query, config, cache, answer, accepted: false };
+        let step = marching::visit(&frame, state, &mut AtFirst(&mut certifier));
+        if certifier.accepted {
+            certifier.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
             return Attempt::Answered;
         }
-        match step.way {
-            Way::Minimum => return Attempt::Open(Open { at: state, is_minimum: true, steps: 1 }),
-            Way::Nowhere => return Attempt::Untried,
-            Way::Move | Way::Behind | Way::Crossing => {}
+        match step.transition {
+            Transition::Minimum => return Attempt::Open(Open { at: state, is_minimum: true, steps: 1 }),
+            Transition::Nowhere => return Attempt::Untried,
+            Transition::Move | Transition::Behind | Transition::Crossing => {}
         }
         // In line (R3).
         MarchOn { pair: self.pair, frame, start: step.at, steps: 1, leg: Leg::Trial }.run()
@@ -110,11 +119,11 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
     fn run(&mut self) -> Attempt {
         let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
         let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
-        let mut judge = Acceptance { query, config, cache, answer, accepted: false };
+        let mut certifier = Acceptance { query, config, cache, answer, accepted: false };
         let (mut state, mut steps, mut leg) = (self.start, self.steps, self.leg);
         let frame = self.frame;
         if (leg == Leg::Trial) & (config.start != Start::Cache)
-            && let Some(from) = policy::choose(&frame, &judge.cache.marker, state)
+            && let Some(from) = policy::choose(&frame, &certifier.cache.marker, state)
         {
             let start = start_pair(polyhedra, poses, from);
             state = State::vertex_vertex(start.vertices());
@@ -124,7 +133,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
             }
         }
         let (at, is_minimum) = loop {
-            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut judge);
+            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut certifier);
             steps += more;
             state = match march {
                 March::Minimum(at) => break (at, true),
@@ -135,12 +144,12 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
             };
             leg = Leg::Whole;
         };
-        if !judge.accepted {
+        if !certifier.accepted {
             return Attempt::Open(Open { at, is_minimum, steps });
         }
-        judge.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
+        certifier.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
-        frame.mark(&mut judge.cache.marker);
+        frame.mark(&mut certifier.cache.marker);
         Attempt::Answered
     }
 }
@@ -159,7 +168,7 @@ impl Kernel for General<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Attempt {
         let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
         let frame = Frame::<L>::new(polyhedra, poses, self.pair.config.rotation_limit);
-        if !frame.usual {
+        if !frame.in_range {
             return Attempt::Untried;
         }
         let (state, leg) = match self.pair.cache.features_of(polyhedra) {
@@ -196,7 +205,7 @@ impl Kernel for FromState<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut FromState { start, steps, leg, .. } = self;
         let frame = Frame::<L>::new(self.pair.polyhedra(), self.pair.poses(), self.pair.config.rotation_limit);
-        if !frame.usual {
+        if !frame.in_range {
             return Attempt::Untried;
         }
         if !self.pair.have_faces() {

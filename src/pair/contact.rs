@@ -4,6 +4,7 @@ use super::answer::{Feature, FeatureKind, PairAnswer};
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::simd::{Lanes, Portable};
 use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
+use crate::solve::certificate::Minimum;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
 use crate::solve::state::FeatureId;
@@ -37,17 +38,16 @@ pub fn fill_nothing(answer: &mut PairAnswer) {
     answer.feature2 = Feature::default();
 }
 
-/// From a prepared frame: centred local points, the same mapped by the rotations, the unit normal from body 2 to body 1.
+/// From a prepared frame: a minimum, the unit normal from body 2 to body 1, the features on which the points lie.
 #[inline(always)]
 pub fn fill_separated<L: Lanes>(
     answer: &mut PairAnswer,
     frame: &Frame<L>,
-    points: [L; 2],
-    rotated: [L; 2],
+    minimum: &Minimum<L>,
     normal: L,
     features: [FeatureId; 2],
 ) {
-    let [body1, body2] = &frame.bodies;
+    let ([body1, body2], Minimum { points, rotated, .. }) = (&frame.bodies, minimum);
     points[0].add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut answer.local1);
     points[1].add(L::from_vector(&body2.polyhedron.centre)).store_vector(&mut answer.local2);
     rotated[0].add(body1.translation).store_vector(&mut answer.world1);
@@ -57,19 +57,17 @@ pub fn fill_separated<L: Lanes>(
     answer.feature2 = label(body2.polyhedron, features[1], &points[1].to_vector());
 }
 
-/// As [`fill_separated`] without a frame, for any magnitudes.
+/// As [`fill_separated`] without a frame, for any magnitudes, and but for the normal.
 pub fn fill_placed(
     answer: &mut PairAnswer,
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     points: &[Vector; 2],
-    direction: &Vector,
     features: [FeatureId; 2],
 ) {
     let PlacedPoints { local, world } = placed_points(polyhedra, poses, points);
     [answer.local1, answer.local2] = local;
     [answer.world1, answer.world2] = world;
-    answer.normal = normalised(direction);
     answer.feature1 = label(polyhedra[0], features[0], &points[0]);
     answer.feature2 = label(polyhedra[1], features[1], &points[1]);
 }
@@ -340,7 +338,7 @@ pub fn refined_weights(
 ) -> [f64; 4] {
     let &[p0, p1, p2, p3] = pairs else { return weights };
     let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
-    if !frame.usual {
+    if !frame.in_range {
         return weights;
     }
     let corners = [p0, p1, p2, p3].map(|[v, w]| {

@@ -42,14 +42,14 @@ impl PairQuery<'_> {
     fn accepts_closely(&mut self, at: State, steps: u32) -> bool {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
         let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self;
-        let judge = Acceptance { query, config, cache, answer, accepted: false };
-        let mut look = Closely::<false> { judge, polyhedra, poses, at };
+        let certifier = Acceptance { query, config, cache, answer, accepted: false };
+        let mut look = Closely::<false> { certifier, polyhedra, poses, at };
         simd::dispatch(&mut look);
-        let mut accepted = look.judge.accepted;
+        let mut accepted = look.certifier.accepted;
         if !accepted {
-            let mut look = Closely::<true> { judge: look.judge, polyhedra, poses, at };
+            let mut look = Closely::<true> { certifier: look.certifier, polyhedra, poses, at };
             simd::dispatch(&mut look);
-            accepted = look.judge.accepted;
+            accepted = look.certifier.accepted;
         }
         if accepted {
             self.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
@@ -123,7 +123,8 @@ impl PairQuery<'_> {
                         contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction, 0.0);
                     cache.remember_features(State::of_features(features).unwrap_or(vertices));
                     if answer.outcome == Outcome::Separated {
-                        contact::fill_placed(answer, polyhedra, poses, points, direction, features);
+                        contact::fill_placed(answer, polyhedra, poses, points, features);
+                        answer.normal = contact::normalised(direction);
                         return;
                     }
                 }

@@ -14,7 +14,7 @@ use crate::levels::hierarchy::Level;
 use crate::polyhedron::Polyhedron;
 use crate::solve::certificate::{Certify, CloserLook, Minimum};
 use crate::solve::frame::{Frame, Marker};
-use crate::solve::marching::{self, March, Step, Way, step_limit};
+use crate::solve::marching::{self, March, Step, Transition, step_limit};
 use crate::solve::state::{FeatureId, State};
 
 /// Which object goes to a finer level, and by how many, when a pair of levels is too coarse.
@@ -251,7 +251,7 @@ impl Kernel for Descent<'_> {
             let Place { levels, state } = self.place;
             let polyhedra = self.bodies.polyhedra(levels);
             let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
-            if frame.usual {
+            if frame.in_range {
                 if self.is_trial && levels_have_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
                 }
@@ -288,7 +288,7 @@ impl Kernel for Descent<'_> {
     }
 }
 
-/// The beginning of a search alone, the trial at its first levels, for [ordinary](Polyhedron::ordinary) levels and a rotation limit
+/// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels and a rotation limit
 /// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the
 /// pair's frame. It is what the search would find.
 #[inline(always)]
@@ -298,14 +298,14 @@ pub fn try_first<'a, L: Lanes>(
     marker: Option<&Marker>,
 ) -> Option<(Found, u32, Frame<'a, L>)> {
     let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
-    if !frame.usual || levels_have_jumped(&frame, bodies, marker) {
+    if !frame.in_range || levels_have_jumped(&frame, bodies, marker) {
         return None;
     }
     let mut keep = Keep::nothing();
     // Most often the features still are the nearest: one state (R3).
-    let Step { way, at: mut state } = marching::visit(&frame, place.state, &mut keep);
+    let Step { transition, at: mut state } = marching::visit(&frame, place.state, &mut keep);
     let mut steps = 1;
-    if way == Way::Move {
+    if transition == Transition::Move {
         let (march, more) = marching::march(&frame, state, TRIAL_STEPS - 1, &mut keep);
         let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
         state = at;

@@ -6,7 +6,7 @@ use super::{DecidedBy, PairAnswer, PairConfig, Statistics};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::solve::certificate::reciprocal_length;
 use crate::solve::frame::Frame;
-use crate::solve::separating_axis::{self, Search, Trial};
+use crate::solve::separating_axis::{self, AxisSearch, Trial};
 
 impl PairQuery<'_> {
     /// Whether the bounding spheres are farther apart than is enough; the answer then says so, and the cache stays as it is.
@@ -48,7 +48,7 @@ impl Kernel for Spheres<'_, '_> {
         let &mut PairQuery { config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let interval = separating_axis::between_spheres(&frame);
-        if !(frame.usual & (interval.lower > self.enough)) {
+        if !(frame.in_range & (interval.lower > self.enough)) {
             return false;
         }
         answer.decided_by = DecidedBy::BoundingSpheres;
@@ -74,7 +74,7 @@ impl Kernel for Separation<'_, '_> {
         let &mut PairQuery { ref mut cache, config, ref mut answer, .. } = self.pair;
         let frame = Frame::<L>::of_rigid(polyhedra, poses);
         let Some(axis) = cache.axis(polyhedra) else { return false };
-        if !frame.usual {
+        if !frame.in_range {
             return false;
         }
         let trial = Trial::of_axis(&frame, &axis);
@@ -83,7 +83,7 @@ impl Kernel for Separation<'_, '_> {
             fill_trial(&trial, config, answer);
             return true;
         }
-        let mut search = Search { frame: &frame, trial };
+        let mut search = AxisSearch { frame: &frame, trial };
         L::out_of_line(&mut search);
         let trial = &search.trial;
         let is_answer = trial.separates() && trial.interval.settles(config.distance_tolerance);

@@ -76,7 +76,7 @@ fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<
     };
     // Made in place: it is large.
     let frame = Frame::<Portable>::new(pair.polyhedra(), pair.poses(), pair.config.rotation_limit);
-    if !frame.usual {
+    if !frame.in_range {
         pair.check_poses()?;
         pair.decide(None, &hint, rungs.fallback);
         return Ok(());

@@ -14,14 +14,14 @@ impl PairQuery<'_> {
         let &mut PairQuery { query, bodies: [first, second], ref cache, config, .. } = self;
         let shapes = [first.shape, second.shape];
         // Bounding spheres go first where there is a tolerance, and a limit below rounding asks for a closer look at the poses.
-        let is_usual = (query == Query::Approximate)
+        let is_common_case = (query == Query::Approximate)
             & cache.holds_place()
             & (cache.spent_before() == 0)
             & (config.distance_tolerance >= f64::INFINITY)
             & (config.step_budget >= TRIAL_STEPS)
             & config.admits_rounding()
             & config.start.asks_cache();
-        if !is_usual || shapes[0].lacks_levels() | shapes[1].lacks_levels() {
+        if !is_common_case || shapes[0].lacks_levels() | shapes[1].lacks_levels() {
             return false;
         }
         if config.levels == Levels::Automatic {
@@ -47,7 +47,7 @@ impl Kernel for LastLevels<'_, '_> {
         let &mut PairQuery { ref cache, config, .. } = self.pair;
         let Some(place) = cache.place(&bodies) else { return false };
         let [level1, level2] = bodies.polyhedra(place.levels);
-        if (place.levels == [0, 0]) | !(level1.ordinary & level2.ordinary) {
+        if (place.levels == [0, 0]) | !(level1.simple & level2.simple) {
             return false;
         }
         let first = descent::try_first::<L>(&bodies, place, cache.last_marker(config));

@@ -186,7 +186,7 @@ impl<'a> PairQuery<'a> {
     fn is_still_enclosed(&mut self) -> bool {
         let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
         let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
-        if !frame.usual {
+        if !frame.in_range {
             return false;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return false };
@@ -278,7 +278,7 @@ impl<'a> LevelSearch<'a> {
                 }
                 Searched::Answered
             }
-            (Descended::Finest, _) => self.march(pair, place.state, is_trial, steps, step_limit),
+            (Descended::Finest, _) => self.march(pair, place.state, steps, Leg::of(step_limit - steps, is_trial)),
             _ => self.spend(pair, found, place, steps),
         }
     }
@@ -319,25 +319,11 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// Marching at the bodies themselves, from a state of theirs, of an earlier query or not; `steps` are made already.
-    fn march(
-        self,
-        pair: &mut PairQuery<'a>,
-        state: State,
-        is_trial: bool,
-        steps: u32,
-        step_budget: u32,
-    ) -> Searched<'a> {
+    fn march(self, pair: &mut PairQuery<'a>, state: State, steps: u32, leg: Leg) -> Searched<'a> {
         let place = |state| Place { levels: [0, 0], state };
-        let left = step_budget - steps;
-        if left == 0 {
+        if leg == Leg::Budget(0) {
             return self.spend(pair, None, place(state), steps);
         }
-        // A trial may go on for longer than a budget.
-        let leg = match left {
-            u32::MAX if is_trial => Leg::Trial,
-            u32::MAX => Leg::Whole,
-            left => Leg::Budget(left),
-        };
         let attempt = pair.march_on(state, steps, leg);
         if let Attempt::Open(Open { at, is_minimum: false, steps: made }) = attempt
             && leg == Leg::Budget(made - steps)

@@ -22,9 +22,7 @@ mod manifold;
 pub mod verify;
 
 use crate::base::error::Result;
-use crate::base::math::Pose;
 use crate::base::simd::environment::{self, with_default};
-use crate::shape::Shape;
 
 pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
 pub use cache::PairCache;
@@ -33,9 +31,8 @@ pub use config::{Levels, PairConfig, Start};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub use descent::Refinement;
 use ladder::climb;
+pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
-pub(crate) use manifold::{Sink, manifold_into};
-#[doc(hidden)]
 pub use placed::Placed;
 use query::PairQuery;
 pub use query::Query;
@@ -53,15 +50,11 @@ pub use query::Rungs;
 /// and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer` and `cache`
 /// are as they were. What of `config` is for [`approximate`] alone is not looked at.
 pub fn distance(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     query_with(Query::Distance, Rungs::ALL, bodies, cache, config, answer)
 }
 
@@ -71,15 +64,11 @@ pub fn distance(
 /// # Errors
 /// As [`distance`].
 pub fn intersection(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
 }
 
@@ -88,16 +77,7 @@ pub fn intersection(
 ///
 /// # Errors
 /// As [`distance`].
-pub fn contact(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer) -> Result<()> {
     query_with(Query::Contact, Rungs::ALL, bodies, cache, config, answer)
 }
 
@@ -113,15 +93,11 @@ pub fn contact(
 /// As [`distance`]; [`Error::Argument`](crate::base::error::Error::Argument) for an error tolerance that is NaN or negative and a
 /// step budget of 0.
 pub fn approximate(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     query_with(Query::Approximate, Rungs::ALL, bodies, cache, config, answer)
 }
 

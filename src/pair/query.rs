@@ -72,12 +72,12 @@ impl<'a> PairQuery<'a> {
         [self.bodies[0].pose, self.bodies[1].pose]
     }
 
-    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are ordinary, and a rotation
+    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are in range, and a rotation
     /// limit that refuses no pose which is right up to rounding.
     #[inline(always)]
     pub fn is_simple(&self) -> bool {
         let [body1, body2] = self.polyhedra();
-        body1.ordinary & body2.ordinary & self.config.admits_rounding()
+        body1.simple & body2.simple & self.config.admits_rounding()
     }
 
     /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
@@ -131,7 +131,7 @@ pub(super) enum Attempt {
     Answered,
     /// It is left open.
     Open(Open),
-    /// Nothing was tried: there are no features to begin at, or poses that are not rigid or not of ordinary magnitude.
+    /// Nothing was tried: there are no features to begin at, or poses that are not rigid or not within range.
     Untried,
 }
 

@@ -178,6 +178,18 @@ pub struct MassProperties {
     pub upper: Vector,
 }
 
+impl MassProperties {
+    /// Those of the body moved so that its origin comes to `centre`.
+    pub fn about(self, centre: &Vector) -> MassProperties {
+        MassProperties {
+            centre_of_mass: self.centre_of_mass + centre,
+            lower: self.lower + centre,
+            upper: self.upper + centre,
+            ..self
+        }
+    }
+}
+
 /// A convex polyhedron, immutable once built but for its look-up table.
 ///
 /// What every query reads comes first, together.
@@ -193,7 +205,7 @@ pub struct Polyhedron {
     /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).
     pub dimension: u8,
     /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
-    pub ordinary: bool,
+    pub simple: bool,
     /// Merged faces.
     pub faces: Vec<Face>,
     /// What was subtracted from the stored vertices, exactly.
@@ -241,7 +253,7 @@ impl Polyhedron {
             edges: copied(&self.edges)?,
             radius: self.radius,
             dimension: self.dimension,
-            ordinary: self.ordinary,
+            simple: self.simple,
             faces: copied(&self.faces)?,
             centre: self.centre,
             mass: self.mass,
@@ -264,7 +276,7 @@ impl Polyhedron {
     /// Moves the frame; the centred coordinates stay. The sums of centre and coordinates need not be doubles any more.
     pub fn move_frame(&mut self, by: &Vector) {
         self.centre += by;
-        self.ordinary &= self.centre == Vector::zeros();
+        self.simple &= self.centre == Vector::zeros();
         self.mass.centre_of_mass += by;
         self.mass.lower += by;
         self.mass.upper += by;
@@ -435,7 +447,7 @@ impl Polyhedron {
     pub fn heap_bytes(&self) -> usize {
         let Polyhedron {
             dimension: _,
-            ordinary: _,
+            simple: _,
             centre: _,
             radius: _,
             vertices,

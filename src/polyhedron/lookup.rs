@@ -90,25 +90,30 @@ pub struct Shells {
     first_cells: [u32; DISTANCES],
 }
 
+/// What [`Shells`] are made from; see its members.
+pub struct ShellSamples {
+    /// As of the shells.
+    pub resolution: usize,
+    /// As of the shells.
+    pub radii: Vec<f64>,
+    /// As of the shells.
+    pub positions: Vec<[f32; 4]>,
+    /// The vertex of each cell.
+    pub cells: Vec<u32>,
+}
+
 /// Squared distances are told apart by two bits of the mantissa, from 2⁻⁸ to 2⁸; beyond that the outermost shells serve.
 const DISTANCES: usize = 64;
 const MANTISSA_BITS: u32 = 2;
 const LEAST: i32 = (127 - 8) << MANTISSA_BITS;
 
 impl Shells {
-    /// From the radii (ascending), the vertices' positions, the cells' vertices, the core's radius and what turns outwards.
+    /// From what was sampled, the core's radius and what turns outwards.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(
-        resolution: usize,
-        radii: Vec<f64>,
-        positions: Vec<[f32; 4]>,
-        cells: &[u32],
-        core: f64,
-        outward: [[f32; 3]; 3],
-        rounds: u32,
-    ) -> Result<Shells> {
+    pub fn new(samples: ShellSamples, core: f64, outward: [[f32; 3]; 3], rounds: u32) -> Result<Shells> {
+        let ShellSamples { resolution, radii, positions, cells } = samples;
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
         let mut first_cells = [0; DISTANCES];
@@ -118,7 +123,7 @@ impl Shells {
             let shell = radii.windows(2).take_while(|pair| 0.5 / pair[0] + 0.5 / pair[1] > reciprocal).count();
             *first = (shell * resolution * resolution) as u32;
         }
-        let cells = Cells::new(cells, positions.len())?;
+        let cells = Cells::new(&cells, positions.len())?;
         let grid = Grid::new(resolution);
         Ok(Shells { resolution, radii, cells, positions, core, outward, rounds, grid, first_cells })
     }
@@ -290,7 +295,7 @@ pub struct Lookup {
     pub plan: Plan,
     /// How far, in radians, a pair of bodies like this one may have moved and turned before a start from the tables, or without any
     /// one afresh, leads to the nearest features sooner than the last features do; +∞ without a plan.
-    pub reach: f64,
+    pub jump: f64,
     /// The table, once made.
     pub made: OnNeed<Table>,
 }
@@ -322,7 +327,7 @@ pub enum Plan {
 /// Of one body equal plans make equal tables, whether they are made yet or not.
 impl PartialEq for Lookup {
     fn eq(&self, other: &Lookup) -> bool {
-        (self.plan, self.reach) == (other.plan, other.reach)
+        (self.plan, self.jump) == (other.plan, other.jump)
     }
 }
 
@@ -333,9 +338,9 @@ impl Lookup {
     }
 
     /// A plan that needs no table.
-    pub fn without_table(plan: Plan, reach: f64) -> Lookup {
+    pub fn without_table(plan: Plan, jump: f64) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan, reach, made: OnNeed::from(Table::None) }
+        Lookup { plan, jump, made: OnNeed::from(Table::None) }
     }
 
     /// The same plan without the table.
@@ -355,10 +360,10 @@ impl Lookup {
         )
     }
 
-    /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::reach`].
+    /// The square of how far a pair of bodies may have moved and turned, see [`Lookup::jump`].
     #[inline(always)]
-    pub fn square_reach(&self, other: &Lookup) -> f64 {
-        self.reach * other.reach
+    pub fn square_jump(&self, other: &Lookup) -> f64 {
+        self.jump * other.jump
     }
 
     /// Memory that it holds beyond its own size: none until the table is made.

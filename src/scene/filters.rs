@@ -6,7 +6,7 @@ use crate::base::memory::copied;
 use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
-use crate::scene::narrow_phase::Findings;
+use crate::scene::narrow_phase::{Before, Findings};
 use crate::scene::object::{Object, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 
@@ -122,7 +122,7 @@ impl Scene {
         let tolerance = self.broad_phase.tolerance();
         self.update_near_pairs(if self.keeps_list(tolerance) { tolerance } else { 0.0 })?;
         self.broad_phase.shrink()?;
-        (self.findings, self.before, self.last) = (Findings::default(), Vec::new(), None);
+        (self.findings, self.before, self.last) = (Findings::default(), Before::default(), None);
         self.parts = Vec::new();
         Ok(())
     }

@@ -16,6 +16,7 @@ mod query;
 mod statistics;
 mod boxes;
 mod proxies;
+mod contacts;
 mod broad_phase;
 mod narrow_phase;
 mod workers;
@@ -38,8 +39,9 @@ use crate::pair::PairConfig;
 use crate::pair::{self, Outcome};
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::BroadPhase;
+use crate::scene::contacts::Details;
 use crate::scene::events::Events;
-use crate::scene::narrow_phase::Findings;
+use crate::scene::narrow_phase::{Before, Findings};
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::proxies::{Label, NewProxy, Proxies};
 use crate::scene::workers::PartFindings;
@@ -48,7 +50,7 @@ use crate::shape::Shape;
 pub use crate::pair::Query;
 pub use events::{ObjectPair, SceneEvents};
 pub use filters::PairFilter;
-pub use query::{PairResult, SceneAnswer, SceneQuery};
+pub use query::{Contact, ContactDetail, PairResult, SceneAnswer, SceneContacts, SceneQuery};
 pub use statistics::SceneStatistics;
 pub use workers::Workers;
 
@@ -88,7 +90,7 @@ pub struct Scene {
     last: Option<Asked>,
     findings: Findings,
     /// The results of the query before, or what is left of them.
-    before: Vec<PairResult>,
+    before: Before,
     events: Events,
     /// Who shares the work on near pairs, and what each part found.
     workers: Option<Workers>,
@@ -111,6 +113,7 @@ enum News {
 struct Asked {
     config: PairConfig,
     query: Query,
+    details: Option<Details>,
 }
 
 impl Scene {
@@ -133,7 +136,7 @@ impl Scene {
             passes: 0,
             last: None,
             findings: Findings::default(),
-            before: Vec::new(),
+            before: Before::default(),
             events: Events::default(),
             workers: None,
             parts: Vec::new(),
@@ -300,8 +303,12 @@ impl Scene {
     /// As [`Scene::query_exact_distance`], and intersecting pairs have finite witness points and a unit normal as well
     /// ([`pair::contact`]).
     ///
+    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_exact_distance`] do, and
+    /// [`SceneAnswer::contacts`] how deep each pair is, and where its objects meet: what [`pair::depth()`] and [`pair::manifold()`]
+    /// say.
+    ///
     /// # Errors
-    /// As [`Scene::query_intersection`].
+    /// As [`Scene::query_intersection`], for a margin as well; and [`Error::Memory`] when that for depths and points is not there.
     pub fn query_contacts(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.run(query, Query::Contact)
     }
@@ -314,6 +321,17 @@ impl Scene {
     /// As [`Scene::query_intersection`].
     pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.run(query, Query::Approximate)
+    }
+
+    /// What the last query said beside its answers: [`SceneAnswer::contacts`].
+    pub fn contacts(&self) -> SceneContacts<'_> {
+        self.findings.contacts.view()
+    }
+
+    /// Pairs whose depth is remembered: how many there is room for, and how many there are.
+    #[doc(hidden)]
+    pub fn remembered_depths(&self) -> [usize; 2] {
+        self.broad_phase.near.contacts.depth_counts()
     }
 
     /// What the queries did.

@@ -11,15 +11,15 @@
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
+use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Placed, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
+use crate::scene::contacts::{ContactMemory, Contacts, Details};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
 use crate::scene::statistics::{SceneStatistics, Settled};
-use crate::shape::Shape;
 
 /// Pairs that are looked at before the first of them is tested.
 pub(crate) const BLOCK: usize = 256;
@@ -41,7 +41,7 @@ const INSCRIBED: PairAnswer = PairAnswer {
 };
 
 /// One of the pair queries of [`pair`](crate::pair).
-pub(crate) type Solver = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
 /// What one query asks of each pair.
 pub(crate) struct Pass<'a> {
@@ -57,7 +57,17 @@ pub(crate) struct Pass<'a> {
     /// The number of this pass over the pairs, from 1 on.
     pub number: u64,
     /// The results of the pass before if it asked the same, else none.
-    pub before: Option<&'a [PairResult]>,
+    pub before: Option<&'a Before>,
+    /// What is asked of listed pairs beside their answers.
+    pub details: Option<&'a Details>,
+}
+
+/// The results of a pass, when another has begun.
+#[derive(Debug, Default)]
+pub(crate) struct Before {
+    /// They, and what is left of earlier ones.
+    pairs: Vec<PairResult>,
+    contacts: Contacts,
 }
 
 /// What pairs remember, by place.
@@ -69,18 +79,50 @@ pub(crate) trait Caches {
     /// # Errors
     /// Those of `change`, and [`Error::Memory`](crate::base::error::Error::Memory).
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()>;
+    /// Changes what is remembered of one's contact: of its depth where the two intersect.
+    ///
+    /// # Errors
+    /// As of [`Caches::change`].
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()>;
 }
 
 /// Nobody else uses them.
-impl Caches for [PairCache] {
+pub(crate) struct Own<'a> {
+    pub caches: &'a mut [PairCache],
+    /// None for pairs that are forgotten.
+    pub contacts: Option<&'a mut ContactMemory>,
+}
+
+impl Caches for Own<'_> {
     #[inline(always)]
     fn peek(&self, place: u32) -> &PairCache {
-        &self[place as usize]
+        &self.caches[place as usize]
     }
 
     #[inline(always)]
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
-        change(&mut self[place as usize])
+        change(&mut self.caches[place as usize])
+    }
+
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()> {
+        match &mut self.contacts {
+            Some(contacts) if intersects => {
+                let (reference, cache) = contacts.of_intersecting(place)?;
+                change(reference, Some(cache))
+            }
+            Some(contacts) => change(contacts.reference(place), None),
+            None => change(&mut Reference::default(), intersects.then_some(&mut DepthCache::default())),
+        }
     }
 }
 
@@ -90,6 +132,8 @@ pub(crate) struct Findings {
     /// Kept from pass to pass, with what is left of earlier ones behind the results.
     slots: Vec<PairResult>,
     count: usize,
+    /// Of each result, where they are asked for.
+    pub contacts: Contacts,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
     /// Of one block of pairs those that the first look has not settled.
@@ -100,6 +144,7 @@ impl Findings {
     /// For another pass.
     pub fn clear(&mut self) {
         self.count = 0;
+        self.contacts.clear();
         self.statistics = SceneStatistics::default();
         self.intersecting = false;
     }
@@ -110,8 +155,9 @@ impl Findings {
     }
 
     /// Takes the place of the results of before, and gives it to them.
-    pub fn swap_results(&mut self, before: &mut Vec<PairResult>) {
-        std::mem::swap(&mut self.slots, before);
+    pub fn swap_results(&mut self, before: &mut Before) {
+        std::mem::swap(&mut self.slots, &mut before.pairs);
+        std::mem::swap(&mut self.contacts, &mut before.contacts);
     }
 
     /// Room for `count` more results.
@@ -131,6 +177,7 @@ impl Findings {
         self.reserve(part.count)?;
         self.slots[first..first + part.count].copy_from_slice(part.results());
         self.count += part.count;
+        self.contacts.append_all(&part.contacts)?;
         self.intersecting |= part.intersecting;
         self.statistics.add(&part.statistics);
         Ok(first as u32)
@@ -208,7 +255,7 @@ impl Pass<'_> {
         let travelled = motion1.odometer + motion2.odometer;
         // With s the odometers' sum when the pair was tested and s' now: from fl(s')(1 + 8u) + τ < (s(1 − 8u) + lower)(1 − 8u), all
         // rounded, s' + τ < s + lower follows, and so lower − (s' − s) > τ.
-        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.reach {
+        if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.apart_until {
             statistics.count_settled(Settled::OutOfReach);
             return Look::Settled;
         }
@@ -237,7 +284,9 @@ impl Pass<'_> {
         match look {
             Look::Settled => {}
             Look::Again(result) => {
-                *answer = self.before.unwrap_or_default()[result as usize].answer;
+                if let Some(before) = self.before {
+                    *answer = before.pairs[result as usize].answer;
+                }
                 findings.statistics.count_again(answer);
             }
             Look::Intersects => {
@@ -260,6 +309,9 @@ impl Pass<'_> {
             return Ok(false);
         }
         let intersects = answer.outcome == Outcome::Intersecting;
+        if let Some(details) = self.details {
+            self.find_details(details, look, pair, at, caches, findings)?;
+        }
         pair.result = at as u32;
         self.sign(pair, &mut findings.slots[at]);
         findings.count += 1;
@@ -271,13 +323,40 @@ impl Pass<'_> {
     #[inline(always)]
     fn test(&self, pair: &mut NearPair, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
-        let [shape1, shape2] = [&self.proxies.shapes[a], &self.proxies.shapes[b]];
-        let [pose1, pose2] = [&self.proxies.poses[a], &self.proxies.poses[b]];
+        let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-        (self.solver)(shape1, pose1, shape2, pose2, cache, self.config, answer)?;
-        pair.reach = self.reach(answer, a, b);
+        (self.solver)([placed(a), placed(b)], cache, self.config, answer)?;
+        pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
+            pair.looked_at = 0;
+        }
+        Ok(())
+    }
+
+    /// What is asked beside the answer, which is the one at `at`.
+    #[inline(never)]
+    fn find_details<C: Caches + ?Sized>(
+        &self,
+        details: &Details,
+        look: Look,
+        pair: &mut NearPair,
+        at: usize,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<()> {
+        let Findings { slots, contacts, .. } = findings;
+        if let (Look::Again(result), Some(before)) = (look, self.before) {
+            return contacts.again(&before.contacts, result as usize);
+        }
+        let answer = &slots[at].answer;
+        let bodies =
+            pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));
+        caches.change_contact(pair.cache, answer.outcome == Outcome::Intersecting, |reference, cache| {
+            details.find(bodies, answer, reference, cache, contacts)
+        })?;
+        // As of distances.
+        if contacts.last_ending() == Some(DepthEnding::Budget) {
             pair.looked_at = 0;
         }
         Ok(())
@@ -291,9 +370,9 @@ impl Pass<'_> {
         (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
     }
 
-    /// See [`NearPair::reach`] and [`Pass::look`].
+    /// See [`NearPair::apart_until`] and [`Pass::look`].
     #[inline(always)]
-    fn reach(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
+    fn apart_until(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
         if !(answer.lower > 0.0) {
             return f64::NEG_INFINITY;
         }

@@ -8,7 +8,8 @@ use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{collected, filled, push};
 use crate::pair::{PairCache, Query};
-use crate::scene::broad_phase::near_pairs::{NearPair, Testing};
+use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing};
+use crate::scene::narrow_phase::Own;
 use crate::scene::object::{Object, ObjectId};
 use crate::scene::proxies::{Label, NewProxy};
 use crate::scene::query::{SceneAnswer, SceneQuery};
@@ -41,7 +42,9 @@ impl Scene {
         let is_own = |pair: &&NearPair| pair.proxies.iter().any(|&proxy| rows.contains(&(proxy as usize)));
         let mut pairs = collected(near.pairs.iter().filter(is_own).copied())?;
         let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
-        let stopped = pass.run(&mut pairs, &mut near.caches[..], &mut self.findings)?;
+        let NearPairs { caches, contacts, .. } = near;
+        contacts.make_room(if asked.details.is_some() { caches.len() } else { 0 })?;
+        let stopped = pass.run(&mut pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);
         Ok(stopped)
     }
@@ -114,7 +117,7 @@ impl Scene {
     fn ask_cold(&mut self, pairs: &mut [NearPair], asked: &Asked, early_exit: bool) -> Result<bool> {
         let mut caches = filled(PairCache::default(), pairs.len())?;
         let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
-        let stopped = pass.run(pairs, &mut caches[..], &mut self.findings)?;
+        let stopped = pass.run(pairs, &mut Own { caches: &mut caches, contacts: None }, &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);
         Ok(stopped)
     }

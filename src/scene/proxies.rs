@@ -315,8 +315,8 @@ fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
 /// The squares are off by less than 8u of themselves; below [`TINY`] they may underflow.
 #[inline(always)]
 pub(crate) fn are_far_apart(one: &Spheres, other: &Spheres, tolerance: f64) -> bool {
-    let reach = (one.outer + other.outer + tolerance) * (1.0 + 16.0 * U) + TINY;
-    square_distance(one, other) > reach * reach
+    let radii = (one.outer + other.outer + tolerance) * (1.0 + 16.0 * U) + TINY;
+    square_distance(one, other) > radii * radii
 }
 
 /// Whether balls in two pieces certainly overlap.

@@ -1,6 +1,6 @@
 //! What a query over a scene is asked for, and what it says.
 
-use crate::pair::{Levels, PairAnswer, Refinement, Start};
+use crate::pair::{DepthAnswer, Levels, Manifold, ManifoldPoint, PairAnswer, Refinement, Start};
 use crate::scene::object::ObjectId;
 
 /// What a query over a scene is asked for.
@@ -29,6 +29,28 @@ pub struct SceneQuery {
     pub refinement: Refinement,
     /// Where marching starts in each pair.
     pub start: Start,
+    /// [Contacts](crate::scene::Scene::query_contacts): what is said of each pair beside its answer. `absolute_error`,
+    /// `relative_error` and `step_budget` are then those of the depths.
+    pub detail: ContactDetail,
+    /// [Contacts](crate::scene::Scene::query_contacts): pairs farther apart have no manifold, and points with a larger gap do not
+    /// belong to one; from 0 to +∞. It is the distance tolerance if that is less. Default: +∞.
+    pub margin: f64,
+}
+
+/// What a query of contacts says of each pair beside its answer.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum ContactDetail {
+    /// Nothing.
+    #[default]
+    None = 0,
+    /// How deep intersecting pairs are in each other.
+    Depth = 1,
+    /// That, and the manifold, of pairs up to the margin apart, too.
+    Manifold = 2,
+    /// That, and of more than four points of a manifold four: the deepest, the farthest from it and the extremes on either side of
+    /// the line between them. None is moved.
+    ReducedManifold = 3,
 }
 
 impl Default for SceneQuery {
@@ -43,6 +65,8 @@ impl Default for SceneQuery {
             levels: Levels::Automatic,
             refinement: Refinement::Adaptive,
             start: Start::Automatic,
+            detail: ContactDetail::None,
+            margin: f64::INFINITY,
         }
     }
 }
@@ -67,6 +91,35 @@ pub struct PairResult {
     pub answer: PairAnswer,
 }
 
+/// What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct Contact {
+    /// How deep the two are in each other; of a pair that does not intersect nothing is said.
+    pub depth: DepthAnswer,
+    /// Where they meet, or nearly do.
+    pub manifold: Manifold,
+    /// Where among all points those of the manifold begin, as many as its `point_count`.
+    pub first_point: usize,
+}
+
+/// What a query of contacts says beside its answers.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct SceneContacts<'a> {
+    /// One for each of the pairs, in their order; of a query that stopped that of [`SceneAnswer::found`]. Empty where none were
+    /// asked for.
+    pub contacts: &'a [Contact],
+    /// The points of their manifolds.
+    pub points: &'a [ManifoldPoint],
+}
+
+impl<'a> SceneContacts<'a> {
+    /// The points of one of the contacts.
+    pub fn points_of(&self, contact: &Contact) -> &'a [ManifoldPoint] {
+        &self.points[contact.first_point..][..contact.manifold.point_count as usize]
+    }
+}
+
 /// What a query over a scene found.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneAnswer<'a> {
@@ -78,4 +131,6 @@ pub struct SceneAnswer<'a> {
     /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
     /// `pairs` are.
     pub found: Option<&'a PairResult>,
+    /// What was asked for beside the answers. Owned as `pairs` are.
+    pub contacts: SceneContacts<'a>,
 }

@@ -9,10 +9,11 @@ use crate::base::memory::{collected, with_capacity};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, PairCache, PairConfig, Query};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing, order};
-use crate::scene::narrow_phase::{BLOCK, Findings, Pass};
+use crate::scene::contacts::Details;
+use crate::scene::narrow_phase::{BLOCK, Before, Findings, Own, Pass};
 use crate::scene::object::Object;
 use crate::scene::proxies::{Label, Proxies};
-use crate::scene::query::{PairResult, SceneAnswer, SceneQuery};
+use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::scene::workers::{FEWEST_SHARED, run_in_parts};
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, beyond that none is.
@@ -43,9 +44,14 @@ impl Scene {
                 if kind != Query::Intersection {
                     self.statistics.error_spent += self.findings.error_spent();
                 }
+                if stopped {
+                    self.findings.contacts.keep_last();
+                }
+                let contacts = self.findings.contacts.view();
                 let (results, intersecting) = (self.findings.results(), self.findings.intersecting);
                 let pairs = if stopped { &[] } else { results };
-                Ok(SceneAnswer { intersecting, pairs, found: if stopped { results.last() } else { None } })
+                let found = if stopped { results.last() } else { None };
+                Ok(SceneAnswer { intersecting, pairs, found, contacts })
             }
             Err(error) => {
                 self.findings.clear();
@@ -64,13 +70,13 @@ impl Scene {
         // Who shares the budget is found out first: the listed pairs, whatever else is near.
         let counted = self.statistics;
         let verdicts = PairConfig { absolute_error: f64::INFINITY, ..asked.config };
-        if self.ask(Asked { config: verdicts, query: kind }, query.early_exit)? {
+        if self.ask(Asked { config: verdicts, ..asked }, query.early_exit)? {
             return Ok(true);
         }
         self.statistics = counted;
         let share = query.error_budget / self.findings.results().len().max(1) as f64;
         let config = PairConfig { absolute_error: share, relative_error: 0.0, ..asked.config };
-        self.ask(Asked { config, query: kind }, query.early_exit)
+        self.ask(Asked { config, ..asked }, query.early_exit)
     }
 
     /// One pass over the pairs.
@@ -81,16 +87,22 @@ impl Scene {
         if keeps_list {
             self.update_near_pairs(tolerance)?;
         }
-        let before = is_repeated.then_some(&self.before[..]);
+        let before = is_repeated.then_some(&self.before);
         let pass = asked.pass(&self.proxies, early_exit, self.passes, before);
         let near = &mut self.broad_phase.near;
+        if asked.details.is_some() {
+            near.contacts.make_room(near.caches.len())?;
+        }
         let stopped = if keeps_list {
             match &self.workers {
                 Some(workers) if !early_exit && near.pairs.len() >= FEWEST_SHARED => {
                     run_in_parts(workers, &pass, near, &mut self.parts, &mut self.findings)?;
                     false
                 }
-                _ => pass.run(&mut near.pairs, &mut near.caches[..], &mut self.findings)?,
+                _ => {
+                    let NearPairs { pairs, caches, contacts, .. } = near;
+                    pass.run(pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?
+                }
             }
         } else {
             let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
@@ -99,6 +111,9 @@ impl Scene {
         };
         self.statistics.add(&self.findings.statistics);
         if !stopped {
+            if asked.details.is_some() && keeps_list {
+                near.forget_depths(|result| !self.findings.contacts.intersects(result));
+            }
             self.last = Some(asked);
         }
         Ok(stopped)
@@ -143,7 +158,8 @@ impl Asked {
             start: query.start,
             ..PairConfig::default()
         };
-        Ok(Asked { config, query: kind })
+        let details = if kind == Query::Contact { Details::new(query)? } else { None };
+        Ok(Asked { config, query: kind, details })
     }
 
     /// Pairs farther apart are not listed.
@@ -157,17 +173,29 @@ impl Asked {
         proxies: &'a Proxies,
         early_exit: bool,
         number: u64,
-        before: Option<&'a [PairResult]>,
+        before: Option<&'a Before>,
     ) -> Pass<'a> {
         let solver = match self.query {
             Query::Intersection => pair::intersection,
             Query::Distance => pair::distance,
+            // The depth says the rest.
+            Query::Contact if self.details.is_some() => pair::distance,
             Query::Contact => pair::contact,
             Query::Approximate => pair::approximate,
         };
         let verdict_only = self.query == Query::Intersection;
         let (config, tolerance) = (&self.config, self.tolerance());
-        Pass { proxies, solver, config, verdict_only, tolerance, early_exit, number, before }
+        Pass {
+            proxies,
+            solver,
+            config,
+            verdict_only,
+            tolerance,
+            early_exit,
+            number,
+            before,
+            details: self.details.as_ref(),
+        }
     }
 }
 
@@ -225,7 +253,7 @@ impl Block {
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let stopped = pass.run(&mut self.pairs, &mut self.caches[..], findings)?;
+        let stopped = pass.run(&mut self.pairs, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
         for (kept, cache) in self.kept.iter().zip(&self.caches) {
             if let Some(kept) = kept {
                 near.caches[*kept as usize] = *cache;

@@ -9,8 +9,9 @@ use std::thread::{Builder, scope};
 use crate::base::error::Result;
 use crate::base::memory::{collected, push, reserve};
 use crate::base::simd::environment::with_default;
-use crate::pair::PairCache;
+use crate::pair::{DepthCache, PairCache, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
+use crate::scene::contacts::ContactMemory;
 use crate::scene::narrow_phase::{BLOCK, Caches, Findings, Pass};
 
 /// Fewer pairs are left to one thread: starting another takes as long as some hundred tests.
@@ -76,8 +77,36 @@ fn run_on_threads(count: usize, parts: usize, work: &(dyn Fn(usize) + Sync)) {
 #[derive(Debug, Default)]
 pub(crate) struct PartFindings {
     findings: Findings,
-    /// Caches that the part has changed, by their places.
-    written: Vec<(u32, PairCache)>,
+    written: Written,
+}
+
+/// What a part has changed, by places.
+#[derive(Debug, Default)]
+struct Written {
+    caches: Vec<(u32, PairCache)>,
+    references: Vec<(u32, Reference)>,
+    depths: Vec<(u32, DepthCache)>,
+}
+
+impl Written {
+    fn clear(&mut self) {
+        self.caches.clear();
+        self.references.clear();
+        self.depths.clear();
+    }
+
+    fn put(&self, caches: &mut [PairCache], contacts: &mut ContactMemory) -> Result<()> {
+        for (place, cache) in &self.caches {
+            caches[*place as usize] = *cache;
+        }
+        for (place, reference) in &self.references {
+            *contacts.reference(*place) = *reference;
+        }
+        for (place, cache) in &self.depths {
+            *contacts.of_intersecting(*place)?.1 = *cache;
+        }
+        Ok(())
+    }
 }
 
 /// Some pairs next to each other, and who looks at them.
@@ -91,7 +120,8 @@ struct Part<'a> {
 /// Caches that others read, too: what changes is written down.
 struct Shared<'a> {
     caches: &'a [PairCache],
-    written: &'a mut Vec<(u32, PairCache)>,
+    contacts: &'a ContactMemory,
+    written: &'a mut Written,
 }
 
 impl Caches for Shared<'_> {
@@ -104,16 +134,33 @@ impl Caches for Shared<'_> {
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
         let mut cache = self.caches[place as usize];
         change(&mut cache)?;
-        push(self.written, (place, cache))
+        push(&mut self.written.caches, (place, cache))
+    }
+
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()> {
+        let (mut reference, cache) = self.contacts.peek(place);
+        if intersects {
+            let mut cache = cache.copied().unwrap_or_default();
+            change(&mut reference, Some(&mut cache))?;
+            push(&mut self.written.depths, (place, cache))?;
+        } else {
+            change(&mut reference, None)?;
+        }
+        push(&mut self.written.references, (place, reference))
     }
 }
 
 impl Part<'_> {
     /// Does the part if it is not done.
-    fn run(&mut self, pass: &Pass, caches: &[PairCache]) {
+    fn run(&mut self, pass: &Pass, caches: &[PairCache], contacts: &ContactMemory) {
         if self.result.is_none() {
             let PartFindings { findings, written } = &mut *self.found;
-            let mut caches = Shared { caches, written };
+            let mut caches = Shared { caches, contacts, written };
             self.result = Some(with_default(|| pass.run(self.pairs, &mut caches, findings)));
         }
     }
@@ -130,7 +177,7 @@ pub(crate) fn run_in_parts(
     kept: &mut Vec<PartFindings>,
     findings: &mut Findings,
 ) -> Result<()> {
-    let NearPairs { pairs, caches, .. } = near;
+    let NearPairs { pairs, caches, contacts, .. } = near;
     let size = pairs.len().div_ceil(PARTS_EACH * workers.count()).next_multiple_of(BLOCK);
     let count = pairs.len().div_ceil(size);
     reserve(kept, count.saturating_sub(kept.len()))?;
@@ -144,7 +191,7 @@ pub(crate) fn run_in_parts(
     let work = |k: usize| {
         if let Some(part) = parts.get(k) {
             // A part that a panic has left is not done, and the panic goes on its way.
-            part.lock().unwrap_or_else(PoisonError::into_inner).run(pass, caches);
+            part.lock().unwrap_or_else(PoisonError::into_inner).run(pass, caches, contacts);
         }
     };
     (workers.run)(count, &work);
@@ -157,9 +204,7 @@ pub(crate) fn run_in_parts(
         for pair in pairs {
             pair.shift_result(first);
         }
-        for (place, cache) in &found.written {
-            caches[*place as usize] = *cache;
-        }
+        found.written.put(caches, contacts)?;
     }
     Ok(())
 }

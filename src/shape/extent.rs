@@ -126,7 +126,7 @@ impl Kernel for Turned<'_> {
 /// The sides p and q of a triangle are differences of exact coordinates, off by u in each component; det(a, p, q) of three columns
 /// is then off by less than 16u·|a||p||q|, and |p × q| by less than 8u·|p||q|.
 fn inner_radius(polyhedron: &Polyhedron) -> f64 {
-    if polyhedron.dimension < 3 || !polyhedron.ordinary {
+    if polyhedron.dimension < 3 || !polyhedron.simple {
         return f64::NEG_INFINITY;
     }
     let distance = |triangle: &[u32; 3]| {

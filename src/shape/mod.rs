@@ -15,7 +15,7 @@ use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
 use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
 use crate::build::hull::{check_points, convex_hull_in_steps};
-use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES};
+use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use crate::mesh::io::read_mesh;
 use crate::mesh::{Numbers, PolygonMesh, check_vertex};
 use crate::polyhedron::Polyhedron;
@@ -333,7 +333,7 @@ impl Shape {
     /// Whether it would have automatic levels if they were made.
     #[inline]
     pub(crate) fn lacks_levels(&self) -> bool {
-        self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES)
+        self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES_FOR_LEVELS)
     }
 
     /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait. Where

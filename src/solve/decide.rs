@@ -80,18 +80,18 @@ impl Wanted {
     }
 }
 
-/// Decides a pair from a hint of one to four vertex pairs (indices in range). Unless `usual` (see [`Frame`]) the magnitudes are
+/// Decides a pair from a hint of one to four vertex pairs (indices in range). Unless `in_range` (see [`Frame`]) the magnitudes are
 /// beyond the error bounds of double precision, and integers decide at once.
 pub fn decide(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
-    usual: bool,
+    in_range: bool,
     hint: &[VertexPair],
     wanted: Wanted,
 ) -> (Decision, Work) {
     let mut work = Work::default();
     let mut start = Pairs::new(hint);
-    if usual {
+    if in_range {
         let (proposal, iterations) = simd::dispatch_to_avx2(&mut Propose { polyhedra, poses, hint, wanted });
         work.fallback_iterations = iterations;
         match proposal {
@@ -154,13 +154,13 @@ impl Kernel for Propose<'_> {
         let mut supports = Supports::new(hint);
         let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, wanted.tight);
         let simplex = match outcome {
-            gjk::Outcome::Nearest(nearest) => {
+            gjk::GjkResult::Nearest(nearest) => {
                 if wanted.is_met_by(&nearest.interval, frame.size) {
                     return (Proposal::Separated(nearest), iterations);
                 }
                 nearest.simplex
             }
-            gjk::Outcome::Enclosed(simplex) => simplex,
+            gjk::GjkResult::Enclosed(simplex) => simplex,
         };
         let pairs = Pairs::new(&simplex.pairs[..simplex.count]);
         match enclosure::enclose(&frame, &mut supports, pairs.as_slice()) {

@@ -80,7 +80,7 @@ impl<L: Lanes> Body<'_, L> {
 pub struct Frame<'a, L> {
     /// Whether the poses are acceptable and the magnitudes such that double precision's error bounds cover them; a cold path
     /// finds out which is not.
-    pub usual: bool,
+    pub in_range: bool,
     /// Whether both rotations are orthonormal up to rounding, see [`RIGID_TOGETHER`].
     pub rigid: bool,
     /// Body 1 and body 2.
@@ -95,17 +95,17 @@ pub struct Frame<'a, L> {
 }
 
 impl<'a, L: Lanes> Frame<'a, L> {
-    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is good for nothing unless it is `usual`.
+    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is good for nothing unless it is `in_range`.
     #[inline(always)]
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
         let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
-        let (mut usual, mut skewed) = (true, [false; 2]);
+        let (mut in_range, mut skewed) = (true, [false; 2]);
         // A limit below what counts as rigid is the caller's to set.
         if rotation_limit < RIGID_TOGETHER || !Placed::are_rigid(&placed) {
-            (usual, skewed) = look_closer(poses, rotation_limit);
+            (in_range, skewed) = look_closer(poses, rotation_limit);
         }
         let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
-        usual &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
+        in_range &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
         let mut origins = Origins {
             offset: placed[0].columns[3].sub(placed[1].columns[3]),
             cancelled: 0.0,
@@ -119,11 +119,11 @@ impl<'a, L: Lanes> Frame<'a, L> {
                 translations: [L::load(&centred.translations[0]), L::load(&centred.translations[1])],
             };
         }
-        Frame::assemble(polyhedra, &placed, &origins, usual, skewed)
+        Frame::assemble(polyhedra, &placed, &origins, in_range, skewed)
     }
 
-    /// [`Frame::new`] for [ordinary](Polyhedron::ordinary) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only
-    /// `usual` if both poses are rigid and of ordinary magnitude, without a closer look.
+    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only
+    /// `in_range` if both poses are rigid and within range, without a closer look.
     #[inline(always)]
     pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
         let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
@@ -141,7 +141,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
         polyhedra: [&'a Polyhedron; 2],
         placed: &[Placed<L>; 2],
         origins: &Origins<L>,
-        usual: bool,
+        in_range: bool,
         skewed: [bool; 2],
     ) -> Frame<'a, L> {
         let size = polyhedra[0].radius + polyhedra[1].radius;
@@ -149,7 +149,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
         let separation =
             offset.dot(offset).sqrt() * (1.0 + 8.0 * UNIT_ROUNDOFF) + 16.0 * UNIT_ROUNDOFF * origins.cancelled;
         Frame {
-            usual,
+            in_range,
             rigid: !(skewed[0] | skewed[1]),
             bodies: [
                 placed[0].body(polyhedra[0], origins.translations[0], offset, skewed[0]),
@@ -292,11 +292,11 @@ struct Origins<L> {
     translations: [L; 2],
 }
 
-/// For poses that are not both rigid and of ordinary size: whether they are acceptable and of ordinary size, and which are skewed.
+/// For poses that are not both rigid and within range: whether they are acceptable and within range, and which are skewed.
 #[cold]
 fn look_closer(poses: [&Pose; 2], limit: f64) -> (bool, [bool; 2]) {
-    let usual = poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST);
-    (usual, poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
+    let in_range = poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST);
+    (in_range, poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
 }
 
 /// What differs for bodies whose centres are not their origins.

@@ -30,7 +30,7 @@ pub struct Simplex {
 
 /// What the iteration came to.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Outcome {
+pub enum GjkResult {
     /// The simplex is nearest as far as rounding lets one see, at a positive distance.
     Nearest(Nearest),
     /// The simplex seems to hold the origin.
@@ -122,7 +122,12 @@ const SAMPLE: usize = 16;
 /// Runs from the given vertex pairs (1 to 4, indices in range). Returns the number of iterations too. Unless `tight`, any
 /// direction that separates the bodies ends it.
 #[inline(always)]
-pub fn solve<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, start: &[VertexPair], tight: bool) -> (Outcome, u32) {
+pub fn solve<L: Lanes>(
+    frame: &Frame<L>,
+    supports: &mut Supports,
+    start: &[VertexPair],
+    tight: bool,
+) -> (GjkResult, u32) {
     let mut simplex = Simplex::default();
     for &pair in start.iter().take(4) {
         simplex.add(pair, difference(frame, pair));
@@ -134,7 +139,7 @@ pub fn solve<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, start: &[Verte
         let nearest = simplex.reduce();
         let length_squared = nearest.norm_squared();
         if simplex.count == 4 || length_squared == 0.0 {
-            return (Outcome::Enclosed(simplex), iteration);
+            return (GjkResult::Enclosed(simplex), iteration);
         }
         let stuck = best.is_some_and(|(_, least)| length_squared >= least) || iteration == ITERATION_LIMIT;
         if stuck && let Some((nearer, _)) = best {
@@ -153,7 +158,7 @@ pub fn solve<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, start: &[Verte
         if stuck || is_known || is_nearest || separates {
             let nearest = certify(frame, simplex, &direction, pair);
             if stuck || is_known || is_nearest || nearest.interval.lower > 0.0 {
-                return (Outcome::Nearest(nearest), iteration);
+                return (GjkResult::Nearest(nearest), iteration);
             }
         }
         simplex.add(pair, corner);
@@ -197,23 +202,23 @@ fn supported_interval<L: Lanes>(
 ) -> Interval {
     let towards = towards(frame, direction);
     let towards = [towards[0].to_vector(), towards[1].to_vector()];
-    let mut beyond = 0.0;
-    let mut outside = 0.0;
+    let mut support_excess = 0.0;
+    let mut point_error = 0.0;
     for i in 0..2 {
         let polyhedron = frame.bodies[i].polyhedron;
         let g = &towards[i];
         let support = polyhedron.vertices[pair[i] as usize].position;
-        beyond += g.dot(&(support - points[i])).max(0.0)
+        support_excess += g.dot(&(support - points[i])).max(0.0)
             + certificate::of_vertex(polyhedron, pair[i], g)
             + 24.0 * U * polyhedron.radius * g.abs().sum();
-        outside += 12.0 * U * polyhedron.radius;
+        point_error += 12.0 * U * polyhedron.radius;
     }
     let difference = frame.difference(&points[0], &points[1]);
     let direction = L::from_vector(direction);
     let inverse = certificate::reciprocal_length(direction.dot(direction));
     let distance = difference.dot(difference).sqrt();
-    let reach = direction.dot(difference) * inverse;
-    certificate::interval(distance, reach, frame.difference_error(distance), beyond * inverse, outside)
+    let projection = direction.dot(difference) * inverse;
+    certificate::interval(distance, projection, frame.difference_error(distance), support_excess * inverse, point_error)
 }
 
 impl Simplex {

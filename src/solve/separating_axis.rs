@@ -21,7 +21,7 @@ pub struct Axis {
     pub direction: [f32; 3],
 }
 
-/// The interval of the bodies' distance that their bounding spheres prove, for rigid poses of [ordinary](Polyhedron::ordinary)
+/// The interval of the bodies' distance that their bounding spheres prove, for rigid poses of [simple](Polyhedron::simple)
 /// bodies.
 ///
 /// No point of R·P is farther from its centred origin than ρ(1 + 16u): |R|² ≤ 1 + √6·10u (see
@@ -127,14 +127,14 @@ impl<L: Lanes> Trial<L> {
 }
 
 /// The search where the last axis does not separate: from the line of the origins, and the vertices that the tables say.
-pub struct Search<'a, L> {
+pub struct AxisSearch<'a, L> {
     /// The pair.
     pub frame: &'a Frame<'a, L>,
     /// The first trial, and where there is a better one the last.
     pub trial: Trial<L>,
 }
 
-impl<L: Lanes> Work for Search<'_, L> {
+impl<L: Lanes> Work for AxisSearch<'_, L> {
     type Output = ();
 
     #[inline(always)]

@@ -41,7 +41,7 @@ pub enum VertexTest {
         head: u32,
         /// How far the edge is to be followed, for a direction of the length of the way to the other body: where the nearest point
         /// on its line is.
-        reach: f32,
+        parameter: f32,
     },
 }
 
@@ -86,9 +86,9 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
     let clear = clear_slope(length);
     if (slope > clear) & (f64::from(slope) > tolerance) {
         if (edge == NONE) | (rule == Rule::First) {
-            leave_by_edge(rule, corner.polyhedron, corner.index, g.to_vector(), length, head)
+            leave_by_edge(rule, corner, g.to_vector(), length, head)
         } else {
-            VertexTest::Leaves { edge, head, reach: slope }
+            VertexTest::Leaves { edge, head, parameter: slope }
         }
     } else if slope < -clear {
         VertexTest::Strict
@@ -102,7 +102,7 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
 fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length: f64, tolerance: f64) -> VertexTest {
     match polyhedron.steepest_closely(vertex, g, length) {
         Some(Steepest { slope, edge, head }) if slope > tolerance => {
-            VertexTest::Leaves { edge, head, reach: slope as f32 }
+            VertexTest::Leaves { edge, head, parameter: slope as f32 }
         }
         Some(Steepest { slope, .. }) if !(slope < -STRICT * length) => VertexTest::Tied,
         _ => VertexTest::Strict,
@@ -159,14 +159,14 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
 /// clearly rises or the first. Where none does a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour
 /// inside a face, past where it is nearest, it would go round in circles. A corner leaves to the neighbour.
 #[cold]
-fn leave_by_edge(rule: Rule, polyhedron: &Polyhedron, vertex: u32, g: Vector, length: f64, head: u32) -> VertexTest {
+fn leave_by_edge(rule: Rule, corner: Corner, g: Vector, length: f64, head: u32) -> VertexTest {
     let rough = g.map(|d| d as f32).into();
-    let edge = polyhedron.edge_by_flat_vertex(vertex).unwrap_or(NONE);
-    let mut best = (clear_slope(length), VertexTest::Leaves { edge, head, reach: 0.0 });
-    for block in polyhedron.neighbour_blocks(vertex) {
+    let edge = corner.polyhedron.edge_by_flat_vertex(corner.index).unwrap_or(NONE);
+    let mut best = (clear_slope(length), VertexTest::Leaves { edge, head, parameter: 0.0 });
+    for block in corner.polyhedron.neighbour_blocks(corner.index) {
         for (lane, slope) in block.slopes(rough).into_iter().enumerate() {
             if slope > best.0 && block.edge[lane] != NONE {
-                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane], reach: slope });
+                best = (slope, VertexTest::Leaves { edge: block.edge[lane], head: block.head[lane], parameter: slope });
                 if rule == Rule::First {
                     return best.1;
                 }
@@ -210,8 +210,7 @@ pub fn violated_side<L: Lanes>(
     rule: Rule,
     polyhedron: &Polyhedron,
     face: &Face,
-    first: L,
-    point: L,
+    [point, first]: [L; 2],
     tolerance: f64,
 ) -> Option<u32> {
     if face.side_count >= MANY_SIDES {

@@ -11,7 +11,7 @@ pub use options::{LookupKind, LookupOptions};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, collected, filled, found, push};
-use crate::polyhedron::lookup::{Lookup, Plan, Shells, Spherical, Table};
+use crate::polyhedron::lookup::{Lookup, Plan, ShellSamples, Shells, Spherical, Table};
 use crate::polyhedron::surface_walk::{Surface, nearest_of};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 
@@ -59,21 +59,21 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     // Neighbours are that far apart, but for a factor.
     let spacing = 1.0 / (vertex_count as f64).sqrt();
     if kind == LookupKind::Automatic
-        && vertex_count < tuning::LEAST_VERTICES
-        && polyhedron.vertices.len() < 2 * tuning::LEAST_VERTICES
+        && vertex_count < tuning::LEAST_VERTICES_FOR_TABLE
+        && polyhedron.vertices.len() < 2 * tuning::LEAST_VERTICES_FOR_TABLE
     {
         if polyhedron.faces.is_empty() {
             return Ok(Lookup::none());
         }
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
-        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, tuning::REACH_OF_FEW * spacing));
+        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, tuning::JUMP_OF_FEW * spacing));
     }
-    let reach = match plan {
-        Plan::Spherical { .. } => tuning::REACH_OF_SPHERICAL,
-        _ if rounds(&Thickness::of(polyhedron), vertex_count) == tuning::ROUNDS_OF_ROUND => tuning::REACH_OF_ROUND,
-        _ => tuning::REACH_OF_THIN,
+    let jump = match plan {
+        Plan::Spherical { .. } => tuning::JUMP_OF_SPHERICAL,
+        _ if rounds(&Thickness::of(polyhedron), vertex_count) == tuning::ROUNDS_OF_ROUND => tuning::JUMP_OF_ROUND,
+        _ => tuning::JUMP_OF_THIN,
     };
-    Ok(Lookup { plan, reach: reach * spacing, made: OnNeed::new() })
+    Ok(Lookup { plan, jump: jump * spacing, made: OnNeed::new() })
 }
 
 /// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
@@ -148,7 +148,7 @@ fn inner_radius(polyhedron: &Polyhedron, centre: &Vector) -> f64 {
 }
 
 fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
-    let search = Search::new(polyhedron)?;
+    let search = NearestVertices::new(polyhedron)?;
     let thickness = Thickness::of(polyhedron);
     let surface = if thickness.is_needle() { found(Surface::new(polyhedron))? } else { None };
     let inner = inner_radius(polyhedron, &search.centre) / search.radius;
@@ -180,7 +180,8 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
     };
     let positions = collected(search.positions.iter().map(position))?;
     let rounds = rounds(&thickness, polyhedron.corner_count());
-    Shells::new(resolution, radii, positions, &cells, inner, thickness.outward(), rounds)
+    let samples = ShellSamples { resolution, radii, positions, cells };
+    Shells::new(samples, inner, thickness.outward(), rounds)
 }
 
 /// How often to look up, see [`Shells::rounds`].
@@ -246,7 +247,7 @@ impl Thickness {
 const LEAST_SPREAD: f64 = 1e-6;
 
 fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> Result<Spherical> {
-    let search = Search::new(polyhedron)?;
+    let search = NearestVertices::new(polyhedron)?;
     let mut cells = filled(0, Spherical::cell_count(resolution))?;
     let mut vertex = 0;
     for (cell, entry) in cells.iter_mut().enumerate() {
@@ -257,7 +258,7 @@ fn spherical(polyhedron: &Polyhedron, resolution: usize, radius_factor: f64) -> 
 }
 
 /// Finds nearest vertices of a body.
-struct Search<'a> {
+struct NearestVertices<'a> {
     polyhedron: &'a Polyhedron,
     /// The centre of mass, in centred coordinates as the positions.
     centre: Vector,
@@ -266,10 +267,10 @@ struct Search<'a> {
     tree: BoxTree,
 }
 
-impl Search<'_> {
-    fn new(polyhedron: &Polyhedron) -> Result<Search<'_>> {
+impl NearestVertices<'_> {
+    fn new(polyhedron: &Polyhedron) -> Result<NearestVertices<'_>> {
         let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
-        Ok(Search {
+        Ok(NearestVertices {
             polyhedron,
             centre: polyhedron.mass.centre_of_mass - polyhedron.centre,
             radius: polyhedron.mass.radius,

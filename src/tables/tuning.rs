@@ -1,39 +1,39 @@
 //! The numbers that say where a search starts. They change how fast an answer comes, never the answer. Each is chosen by time, on
 //! pairs of like bodies of 1,002 and 10,002 vertices on three orbits.
 //!
-//! A *reach* is an angle times √n: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. A pair that has
+//! A *jump* is an angle times √n: the angle between neighbours among n vertices spread over a sphere is 3.8/√n. A pair that has
 //! moved and turned by more than that (taken together, as body 1 sees body 2) starts from the tables; else at its last features.
 //!
 //! | rule | what it buys |
 //! |---|---|
-//! | reach of round and of thin bodies | thin ones need more look-ups; not measured apart from the turn below |
-//! | reach of the spherical table | it is looked up once, to a start that may be far from the nearest features |
-//! | reach of few vertices | bodies of 31 vertices begin anew between 45° and 90°, boxes never |
+//! | jump of round and of thin bodies | thin ones need more look-ups; not measured apart from the turn below |
+//! | jump of the spherical table | it is looked up once, to a start that may be far from the nearest features |
+//! | jump of few vertices | bodies of 31 vertices begin anew between 45° and 90°, boxes never |
 //! | one or two rounds from the last vertices | up to a fifth of a query of long bodies and plates after steps of 7° to 15° |
-//! | a jump that bodies in each other may have come apart by | from the reach itself on, verdicts on plates take 69 % longer at 5° |
-//! | a turn that makes the last enclosure no hint | without it, and with a reach of 3.5 for all, verdicts on plates take 24 % longer at 10° |
+//! | a jump that bodies in each other may have come apart by | from the least jump on, verdicts on plates take 69 % longer at 5° |
+//! | a turn that makes the last enclosure no hint | without it, and with jumps of 3.5, verdicts on plates take 24 % longer at 10° |
 //! | a far jump of bodies in each other | round ones at 5° to 45° save 15 to 5 of 100 instructions by the last enclosure |
 //! | rounds of look-ups | plates and needles of 1:10 save four and seven steps of eight and eleven; round bodies none |
 
 /// How far a pair of round bodies with shells may have moved before it starts from them.
-pub const REACH_OF_ROUND: f64 = 3.1;
+pub const JUMP_OF_ROUND: f64 = 3.1;
 
 /// The same of thin bodies.
-pub const REACH_OF_THIN: f64 = 4.0;
+pub const JUMP_OF_THIN: f64 = 4.0;
 
 /// The same with the table of Ehmann & Lin (2000).
-pub const REACH_OF_SPHERICAL: f64 = 5.7;
+pub const JUMP_OF_SPHERICAL: f64 = 5.7;
 
 /// The same of bodies of few vertices, which need no table.
-pub const REACH_OF_FEW: f64 = 8.0;
+pub const JUMP_OF_FEW: f64 = 8.0;
 
-/// Up to the root of this times the reach one round of look-ups from the last vertices is enough.
+/// Up to the root of this times the jump one round of look-ups from the last vertices is enough.
 pub const ONE_ROUND: f64 = 5.0;
 
-/// Up to the root of this times the reach two rounds are; beyond that the centres of mass are the better beginning.
+/// Up to the root of this times the jump two rounds are; beyond that the centres of mass are the better beginning.
 pub const TWO_ROUNDS: f64 = 16.0;
 
-/// From the root of this times the reach on, bodies that intersected may have come apart, and are for marching.
+/// From the root of this times the jump on, bodies that intersected may have come apart, and are for marching.
 pub const COME_APART: f64 = 3.0;
 
 /// The square of half a radian: bodies that have moved by more and may have come apart begin at the pair from the tables, also
@@ -45,7 +45,7 @@ pub const FAR: f64 = 1.6;
 
 /// Fewest corners of a body that is given a table on its own account; with twice as many vertices it is given one, too, as it would
 /// take long to look at all of them.
-pub const LEAST_VERTICES: usize = 32;
+pub const LEAST_VERTICES_FOR_TABLE: usize = 32;
 
 /// Bodies with no spread of less than this are round. Of ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, of
 /// (1, 1, 0.6) it is worse by more than a step.

@@ -170,14 +170,14 @@ impl Session {
         let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
         let before = *cache;
         let mut answer = PairAnswer::default();
-        let asked = query(&body1.shape, pose1, &body2.shape, pose2, cache, &config, &mut answer);
+        let asked = query([body1.shape.at(pose1), body2.shape.at(pose2)], cache, &config, &mut answer);
         self.tally.queries += 1;
         self.tally.intersecting += usize::from(answer.outcome == Outcome::Intersecting);
         self.tally.by_decider[answer.decided_by as usize] += 1;
         self.tally.most = self.tally.most.max(Work::of(&answer));
         let answered = asked.is_ok();
         let verified = asked.map_err(|e| violation("an answer", e.to_string())).and_then(|()| {
-            let verified = verify(&body1.shape, pose1, &body2.shape, pose2, &answer);
+            let verified = verify([body1.shape.at(pose1), body2.shape.at(pose2)], &answer);
             verified.map_err(|e| violation("verify", e.to_string()))
         });
         let is_tight = matches!(question, Question::Distance | Question::Contact);

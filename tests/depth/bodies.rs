@@ -106,7 +106,7 @@ impl Tally {
 }
 
 fn check(shapes: [&Shape; 2], poses: [&Pose; 2], cache: &DepthCache, answer: &DepthAnswer) {
-    verify_depth(shapes[0], poses[0], shapes[1], poses[1], cache, answer)
+    verify_depth([shapes[0].at(poses[0]), shapes[1].at(poses[1])], cache, answer)
         .unwrap_or_else(|error| panic!("{error}: {poses:?} {answer:?}"));
 }
 
@@ -197,7 +197,7 @@ fn errors_and_budgets_are_kept() {
         let placed = [&poses[0], &poses[1]];
         let asked = |config: DepthConfig| {
             let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
-            depth(pair[0], placed[0], pair[1], placed[1], &mut cache, &config, &mut answer).unwrap();
+            depth([pair[0].at(placed[0]), pair[1].at(placed[1])], &mut cache, &config, &mut answer).unwrap();
             check(pair, placed, &cache, &answer);
             answer
         };
@@ -226,7 +226,7 @@ fn what_is_no_pose_or_option_is_refused() {
     let shape = cuboid([1.0; 3]);
     let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
     let mut asked = |pose: &Pose, config: &DepthConfig| {
-        depth(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, config, &mut answer)
+        depth([shape.at(&Pose::IDENTITY), shape.at(pose)], &mut cache, config, &mut answer)
     };
     let default = DepthConfig::default();
     let at = |x: f64| Pose::new(&Matrix::identity(), &Vector::new(x, 0.0, 0.0));

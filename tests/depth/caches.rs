@@ -45,7 +45,7 @@ fn corrupted_caches_change_no_answer_beyond_its_interval() {
             let answer = query(pair, placed, &mut corrupted);
             assert_eq!(answer.outcome, clean.outcome, "{answer:?} {clean:?}");
             assert!(answer.lower <= clean.upper && clean.lower <= answer.upper, "{answer:?} {clean:?}");
-            verify_depth(pair[0], placed[0], pair[1], placed[1], &corrupted, &answer).unwrap();
+            verify_depth([pair[0].at(placed[0]), pair[1].at(placed[1])], &corrupted, &answer).unwrap();
         }
     }
 }

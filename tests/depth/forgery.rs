@@ -48,14 +48,14 @@ fn forged_depths_are_refused() {
         for (number, forge) in FORGERIES.iter().enumerate() {
             let mut forged = answer;
             forge(&mut forged);
-            let verdict = verify_depth(pair[0], &poses[0], pair[1], &poses[1], &cache, &forged);
+            let verdict = verify_depth([pair[0].at(&poses[0]), pair[1].at(&poses[1])], &cache, &forged);
             assert!(verdict.is_err(), "forgery {number}: {forged:?}");
         }
         let mut forged = answer;
         forged.outcome = Outcome::Separated;
-        assert!(verify_depth(pair[0], &poses[0], pair[1], &poses[1], &cache, &forged).is_err());
+        assert!(verify_depth([pair[0].at(&poses[0]), pair[1].at(&poses[1])], &cache, &forged).is_err());
         // The proof is looked for where the cache has none.
-        verify_depth(pair[0], &poses[0], pair[1], &poses[1], &DepthCache::default(), &answer).unwrap();
+        verify_depth([pair[0].at(&poses[0]), pair[1].at(&poses[1])], &DepthCache::default(), &answer).unwrap();
     }
 }
 
@@ -67,17 +67,17 @@ fn separated_and_touching_objects_are_told_apart() {
     let touching = query([&cube, &cube], [&here, &beside], &mut cache);
     assert_eq!((touching.outcome, touching.upper), (Outcome::Intersecting, 0.0));
     assert_eq!(touching.normal, [-1.0, 0.0, 0.0]);
-    verify_depth(&cube, &here, &cube, &beside, &cache, &touching).unwrap();
-    assert!(verify_depth(&cube, &here, &cube, &next, &cache, &touching).is_err());
+    verify_depth([cube.at(&here), cube.at(&beside)], &cache, &touching).unwrap();
+    assert!(verify_depth([cube.at(&here), cube.at(&next)], &cache, &touching).is_err());
     let apart = query([&cube, &cube], [&here, &next], &mut cache);
     assert_eq!(apart.outcome, Outcome::Separated);
-    verify_depth(&cube, &here, &cube, &next, &cache, &apart).unwrap();
-    assert!(verify_depth(&cube, &here, &cube, &beside, &cache, &apart).is_err());
+    verify_depth([cube.at(&here), cube.at(&next)], &cache, &apart).unwrap();
+    assert!(verify_depth([cube.at(&here), cube.at(&beside)], &cache, &apart).is_err());
     // A claim of touching of bodies that overlap, and the other way round.
     let inside = at(1.0_f64.next_down(), 0.25, 0.0);
     let overlapping = query([&cube, &cube], [&here, &inside], &mut cache);
     assert!(overlapping.upper > 0.0);
-    verify_depth(&cube, &here, &cube, &inside, &cache, &overlapping).unwrap();
-    assert!(verify_depth(&cube, &here, &cube, &inside, &cache, &touching).is_err());
-    assert!(verify_depth(&cube, &here, &cube, &beside, &cache, &overlapping).is_err());
+    verify_depth([cube.at(&here), cube.at(&inside)], &cache, &overlapping).unwrap();
+    assert!(verify_depth([cube.at(&here), cube.at(&inside)], &cache, &touching).is_err());
+    assert!(verify_depth([cube.at(&here), cube.at(&beside)], &cache, &overlapping).is_err());
 }

@@ -18,6 +18,6 @@ use testkit::random::Random;
 /// How deep two bodies are in each other, as narrow as can be proved.
 fn query(shapes: [&Shape; 2], poses: [&Pose; 2], cache: &mut DepthCache) -> DepthAnswer {
     let mut answer = DepthAnswer::default();
-    depth(shapes[0], poses[0], shapes[1], poses[1], cache, &DepthConfig::default(), &mut answer).unwrap();
+    depth([shapes[0].at(poses[0]), shapes[1].at(poses[1])], cache, &DepthConfig::default(), &mut answer).unwrap();
     answer
 }

@@ -150,7 +150,7 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
         let mut cache = DepthCache::default();
         let answer: DepthAnswer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
         let told = || format!("round {round}: {bodies:?} {poses:?} {answer:?}");
-        verify_depth(&shapes[0], &poses[0], &shapes[1], &poses[1], &cache, &answer)
+        verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
             .unwrap_or_else(|error| panic!("{error}: {}", told()));
         if least < 0 {
             separated += 1;

@@ -4,7 +4,9 @@
 use std::cell::OnceCell;
 
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Start, contact, distance, intersection};
+use swiftprox::pair::{
+    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, Start, contact, distance, intersection,
+};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
@@ -19,8 +21,7 @@ use testkit::properties::excess_work_without_levels;
 /// The kinds of caches with something in them: 1 to 6 are pairs of features, 9 to 12 one to four vertex pairs.
 const KINDS: [u32; 10] = [1, 2, 3, 4, 5, 6, 9, 10, 11, 12];
 
-pub type Query =
-    fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
+pub type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 /// Every query there is.
 const QUERIES: [(&str, Query); 3] = [("distance", distance), ("contact", contact), ("intersection", intersection)];
@@ -77,9 +78,10 @@ pub fn check(flight: &mut Flight) {
             let config = PairConfig { distance_tolerance, start: start_at, ..PairConfig::default() };
             let shapes = if random.below(2) == 0 { shapes } else { [&other1, &other2] };
             let (mut used, mut answer) = (cache, PairAnswer::default());
-            query(shapes[0], &placed[0], shapes[1], &placed[1], &mut used, &config, &mut answer)
+            query([shapes[0].at(&placed[0]), shapes[1].at(&placed[1])], &mut used, &config, &mut answer)
                 .expect("accepted poses");
-            let checked = verify(shapes[0], &placed[0], shapes[1], &placed[1], &answer).err().map(|e| e.to_string());
+            let checked =
+                verify([shapes[0].at(&placed[0]), shapes[1].at(&placed[1])], &answer).err().map(|e| e.to_string());
             let is_beyond = distance_tolerance < f64::INFINITY && !is_within(distance_tolerance);
             let complaints = [
                 contradiction(&cold, &answer),

@@ -60,7 +60,8 @@ pub fn check(flight: &mut Flight) -> usize {
             let mut cache = if random.below(6) == 0 { random_places(&mut random, flight.shapes) } else { warm };
             let before = cache;
             let mut answer = PairAnswer::default();
-            query(&first, &placed[0], &second, &placed[1], &mut cache, &config, &mut answer).expect("accepted poses");
+            query([first.at(&placed[0]), second.at(&placed[1])], &mut cache, &config, &mut answer)
+                .expect("accepted poses");
             warm = cache;
             from_levels += usize::from(answer.statistics.levels != [0, 0]);
             // As narrow as answers to hard pairs are, or as asked.
@@ -140,5 +141,5 @@ fn not_verified(shapes: [&Shape; 2], poses: &[Pose; 2], answer: &PairAnswer) -> 
     if answer.outcome == Outcome::Undecided {
         return None;
     }
-    verify(shapes[0], &poses[0], shapes[1], &poses[1], answer).err().map(|e| e.to_string())
+    verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], answer).err().map(|e| e.to_string())
 }

@@ -124,7 +124,7 @@ fn answers_are_the_truth() {
             if after != before {
                 complaints.push((number, format!("{answer:?}, the truth is {truth:?}")));
             }
-            if let Err(e) = verify(shapes[0], &poses[0], shapes[1], &poses[1], answer) {
+            if let Err(e) = verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], answer) {
                 complaints.push((number, format!("{e}: {answer:?}")));
             }
             complaints.extend(excess_work_without_levels(shapes, answer).map(|what| (number, what)));
@@ -239,7 +239,7 @@ fn contradiction(one: &PairAnswer, other: &PairAnswer) -> Option<String> {
 fn ask(shapes: [&Shape; 2], poses: [&swiftprox::math::Pose; 2], cache: &mut PairCache) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let config = swiftprox::pair::PairConfig::default();
-    swiftprox::pair::distance(shapes[0], poses[0], shapes[1], poses[1], cache, &config, &mut answer)
+    swiftprox::pair::distance([shapes[0].at(poses[0]), shapes[1].at(poses[1])], cache, &config, &mut answer)
         .expect("accepted poses");
     answer
 }

@@ -8,7 +8,7 @@ use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
+use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Placed, Refinement, Start};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
@@ -82,13 +82,13 @@ struct Session<'a> {
     tally: Tally,
 }
 
-type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
 
 impl Session<'_> {
     fn ask(&self, query: Query, cache: &mut PairCache, config: &PairConfig) -> PairAnswer {
         let mut answer = PairAnswer::default();
         let ([shape1, shape2], [pose1, pose2]) = (self.shapes, &self.poses);
-        query(shape1, pose1, shape2, pose2, cache, config, &mut answer).unwrap();
+        query([shape1.at(pose1), shape2.at(pose2)], cache, config, &mut answer).unwrap();
         answer
     }
 
@@ -192,7 +192,7 @@ impl Session<'_> {
             return Ok(());
         }
         let ([shape1, shape2], [pose1, pose2]) = (self.shapes, &self.poses);
-        verify(shape1, pose1, shape2, pose2, answer).map_err(|e| e.to_string())
+        verify([shape1.at(pose1), shape2.at(pose2)], answer).map_err(|e| e.to_string())
     }
 }
 
@@ -355,7 +355,7 @@ fn coarse_questions_are_answered_by_coarse_levels() {
         let apart = Pose::new(&Matrix::identity(), &Vector::new(0.3, 0.2, 1.5));
         let ask = |query: Query, config: PairConfig| {
             let mut answer = PairAnswer::default();
-            query(&a, &Pose::IDENTITY, &b, &apart, &mut PairCache::default(), &config, &mut answer).unwrap();
+            query([a.at(&Pose::IDENTITY), b.at(&apart)], &mut PairCache::default(), &config, &mut answer).unwrap();
             answer
         };
         let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
@@ -423,9 +423,9 @@ fn each_refinement_visits_the_level_pairs_it_says() {
                     ..PairConfig::default()
                 };
                 let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-                pair::approximate(a, &Pose::IDENTITY, b, &apart, &mut cache, &config, &mut answer).unwrap();
+                pair::approximate([a.at(&Pose::IDENTITY), b.at(&apart)], &mut cache, &config, &mut answer).unwrap();
                 assert_eq!(answer.statistics.levels, *levels, "{refinement:?}: {path:?}");
-                verify(a, &Pose::IDENTITY, b, &apart, &answer).unwrap();
+                verify([a.at(&Pose::IDENTITY), b.at(&apart)], &answer).unwrap();
                 absolute_error = (deviation(a, levels[0]) + deviation(b, levels[1])) * (1.0 - 1e-6);
             }
             path
@@ -446,7 +446,7 @@ fn queries_begin_at_the_levels_that_answered_the_last() {
         let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
         let ask = |query: Query, config: PairConfig, pose: &Pose, cache: &mut PairCache| {
             let mut answer = PairAnswer::default();
-            query(&a, &Pose::IDENTITY, &b, pose, cache, &config, &mut answer).unwrap();
+            query([a.at(&Pose::IDENTITY), b.at(pose)], cache, &config, &mut answer).unwrap();
             answer
         };
         let coarse = PairConfig { absolute_error: 0.1, ..all };
@@ -516,7 +516,7 @@ fn the_short_way_through_levels_answers_as_the_general_way() {
                     }
                     let mut answers = [PairAnswer::default(); 2];
                     for ((cache, answer), config) in caches.iter_mut().zip(&mut answers).zip([&short, &general]) {
-                        pair::approximate(a, &pose1, b, &pose2, cache, config, answer).unwrap();
+                        pair::approximate([a.at(&pose1), b.at(&pose2)], cache, config, answer).unwrap();
                     }
                     // NaN is not equal to NaN.
                     assert_eq!(format!("{:?}", answers[0]), format!("{:?}", answers[1]), "{short:?} {k}");
@@ -551,7 +551,7 @@ fn levels_of_large_bodies_are_used_where_they_save_time() {
             let ask = |query: Query, absolute_error| {
                 let config = PairConfig { absolute_error, ..PairConfig::default() };
                 let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-                query(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
+                query([shape.at(&pose1), shape.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
                 answer
             };
             let exact = ask(pair::distance, 0.0);
@@ -591,7 +591,7 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
     let away = Pose::new(&Matrix::identity(), &Vector::new(4.0, 1.0, 0.5));
     let config = PairConfig { levels: Levels::All, absolute_error: 0.5, ..PairConfig::default() };
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-    pair::approximate(&large, &Pose::IDENTITY, &small, &away, &mut cache, &config, &mut answer).unwrap();
+    pair::approximate([large.at(&Pose::IDENTITY), small.at(&away)], &mut cache, &config, &mut answer).unwrap();
     assert!(answer.upper - answer.lower <= 0.5, "{answer:?}");
     assert!(answer.statistics.levels[0] > 0 && answer.statistics.levels[1] == 0, "{answer:?}");
     assert!(!large.hierarchy().levels.is_empty() && small.hierarchy().levels.is_empty());
@@ -605,7 +605,7 @@ fn automatic_levels_are_made_where_all_are_asked_for() {
                 assert_eq!(shape.hierarchy(), large.hierarchy());
             }
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            query(&shape, &Pose::IDENTITY, &small, &near, &mut cache, &config, &mut answer).unwrap();
+            query([shape.at(&Pose::IDENTITY), small.at(&near)], &mut cache, &config, &mut answer).unwrap();
             assert!(!shape.hierarchy().levels.is_empty());
             assert_eq!(answer.outcome, Outcome::Separated);
             // NaN is not equal to NaN.
@@ -625,7 +625,7 @@ fn a_relative_error_is_answered_by_levels_of_bodies_far_apart() {
     let all = PairConfig { levels: Levels::All, ..relative };
     let ask = |[a, b]: [&Shape; 2], pose: &Pose, config: PairConfig, cache: &mut PairCache| {
         let mut answer = PairAnswer::default();
-        pair::approximate(a, &Pose::IDENTITY, b, pose, cache, &config, &mut answer).unwrap();
+        pair::approximate([a.at(&Pose::IDENTITY), b.at(pose)], cache, &config, &mut answer).unwrap();
         answer
     };
     // Spheres that overlap promise no distance, and of a small one 0.5 % are too little.
@@ -646,7 +646,7 @@ fn a_relative_error_is_answered_by_levels_of_bodies_far_apart() {
                 let answer = ask(shapes, &pose, config, cache);
                 assert!(answer.statistics.levels.iter().all(|level| *level > 0), "{k}: {answer:?}");
                 assert!(answer.lower > 0.0 && answer.upper - answer.lower <= 0.05 * answer.lower, "{k}: {answer:?}");
-                verify(shapes[0], &Pose::IDENTITY, shapes[1], &pose, &answer).unwrap();
+                verify([shapes[0].at(&Pose::IDENTITY), shapes[1].at(&pose)], &answer).unwrap();
             }
         }
     }
@@ -667,7 +667,7 @@ fn no_levels_are_made_where_nothing_asks_for_them() {
     skewed.rows[0][0] = f64::NAN;
     let ask = |query: Query, pose: &Pose, config: PairConfig| {
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-        query(&shape, &Pose::IDENTITY, &shape, pose, &mut cache, &config, &mut answer).map(|()| answer.decided_by)
+        query([shape.at(&Pose::IDENTITY), shape.at(pose)], &mut cache, &config, &mut answer).map(|()| answer.decided_by)
     };
     let plain = PairConfig::default();
     let nan = PairConfig { distance_tolerance: f64::NAN, ..plain };
@@ -688,7 +688,7 @@ fn no_levels_are_made_where_nothing_asks_for_them() {
     // One vertex less than it takes.
     let smaller = Shape::from_mesh(&ellipsoid([1.0, 0.6, 0.3], 99_999).unwrap(), &ShapeOptions::default()).unwrap();
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-    pair::intersection(&shape, &Pose::IDENTITY, &smaller, &at(1.2), &mut cache, &plain, &mut answer).unwrap();
+    pair::intersection([shape.at(&Pose::IDENTITY), smaller.at(&at(1.2))], &mut cache, &plain, &mut answer).unwrap();
     assert_eq!((shape.hierarchy(), smaller.hierarchy()), (&Hierarchy::AUTOMATIC, &Hierarchy::AUTOMATIC));
     ask(pair::intersection, &at(1.2), plain).unwrap();
     assert!(shape.hierarchy().levels.len() > 3);
@@ -718,7 +718,7 @@ fn what_is_made_already_changes_no_answer() {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
             let config = PairConfig { absolute_error, ..PairConfig::default() };
             let [a, b] = &shapes;
-            pair::approximate(a, &Pose::IDENTITY, b, &away, &mut cache, &config, &mut answer).unwrap();
+            pair::approximate([a.at(&Pose::IDENTITY), b.at(&away)], &mut cache, &config, &mut answer).unwrap();
             // NaN is not equal to NaN.
             format!("{answer:?} {cache:?}")
         });
@@ -742,7 +742,8 @@ fn settings_out_of_range_are_refused() {
         for levels in [Levels::Automatic, Levels::All] {
             let config = PairConfig { levels, ..config };
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            let result = pair::approximate(&a, &Pose::IDENTITY, &b, &Pose::IDENTITY, &mut cache, &config, &mut answer);
+            let result =
+                pair::approximate([a.at(&Pose::IDENTITY), b.at(&Pose::IDENTITY)], &mut cache, &config, &mut answer);
             assert!(matches!(result, Err(Error::Argument(_))), "{config:?}");
             assert_eq!((answer.outcome, cache), (Outcome::None, PairCache::default()));
         }

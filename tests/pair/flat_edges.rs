@@ -27,7 +27,7 @@ fn an_edge_under_a_flat_ridge_is_inside() {
             for f in 0..shapes[1].polyhedron().edges.len() as u32 {
                 let (mut cache, config) = (cache_of_features(6, [e, f]), PairConfig::default());
                 let mut answer = PairAnswer::default();
-                distance(&shapes[0], &poses[0], &shapes[1], &poses[1], &mut cache, &config, &mut answer).unwrap();
+                distance([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &mut cache, &config, &mut answer).unwrap();
                 if answer.outcome != Outcome::Intersecting {
                     wrong.push((drop, slope, answer));
                 }
@@ -52,7 +52,7 @@ fn the_thinnest_plate_across_a_cube_meets_it() {
             let at = Pose::new(&Matrix::identity(), &Vector::new(-32.0, 0.0, -32.0));
             let mut answer = PairAnswer::default();
             let config = PairConfig::default();
-            distance(&cube, &at, &plate, &pose, &mut PairCache::default(), &config, &mut answer).unwrap();
+            distance([cube.at(&at), plate.at(&pose)], &mut PairCache::default(), &config, &mut answer).unwrap();
             assert_eq!(answer.outcome, Outcome::Intersecting, "{half:e}: {answer:?}");
         }
     }
@@ -82,7 +82,7 @@ fn beyond_the_tip_of_a_needle_is_no_face() {
             let truth = solve(large.polyhedron(), &poses[0], needle.polyhedron(), &poses[1], &[]);
             let (mut cache, config) = (cache_of_features(4, [vertex as u32, index as u32]), PairConfig::default());
             let mut answer = PairAnswer::default();
-            distance(&large, &poses[0], &needle, &poses[1], &mut cache, &config, &mut answer).unwrap();
+            distance([large.at(&poses[0]), needle.at(&poses[1])], &mut cache, &config, &mut answer).unwrap();
             let is_right = truth.intersecting == (answer.outcome == Outcome::Intersecting)
                 && answer.lower <= truth.upper
                 && truth.lower <= answer.upper;

@@ -16,7 +16,7 @@ fn shape(mesh: swiftprox::error::Result<PolygonMesh>) -> Shape {
 
 fn contact(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
-    pair::contact(shape1, pose1, shape2, pose2, &mut PairCache::default(), &PairConfig::default(), &mut answer)
+    pair::contact([shape1.at(pose1), shape2.at(pose2)], &mut PairCache::default(), &PairConfig::default(), &mut answer)
         .unwrap();
     answer
 }
@@ -104,9 +104,10 @@ fn rotated_prisms_of_many_sides_are_marched() {
             let pose1 = Pose::new(&random.rotation(), &Vector::zeros());
             let pose2 = Pose::new(&random.rotation(), &(random.direction() * random.uniform(3.0, 4.0)));
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            pair::distance(&prism, &pose1, &prism, &pose2, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+            pair::distance([prism.at(&pose1), prism.at(&pose2)], &mut cache, &PairConfig::default(), &mut answer)
+                .unwrap();
             assert_eq!(answer.decided_by, DecidedBy::Marching);
-            verify(&prism, &pose1, &prism, &pose2, &answer).unwrap();
+            verify([prism.at(&pose1), prism.at(&pose2)], &answer).unwrap();
         }
     }
 }

@@ -19,7 +19,7 @@ const CASES_PER_FAMILY: usize = 2_000;
 fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let (mut cache, config) = (PairCache::default(), PairConfig::default());
-    distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).expect("accepted poses");
+    distance([shape1.at(pose1), shape2.at(pose2)], &mut cache, &config, &mut answer).expect("accepted poses");
     answer
 }
 
@@ -191,7 +191,8 @@ fn threads_do_not_matter() {
                     for query in [distance, contact, intersection] {
                         let mut answer = PairAnswer::default();
                         let config = PairConfig::default();
-                        query(shape1, &pose1, shape2, &pose2, &mut cache, &config, &mut answer).expect("rotations");
+                        query([shape1.at(&pose1), shape2.at(&pose2)], &mut cache, &config, &mut answer)
+                            .expect("rotations");
                         answers.push(bits(&answer));
                     }
                 }

@@ -19,7 +19,7 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::solve::frame::{Frame, Marker};
 use swiftprox::solve::state::State;
 use swiftprox::tables::nearest_vertex::{AllVertices, NearestVertex};
-use swiftprox::tables::tuning::LEAST_VERTICES;
+use swiftprox::tables::tuning::LEAST_VERTICES_FOR_TABLE;
 use swiftprox::tables::{LookupKind, LookupOptions, build_table, table};
 use swiftprox::verify::verify;
 use testkit::models::{cuboid, ellipsoid, grid_on_cube, prism, random_hull};
@@ -266,7 +266,8 @@ fn steps_of_disjoint_pairs(half_axes: [f64; 3]) -> ([f64; 2], [f64; 2]) {
         for (i, start) in [Start::Table, Start::Cold].into_iter().enumerate() {
             let config = PairConfig { start, ..PairConfig::default() };
             let mut answer = PairAnswer::default();
-            pair::distance(&shape, &pose1, &shape, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+            pair::distance([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), &config, &mut answer)
+                .unwrap();
             is_disjoint = answer.outcome == Outcome::Separated;
             if is_disjoint {
                 steps[i] += answer.statistics.marching_steps;
@@ -309,12 +310,12 @@ fn thin_bodies_have_shells_within_their_bounding_sphere() {
 #[test]
 fn tables_are_made_where_they_are_asked_for() {
     let made = |mesh: &PolygonMesh, kind| table(shape(mesh, kind, 0).polyhedron()).clone();
-    let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES).unwrap());
+    let (small, large) = (cuboid([1.0; 3]).unwrap(), ellipsoid([1.0; 3], LEAST_VERTICES_FOR_TABLE).unwrap());
     assert_eq!(made(&small, LookupKind::Automatic), Table::None);
     assert!(matches!(made(&large, LookupKind::Automatic), Table::Shells(_)));
     assert_eq!(made(&large, LookupKind::None), Table::None);
     // Squares on a cube make no large body of it.
-    assert!(turned_grid(5, LookupKind::Automatic).polyhedron().vertices.len() > LEAST_VERTICES);
+    assert!(turned_grid(5, LookupKind::Automatic).polyhedron().vertices.len() > LEAST_VERTICES_FOR_TABLE);
     assert_eq!(*table(turned_grid(5, LookupKind::Automatic).polyhedron()), Table::None);
     assert!(matches!(made(&small, LookupKind::Shells), Table::Shells(_)));
     assert!(matches!(made(&small, LookupKind::Spherical), Table::Spherical(t) if t.resolution == 32));
@@ -339,7 +340,7 @@ fn tables_are_made_by_the_first_query_that_looks_into_them() {
         assert_eq!(before, 0);
         let config = PairConfig { start, ..PairConfig::default() };
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-        pair::distance(&first, &Pose::IDENTITY, &second, &away, &mut cache, &config, &mut answer).unwrap();
+        pair::distance([first.at(&Pose::IDENTITY), second.at(&away)], &mut cache, &config, &mut answer).unwrap();
         for shape in [&first, &second] {
             let (made, all) = bytes(shape);
             assert_eq!((made > 0, all), (looks, body + made), "{kind:?} {start:?}");
@@ -381,7 +382,8 @@ fn bodies_without_interior_have_tables_too() {
             let mut away = pose;
             away.rows[2][3] = 3.0;
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            pair::distance(&shape, &pose, &shape, &away, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+            pair::distance([shape.at(&pose), shape.at(&away)], &mut cache, &PairConfig::default(), &mut answer)
+                .unwrap();
             assert_eq!(answer.outcome, Outcome::Separated);
             assert!(answer.lower <= 3.0 && answer.upper >= 3.0, "{answer:?}");
         }
@@ -455,8 +457,9 @@ fn answers_do_not_depend_on_tables_or_starts() {
                     let shapes = [&shapes[k % 3], &shapes[k / 3 % 3]];
                     let config = PairConfig { start: starts[k / 9], ..PairConfig::default() };
                     let mut answer = PairAnswer::default();
-                    pair::distance(shapes[0], &poses[0], shapes[1], &poses[1], cache, &config, &mut answer).unwrap();
-                    verify(shapes[0], &poses[0], shapes[1], &poses[1], &answer).unwrap();
+                    pair::distance([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], cache, &config, &mut answer)
+                        .unwrap();
+                    verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &answer).unwrap();
                     let first = first.get_or_insert(answer);
                     let agrees =
                         first.outcome == answer.outcome && first.lower <= answer.upper && answer.lower <= first.upper;
@@ -478,7 +481,7 @@ fn a_cold_start_is_one_through_all_levels_too() {
         let [none, all] = [Levels::None, Levels::All].map(|levels| {
             let config = PairConfig { start: Start::Cold, levels, ..PairConfig::default() };
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            pair::distance(&shape, &placed[0], &shape, &placed[1], &mut cache, &config, &mut answer).unwrap();
+            pair::distance([shape.at(&placed[0]), shape.at(&placed[1])], &mut cache, &config, &mut answer).unwrap();
             answer.statistics.marching_steps
         });
         assert_eq!(none, all);
@@ -493,8 +496,8 @@ fn mean_steps([shape1, shape2]: [&Shape; 2], start: Start, step: Step) -> f64 {
     let poses = poses(ORBITS[0], step, 500);
     for numbers in &poses {
         let [pose1, pose2] = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
-        pair::distance(shape1, &pose1, shape2, &pose2, &mut cache, &config, &mut answer).unwrap();
-        verify(shape1, &pose1, shape2, &pose2, &answer).unwrap();
+        pair::distance([shape1.at(&pose1), shape2.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
+        verify([shape1.at(&pose1), shape2.at(&pose2)], &answer).unwrap();
         steps += answer.statistics.marching_steps;
     }
     f64::from(steps) / poses.len() as f64
@@ -632,7 +635,7 @@ fn rolling_plates_do_not_begin_at_their_last_vertices() {
                 let placed = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
                 let roll = rotation(&Vector::x(), i as f64 * PI / 3.0);
                 let rolled = Pose::new(&(placed[1].rotation() * roll), &placed[1].translation());
-                pair::distance(&shape, &placed[0], &shape, &rolled, &mut cache, &config, &mut answer).unwrap();
+                pair::distance([shape.at(&placed[0]), shape.at(&rolled)], &mut cache, &config, &mut answer).unwrap();
                 steps += answer.statistics.marching_steps;
             }
             f64::from(steps) / 500.0
@@ -660,8 +663,8 @@ fn undecided_at_random(shape: &Shape, start: Start, goes_on: bool) -> [usize; 3]
         if !goes_on {
             cache = PairCache::default();
         }
-        pair::distance(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
-        verify(shape, &pose1, shape, &pose2, &answer).unwrap();
+        pair::distance([shape.at(&pose1), shape.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
+        verify([shape.at(&pose1), shape.at(&pose2)], &answer).unwrap();
         if answer.outcome == Outcome::Separated {
             counts[0] += 1;
             let is_undecided = answer.decided_by != DecidedBy::Marching;

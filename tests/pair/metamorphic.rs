@@ -82,14 +82,16 @@ fn answers(shape: &Shape, how: &Retelling, with_levels: bool) -> Vec<(Outcome, f
         for query in [distance, intersection, contact, distance] {
             let mut answer = PairAnswer::default();
             let config = PairConfig::default();
-            query(shape, &poses[0], shape, &poses[1], &mut cache, &config, &mut answer).expect("accepted poses");
+            query([shape.at(&poses[0]), shape.at(&poses[1])], &mut cache, &config, &mut answer)
+                .expect("accepted poses");
             told.push(answer);
         }
         if with_levels {
             let absolute_error = 0.125 * power_of_two(how.exponent);
             let config = PairConfig { absolute_error, levels: Levels::All, ..PairConfig::default() };
             let mut answer = PairAnswer::default();
-            approximate(shape, &poses[0], shape, &poses[1], &mut cache, &config, &mut answer).expect("accepted poses");
+            approximate([shape.at(&poses[0]), shape.at(&poses[1])], &mut cache, &config, &mut answer)
+                .expect("accepted poses");
             told.push(answer);
         }
     }

@@ -23,7 +23,7 @@ fn octahedron() -> Shape {
 fn query(shapes: [&Shape; 2], poses: [&Pose; 2]) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let (mut cache, config) = (PairCache::default(), PairConfig::default());
-    contact(shapes[0], poses[0], shapes[1], poses[1], &mut cache, &config, &mut answer).unwrap();
+    contact([shapes[0].at(poses[0]), shapes[1].at(poses[1])], &mut cache, &config, &mut answer).unwrap();
     answer
 }
 
@@ -85,7 +85,7 @@ fn the_filter_accepts_only_what_integers_confirm() {
         }
         let pairs = [[0, 0], [1, 0], [2, 0], [3, 0]];
         let frame = Frame::<Portable>::new(polyhedra, [&pose, &Pose::IDENTITY], ROTATION_LIMIT);
-        assert!(frame.usual);
+        assert!(frame.in_range);
         let truth = exact::encloses_origin(polyhedra[0], &pose, polyhedra[1], &Pose::IDENTITY, &pairs);
         match encloses_origin(&frame, &pairs) {
             Some(weights) => {
@@ -199,8 +199,8 @@ fn a_cache_never_changes_a_verdict() {
                 let ask = if number % 3 == 0 { intersection } else { distance };
                 let (mut cold, mut warm) = (PairAnswer::default(), PairAnswer::default());
                 let mut fresh = PairCache::default();
-                ask(first, &poses[0], second, &poses[1], &mut fresh, &config, &mut cold).unwrap();
-                ask(first, &poses[0], second, &poses[1], &mut cache, &config, &mut warm).unwrap();
+                ask([first.at(&poses[0]), second.at(&poses[1])], &mut fresh, &config, &mut cold).unwrap();
+                ask([first.at(&poses[0]), second.at(&poses[1])], &mut cache, &config, &mut warm).unwrap();
                 assert_eq!(cold.outcome, warm.outcome, "{poses:?}");
                 assert!(cold.lower <= warm.upper && warm.lower <= cold.upper, "{cold:?} {warm:?}");
                 intersecting += i32::from(cold.outcome == Outcome::Intersecting);

@@ -2,7 +2,7 @@
 //! promised for hard cases, on every case of every family, with a cold cache and with one that another pair has filled.
 
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, contact, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 use testkit::cases::{Case, FAMILIES, Random};
@@ -66,7 +66,7 @@ fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<DecidedBy,
         let mut cold = PairCache::default();
         for cache in [&mut cold, &mut *dirty] {
             let mut answer = PairAnswer::default();
-            query(&a, &case.pose_a, &b, &case.pose_b, cache, &config, &mut answer).map_err(|e| e.to_string())?;
+            query([a.at(&case.pose_a), b.at(&case.pose_b)], cache, &config, &mut answer).map_err(|e| e.to_string())?;
             let wrong = |what: &str| Err(format!("{name}: {what}: {answer:?}, the truth is {truth:?}"));
             let said = match answer.outcome {
                 Outcome::Intersecting => true,
@@ -89,7 +89,7 @@ fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<DecidedBy,
             if name == "contact" && !answer.normal.iter().chain(&answer.local1).all(|x| x.is_finite()) {
                 return wrong("a contact without point or normal");
             }
-            if let Err(e) = verify(&a, &case.pose_a, &b, &case.pose_b, &answer) {
+            if let Err(e) = verify([a.at(&case.pose_a), b.at(&case.pose_b)], &answer) {
                 return wrong(&format!("it does not verify, {e}"));
             }
             if decided_by == DecidedBy::None {
@@ -100,8 +100,7 @@ fn check(case: &Case, truth: &Truth, dirty: &mut PairCache) -> Result<DecidedBy,
     Ok(decided_by)
 }
 
-type Query =
-    fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 /// Positive, unless no positive double is small enough.
 fn is_lower_bound(lower: f64, truth: &Truth) -> bool {

@@ -4,13 +4,13 @@
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
-use swiftprox::pair::{self, DecidedBy, Levels, PairAnswer, PairCache, PairConfig, Start};
+use swiftprox::pair::{self, DecidedBy, Levels, PairAnswer, PairCache, PairConfig, Placed, Start};
 use swiftprox::scene::{Scene, SceneOptions};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::ellipsoid;
 use testkit::shapes::at;
 
-type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
 const QUERIES: [Query; 4] = [pair::distance, pair::intersection, pair::contact, pair::approximate];
 const STARTS: [Start; 4] = [Start::Automatic, Start::Cache, Start::Table, Start::Cold];
@@ -45,12 +45,12 @@ fn a_pose_beyond_the_callers_own_limit_is_refused_whatever_the_cache_says() {
     for (query, config) in configurations() {
         for x in [0.1, 5.0] {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
-            query(&body, &at(0.0, 0.0, 0.0), &body, &stretched(x), &mut cache, &config, &mut answer).unwrap();
+            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer).unwrap();
+            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&stretched(x))], &mut cache, &config, &mut answer).unwrap();
             let (cache_before, answer_before) = (cache, answer);
             let strict = PairConfig { rotation_limit: 1e-3, ..config };
             for poses in [[at(0.0, 0.0, 0.0), stretched(x)], [stretched(x), at(0.0, 0.0, 0.0)]] {
-                let result = query(&body, &poses[0], &body, &poses[1], &mut cache, &strict, &mut answer);
+                let result = query([body.at(&poses[0]), body.at(&poses[1])], &mut cache, &strict, &mut answer);
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {strict:?} at {x}");
                 assert_eq!(cache, cache_before, "{strict:?} at {x}");
                 assert_eq!(format!("{answer:?}"), format!("{answer_before:?}"), "{strict:?} at {x}");
@@ -67,13 +67,14 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
         for x in [0.1, 5.0] {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
             for _ in 0..2 {
-                query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
+                query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer)
+                    .unwrap();
             }
             coherent += usize::from(answer.decided_by == DecidedBy::Coherence);
             let (cache_before, answer_before) = (cache, answer);
             let mirrored = Pose::new(&Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0)), &Vector::zeros());
             for pose in [at(f64::NAN, 0.0, 0.0), at(f64::INFINITY, 0.0, 0.0), mirrored] {
-                let result = query(&body, &pose, &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer);
+                let result = query([body.at(&pose), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer);
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {config:?} at {pose:?}");
             }
             for refused in [
@@ -86,7 +87,7 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
                 PairConfig { rotation_limit: 0.5, distance_tolerance: 0.1, ..config },
             ] {
                 let result =
-                    query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &refused, &mut answer);
+                    query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &refused, &mut answer);
                 assert!(matches!(result, Err(Error::Argument(_))), "{result:?} of {refused:?}");
             }
             assert_eq!(cache, cache_before, "{config:?} at {x}");
@@ -106,7 +107,7 @@ fn exact_queries_do_not_look_at_what_is_for_approximate_ones() {
                 let ask = |config: PairConfig| {
                     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
                     let poses = [at(0.0, 0.0, 0.0), at(x, 0.0, 0.0)];
-                    query(&body, &poses[0], &body, &poses[1], &mut cache, &config, &mut answer).unwrap();
+                    query([body.at(&poses[0]), body.at(&poses[1])], &mut cache, &config, &mut answer).unwrap();
                     format!("{answer:?} {cache:?}")
                 };
                 let config = PairConfig { levels, ..PairConfig::default() };
@@ -128,7 +129,8 @@ fn a_pair_takes_the_rotation_limits_that_a_scene_takes_and_refuses_others_in_the
         for (query, config) in configurations() {
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
             let config = PairConfig { rotation_limit, ..config };
-            query(&body, &at(0.0, 0.0, 0.0), &body, &at(5.0, 0.0, 0.0), &mut cache, &config, &mut answer).unwrap();
+            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(5.0, 0.0, 0.0))], &mut cache, &config, &mut answer)
+                .unwrap();
         }
     }
     for rotation_limit in [-1.0, 2.0 * ROTATION_LIMIT, f64::INFINITY, f64::NAN] {
@@ -138,7 +140,7 @@ fn a_pair_takes_the_rotation_limits_that_a_scene_takes_and_refuses_others_in_the
                 let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
                 let config = PairConfig { rotation_limit, ..config };
                 let result =
-                    query(&body, &at(0.0, 0.0, 0.0), &body, &at(x, 0.0, 0.0), &mut cache, &config, &mut answer);
+                    query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer);
                 assert_eq!(result, Err(of_scene.clone()), "{config:?}");
             }
         }

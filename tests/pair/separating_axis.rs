@@ -5,7 +5,7 @@ use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{
-    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, approximate, contact, distance, intersection,
+    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, approximate, contact, distance, intersection,
 };
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;
@@ -13,7 +13,7 @@ use testkit::models::{self, ellipsoid};
 use testkit::orbits::{ORBITS, Orbit, Step, poses};
 use testkit::random::Random;
 
-type Query = fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
 
 const COUNT: usize = 400;
 
@@ -34,10 +34,10 @@ fn fly(shape: &Shape, orbit: Orbit, step: &str) -> [usize; 3] {
         let distance_tolerance = if number % 8 == 7 { 1.0 } else { f64::INFINITY };
         let config = PairConfig { distance_tolerance, ..PairConfig::default() };
         let [pose1, pose2] = [&pose[..12], &pose[12..]].map(|m| Pose::from_row_major(m.try_into().unwrap()));
-        intersection(shape, &pose1, shape, &pose2, &mut cache, &config, &mut answer).unwrap();
-        distance(shape, &pose1, shape, &pose2, &mut PairCache::default(), &config, &mut exact).unwrap();
+        intersection([shape.at(&pose1), shape.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
+        distance([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), &config, &mut exact).unwrap();
         assert_eq!(answer.outcome, exact.outcome);
-        verify(shape, &pose1, shape, &pose2, &answer).unwrap();
+        verify([shape.at(&pose1), shape.at(&pose2)], &answer).unwrap();
         assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
         if answer.outcome == Outcome::Separated && number % 8 != 7 {
             counts[match answer.decided_by {
@@ -100,13 +100,13 @@ fn spheres_decide_where_they_may() {
         let config = PairConfig { distance_tolerance, ..PairConfig::default() };
         let mut exact = PairAnswer::default();
         let ask = |query: Query, config: &PairConfig, answer: &mut PairAnswer| {
-            query(&shape, &pose1, &shape, &pose2, &mut PairCache::default(), config, answer).unwrap();
+            query([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), config, answer).unwrap();
         };
         ask(distance, &PairConfig::default(), &mut exact);
         for (i, query) in [intersection as Query, distance, contact, approximate].into_iter().enumerate() {
             let mut answer = PairAnswer::default();
             ask(query, &config, &mut answer);
-            verify(&shape, &pose1, &shape, &pose2, &answer).unwrap();
+            verify([shape.at(&pose1), shape.at(&pose2)], &answer).unwrap();
             assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
             let is_beyond = answer.outcome == Outcome::Beyond;
             assert!(if is_beyond { answer.lower >= distance_tolerance } else { answer.upper <= distance_tolerance });
@@ -128,8 +128,8 @@ fn verdicts_and_distances_take_turns() {
     for (number, pose) in poses(near, "0.1".parse().unwrap(), COUNT).iter().enumerate() {
         let [pose1, pose2] = [&pose[..12], &pose[12..]].map(|m| Pose::from_row_major(m.try_into().unwrap()));
         let query = if number % 2 == 0 { intersection } else { distance };
-        query(&shape, &pose1, &shape, &pose2, &mut cache, &PairConfig::default(), &mut answer).unwrap();
-        verify(&shape, &pose1, &shape, &pose2, &answer).unwrap();
+        query([shape.at(&pose1), shape.at(&pose2)], &mut cache, &PairConfig::default(), &mut answer).unwrap();
+        verify([shape.at(&pose1), shape.at(&pose2)], &answer).unwrap();
         if number > 1 {
             assert_eq!(answer.decided_by == DecidedBy::Coherence, number % 2 == 0, "{number}");
             steps += answer.statistics.marching_steps;

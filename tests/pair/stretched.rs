@@ -85,7 +85,8 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
         let Some(mut cache) = forced else { continue };
         let query = [distance, intersection, contact][if start < 3 { start } else { random.below(3) }];
         let mut answer = PairAnswer::default();
-        query(&shapes[0], &poses[0], &shapes[1], &poses[1], &mut cache, &config, &mut answer).expect("accepted poses");
+        query([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &mut cache, &config, &mut answer)
+            .expect("accepted poses");
         let is_separated = answer.outcome != Outcome::Intersecting;
         tally.queries += 1;
         tally.separated += u64::from(is_separated);
@@ -93,7 +94,7 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
         if let Err(what) = check_answer(&answer, &truth, config.distance_tolerance) {
             tally.violations.push(format!("{name}: {what}: {answer:?}, the truth is {truth:?}"));
         }
-        if let Err(error) = verify(&shapes[0], &poses[0], &shapes[1], &poses[1], &answer) {
+        if let Err(error) = verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &answer) {
             tally.violations.push(format!("{name}: {error}: {answer:?}"));
         }
     }

@@ -11,7 +11,7 @@ use testkit::shapes::{at, cuboid, hull};
 fn distance(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let mut cache = PairCache::default();
-    pair::distance(a, pose_a, b, pose_b, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+    pair::distance([a.at(pose_a), b.at(pose_b)], &mut cache, &PairConfig::default(), &mut answer).unwrap();
     answer
 }
 
@@ -53,7 +53,7 @@ fn a_witness_point_on_a_sliver_is_in_its_body() {
         },
     );
     let answer = distance(&plate, &pose1, &sliver, &pose2);
-    verify(&plate, &pose1, &sliver, &pose2, &answer).unwrap();
+    verify([plate.at(&pose1), sliver.at(&pose2)], &answer).unwrap();
 }
 
 #[test]
@@ -66,7 +66,7 @@ fn answers_for_bodies_of_subnormal_size_verify() {
         let (a, b) = (body(), body());
         let away = at(least * (4000.0 * random.uniform(0.0, 1.0)).floor(), 0.0, 0.0);
         let answer = distance(&a, &at(0.0, 0.0, 0.0), &b, &away);
-        let checked = verify(&a, &at(0.0, 0.0, 0.0), &b, &away, &answer);
+        let checked = verify([a.at(&at(0.0, 0.0, 0.0)), b.at(&away)], &answer);
         assert!(checked.is_ok(), "case {case}: {checked:?}, {answer:?}");
     }
 }
@@ -79,11 +79,11 @@ fn an_upper_end_below_the_gap_is_refuted() {
     let mut answer = PairAnswer::default();
     let mut cache = PairCache::default();
     let config = PairConfig::default();
-    pair::intersection(&tetrahedron, &here, &tetrahedron, &there, &mut cache, &config, &mut answer).unwrap();
+    pair::intersection([tetrahedron.at(&here), tetrahedron.at(&there)], &mut cache, &config, &mut answer).unwrap();
     assert_eq!(answer.outcome, Outcome::Separated);
-    verify(&tetrahedron, &here, &tetrahedron, &there, &answer).unwrap();
+    verify([tetrahedron.at(&here), tetrahedron.at(&there)], &answer).unwrap();
     (answer.lower, answer.distance, answer.upper) = (0.5, 1.0, 1.5);
-    let refused = verify(&tetrahedron, &here, &tetrahedron, &there, &answer);
+    let refused = verify([tetrahedron.at(&here), tetrahedron.at(&there)], &answer);
     assert!(matches!(&refused, Err(Error::Unverified(message)) if message.contains("1.5e0")), "{refused:?}");
 }
 
@@ -109,7 +109,7 @@ fn cubes() -> ([Shape; 2], [Pose; 2]) {
 
 #[track_caller]
 fn each_is_refused(forgeries: &[Forgery], shapes: &[Shape; 2], poses: &[Pose; 2], answer: &PairAnswer) {
-    let check = |answer: &PairAnswer| verify(&shapes[0], &poses[0], &shapes[1], &poses[1], answer);
+    let check = |answer: &PairAnswer| verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], answer);
     check(answer).unwrap();
     for Forgery { what, refused, change } in forgeries {
         let mut forged = *answer;
@@ -167,7 +167,7 @@ fn whatever_a_contact_says_is_checked() {
     let touching = [poses[0], at(2.0, 0.5, 0.25)];
     let mut answer = PairAnswer::default();
     let (mut cache, config) = (PairCache::default(), PairConfig::default());
-    pair::contact(&shapes[0], &touching[0], &shapes[1], &touching[1], &mut cache, &config, &mut answer).unwrap();
+    pair::contact([shapes[0].at(&touching[0]), shapes[1].at(&touching[1])], &mut cache, &config, &mut answer).unwrap();
     assert_eq!((answer.outcome, answer.feature1.kind), (Outcome::Intersecting, FeatureKind::Face));
     let forgeries = [
         forgery("a distance", "not 0", |a| a.upper = 1e-300),
@@ -218,7 +218,7 @@ fn what_doubles_cannot_check_is_said() {
     // The line passes the edge from (4, 1.5, 0.5) to (4, 1.5, 1.5).
     assert!(answer.lower > 4.0 && answer.upper < 4.0001, "{answer:?}");
     assert!(
-        matches!(verify(&line, &pose1, &cube, &pose2, &answer), Err(Error::Argument(m)) if m.contains("too large"))
+        matches!(verify([line.at(&pose1), cube.at(&pose2)], &answer), Err(Error::Argument(m)) if m.contains("too large"))
     );
 }
 
@@ -229,15 +229,15 @@ fn bodies_that_touch_are_not_said_to_be_apart() {
     let here = at(0.0, 0.0, 0.0);
     let apart = distance(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here);
     assert_eq!(apart.outcome, Outcome::Separated);
-    verify(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here, &apart).unwrap();
+    verify([cube.at(&at(1.0 + f64::EPSILON, 0.0, 0.0)), cube.at(&here)], &apart).unwrap();
     let touching = at(1.0, 0.0, 0.0);
     let mut forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-15, ..apart };
     (forged.local1, forged.world1) = ([-0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
     (forged.local2, forged.world2) = ([0.5, 0.0, 0.0], [0.5, 0.0, 0.0]);
-    let refused = verify(&cube, &touching, &cube, &here, &forged);
+    let refused = verify([cube.at(&touching), cube.at(&here)], &forged);
     assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("intersect")), "{refused:?}");
     // Nor is a true gap said to be another one.
     let forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-16, ..apart };
-    let refused = verify(&cube, &at(1.0 + f64::EPSILON, 0.0, 0.0), &cube, &here, &forged);
+    let refused = verify([cube.at(&at(1.0 + f64::EPSILON, 0.0, 0.0)), cube.at(&here)], &forged);
     assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
 }

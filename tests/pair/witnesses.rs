@@ -22,7 +22,7 @@ fn hull(points: &[[f64; 3]]) -> Shape {
 fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let config = PairConfig::default();
-    distance(shape1, pose1, shape2, pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+    distance([shape1.at(pose1), shape2.at(pose2)], &mut PairCache::default(), &config, &mut answer).unwrap();
     answer
 }
 
@@ -57,7 +57,7 @@ fn contacts_of_the_largest_bodies_end() {
     for other in [&largest, &small] {
         let mut answer = PairAnswer::default();
         let (pose, config) = (&Pose::IDENTITY, PairConfig::default());
-        contact(&largest, pose, other, pose, &mut PairCache::default(), &config, &mut answer).unwrap();
+        contact([largest.at(pose), other.at(pose)], &mut PairCache::default(), &config, &mut answer).unwrap();
         assert_eq!(answer.outcome, Outcome::Intersecting);
         assert!(answer.normal.iter().all(|x| x.is_finite()), "{answer:?}");
     }
@@ -124,7 +124,7 @@ fn the_point_of_a_contact_is_common() {
             let pose = at(0.3, -0.2, 0.4);
             let mut answer = PairAnswer::default();
             let (cache, config) = (&mut PairCache::default(), PairConfig::default());
-            contact(&segment, &pose, &cube, &Pose::IDENTITY, cache, &config, &mut answer).unwrap();
+            contact([segment.at(&pose), cube.at(&Pose::IDENTITY)], cache, &config, &mut answer).unwrap();
             assert_eq!(answer.outcome, Outcome::Intersecting);
             let apart = (Vector::from(answer.world1) - Vector::from(answer.world2)).norm();
             // As wide as the widest interval of a hard pair.
@@ -164,7 +164,7 @@ fn answers_at_the_ends_of_the_range_verify() {
         let pose = at(0.0, size, 0.0);
         let answer = ask(&point, &pose, &point, &Pose::IDENTITY);
         assert!(answer.lower <= size && size <= answer.upper && answer.outcome == Outcome::Separated);
-        assert_eq!(verify(&point, &pose, &point, &Pose::IDENTITY, &answer), Ok(()), "{size:e}: {answer:?}");
+        assert_eq!(verify([point.at(&pose), point.at(&Pose::IDENTITY)], &answer), Ok(()), "{size:e}: {answer:?}");
     }
 }
 
@@ -187,8 +187,9 @@ fn a_limit_below_rounding_is_kept() {
     (turned.rows[1][0], turned.rows[1][1]) = (0.8, 0.6f64.next_up());
     let config = PairConfig { rotation_limit: 0.0, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
-    let mut ask =
-        |pose: &Pose| distance(&cube, pose, &cube, &Pose::IDENTITY, &mut PairCache::default(), &config, &mut answer);
+    let mut ask = |pose: &Pose| {
+        distance([cube.at(pose), cube.at(&Pose::IDENTITY)], &mut PairCache::default(), &config, &mut answer)
+    };
     assert!(ask(&turned).is_err());
     assert!(ask(&at(0.0, 0.0, 3.0)).is_ok());
 }
@@ -216,9 +217,9 @@ fn crossing_bars_of_extreme_length_have_one_common_point() {
         ],
     };
     let mut answer = PairAnswer::default();
-    contact(&bar, &pose1, &bar, &pose2, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+    contact([bar.at(&pose1), bar.at(&pose2)], &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
     assert_eq!(answer.outcome, Outcome::Intersecting);
-    verify(&bar, &pose1, &bar, &pose2, &answer).unwrap();
+    verify([bar.at(&pose1), bar.at(&pose2)], &answer).unwrap();
 }
 
 /// Marching measures in the bodies' frames with transposed matrices; what it finds is put right where these are not the
@@ -237,7 +238,7 @@ fn matrices_off_orthonormal_are_marched() {
         for (k, [pose1, pose2]) in poses.iter().enumerate() {
             let [shape1, shape2] = [&shapes[k % 8], &shapes[k / 8 % 8]];
             let answer = ask(shape1, pose1, shape2, pose2);
-            verify(shape1, pose1, shape2, pose2, &answer).unwrap();
+            verify([shape1.at(pose1), shape2.at(pose2)], &answer).unwrap();
             assert!(answer.upper - answer.lower <= 2e-14 * answer.upper.max(2.0));
             marched += usize::from(answer.decided_by == DecidedBy::Marching);
         }
@@ -257,7 +258,7 @@ fn features_of_a_deep_contact_look_along_the_normal() {
         let [pose1, pose2] = [Vector::zeros(), away].map(|t| Pose::new(&random.rotation(), &t));
         let mut answer = PairAnswer::default();
         let config = PairConfig::default();
-        contact(&body, &pose1, &body, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+        contact([body.at(&pose1), body.at(&pose2)], &mut PairCache::default(), &config, &mut answer).unwrap();
         assert_eq!(answer.outcome, Outcome::Intersecting);
         let normal = Vector::from(answer.normal);
         let kinds = [answer.feature1.kind, answer.feature2.kind];
@@ -292,7 +293,7 @@ fn normals_of_contacts_overlap_little() {
         let [pose1, pose2] = [Vector::zeros(), random.vector() * 2.0].map(|t| Pose::new(&random.rotation(), &t));
         let mut answer = PairAnswer::default();
         let config = PairConfig::default();
-        contact(&cube, &pose1, &cube, &pose2, &mut PairCache::default(), &config, &mut answer).unwrap();
+        contact([cube.at(&pose1), cube.at(&pose2)], &mut PairCache::default(), &config, &mut answer).unwrap();
         if answer.outcome != Outcome::Intersecting {
             continue;
         }

@@ -1,5 +1,6 @@
 //! Scenes, alone and from several threads.
 
+mod contacts;
 mod motions;
 mod scenes;
 mod soak;

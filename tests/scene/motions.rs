@@ -96,7 +96,7 @@ fn all_pairs(scene: &Scene, tolerance: f64) -> Vec<(Key, PairAnswer)> {
                 for (piece2, shape2) in (0..).zip(object2.pieces()) {
                     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
                     let (pose1, pose2) = (object1.pose(), object2.pose());
-                    pair::distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).unwrap();
+                    pair::distance([shape1.at(pose1), shape2.at(pose2)], &mut cache, &config, &mut answer).unwrap();
                     if answer.outcome != Outcome::Beyond {
                         found.push(((object1.id(), object2.id(), piece1, piece2), answer));
                     }

@@ -468,7 +468,7 @@ fn expected(scene: &Scene) -> Vec<PairResult> {
 fn cold(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {
     let mut answer = PairAnswer::default();
     let (mut cache, config) = (PairCache::default(), PairConfig::default());
-    pair::distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).unwrap();
+    pair::distance([shape1.at(pose1), shape2.at(pose2)], &mut cache, &config, &mut answer).unwrap();
     answer
 }
 
@@ -488,7 +488,7 @@ fn verified(scene: &Scene, pairs: &[PairResult]) {
     for pair in pairs {
         let [object1, object2] = [pair.object1, pair.object2].map(|id| scene.object(id).unwrap());
         let (shape1, shape2) = (&object1.pieces()[pair.piece1 as usize], &object2.pieces()[pair.piece2 as usize]);
-        let checked = verify(shape1, object1.pose(), shape2, object2.pose(), &pair.answer);
+        let checked = verify([shape1.at(object1.pose()), shape2.at(object2.pose())], &pair.answer);
         checked.unwrap_or_else(|e| panic!("{e}: {pair:?}"));
     }
 }

@@ -125,7 +125,7 @@ impl Model {
 fn asked(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, distance_tolerance: f64) -> PairAnswer {
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
     let config = PairConfig { distance_tolerance, ..PairConfig::default() };
-    pair::distance(shape1, pose1, shape2, pose2, &mut cache, &config, &mut answer).unwrap();
+    pair::distance([shape1.at(pose1), shape2.at(pose2)], &mut cache, &config, &mut answer).unwrap();
     answer
 }
 

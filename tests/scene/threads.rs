@@ -43,8 +43,8 @@ fn threads_share_shapes_and_a_scene() {
                 let (a, b) = (shapes[i % 3].clone(), &shapes[(i + 1) % 3]);
                 let poses = [at(0.0, 0.0, 0.0), at(0.375 * i as f64, 0.25 * i as f64, 0.0)];
                 let mut answer = PairAnswer::default();
-                contact(&a, &poses[0], b, &poses[1], &mut cache, &PairConfig::default(), &mut answer).unwrap();
-                verify(&a, &poses[0], b, &poses[1], &answer).unwrap();
+                contact([a.at(&poses[0]), b.at(&poses[1])], &mut cache, &PairConfig::default(), &mut answer).unwrap();
+                verify([a.at(&poses[0]), b.at(&poses[1])], &answer).unwrap();
                 distances.push(answer.distance);
             }
             for (k, id) in ids.iter().enumerate() {

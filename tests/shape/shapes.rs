@@ -4,7 +4,7 @@ use std::path::Path;
 
 use dashu_ratio::RBig;
 use swiftprox::error::Error;
-use swiftprox::hierarchy::{Hierarchy, HierarchyOptions, LEAST_VERTICES};
+use swiftprox::hierarchy::{Hierarchy, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig};
@@ -232,7 +232,7 @@ fn a_large_build_tells_how_far_it_is_and_stops_when_told() {
 
 /// A body of automatic levels.
 fn body_of_automatic_levels() -> Shape {
-    let mesh = testkit::models::ellipsoid([1.0, 0.6, 0.3], LEAST_VERTICES).unwrap();
+    let mesh = testkit::models::ellipsoid([1.0, 0.6, 0.3], LEAST_VERTICES_FOR_LEVELS).unwrap();
     Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap()
 }
 
@@ -246,7 +246,7 @@ fn check_usable(shape: &Shape) {
     let away = Pose::new(&Matrix::identity(), &Vector::new(4.0, 1.0, 0.5));
     let config = PairConfig { levels: Levels::All, absolute_error: 0.5, ..PairConfig::default() };
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-    pair::approximate(shape, &Pose::IDENTITY, shape, &away, &mut cache, &config, &mut answer).unwrap();
+    pair::approximate([shape.at(&Pose::IDENTITY), shape.at(&away)], &mut cache, &config, &mut answer).unwrap();
     assert_eq!(answer.outcome, Outcome::Separated);
     assert!(answer.statistics.levels[0] > 0, "{answer:?}");
 }

@@ -88,7 +88,7 @@ impl<const FIRST: bool> Kernel for Run<'_, FIRST> {
     fn run<L: Lanes>(&mut self) {
         let polyhedron = self.shape.polyhedron();
         let frame = Frame::<L>::new([polyhedron; 2], self.poses, ROTATION_LIMIT);
-        assert!(frame.usual, "the poses are sound");
+        assert!(frame.in_range, "the poses are sound");
         let limit = step_limit([polyhedron; 2]);
         let (march, steps) = marching::march(&frame, self.state, limit, &mut self.keep);
         let (March::Minimum(at) | March::Limit(at) | March::Open(at)) = march;

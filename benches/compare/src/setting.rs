@@ -55,9 +55,7 @@ pub fn setting_of_pair(
 /// A verdict as Ehmann & Lin had it, by marching: neither bounding spheres nor the last separating axis are asked.
 pub fn verdict_by_marching(name: impl Into<String>, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
     const RUNGS: Rungs = Rungs { spheres: false, last_axis: false, ..Rungs::ALL };
-    #[rustfmt::skip]
-    let ask = |shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer| {
-        let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
+    let ask = |bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer| {
         pair::query_with(pair::Query::Intersection, RUNGS, bodies, cache, config, answer)
     };
     Box::new(Setting::new(name.into(), ask, [Rc::clone(shape), Rc::clone(shape)], config))
@@ -84,7 +82,7 @@ impl<Ask> Setting<Ask> {
 
 impl<Ask> Method for Setting<Ask>
 where
-    Ask: Fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
+    Ask: Fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
 {
     fn name(&self) -> &str {
         &self.name
@@ -102,7 +100,7 @@ where
     fn ask(&mut self, i: usize) {
         let [pose1, pose2] = &self.poses[i];
         let ([shape1, shape2], cache, config, answer) = (&self.shapes, &mut self.cache, &self.config, &mut self.answer);
-        self.failed = (self.ask)(shape1, pose1, shape2, pose2, cache, config, answer).is_err();
+        self.failed = (self.ask)([shape1.at(pose1), shape2.at(pose2)], cache, config, answer).is_err();
     }
 
     fn reply(&self) -> Reply {

@@ -76,7 +76,8 @@ impl Program {
         let (shape1, shape2) = (self.shape(u)?, self.shape(u)?);
         let (pose1, pose2) = (any_pose(u)?, any_pose(u)?);
         let config = any_config(u)?;
-        let queries = [swiftprox_pair_approximate, swiftprox_pair_distance, swiftprox_pair_contact, swiftprox_pair_intersection];
+        let queries =
+            [swiftprox_pair_approximate, swiftprox_pair_distance, swiftprox_pair_contact, swiftprox_pair_intersection];
         let query = *u.choose(&queries)?;
         let slot = u.choose_index(self.caches.len())?;
         let answer = Block::new(size_of::<PairAnswer>());

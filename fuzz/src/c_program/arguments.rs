@@ -149,7 +149,8 @@ pub fn pair_config(u: &mut Unstructured) -> Result<Option<Block>> {
         (std::mem::offset_of!(CPairConfig, distance_tolerance), &tolerance[..]),
         (std::mem::offset_of!(CPairConfig, rotation_limit), &limit[..]),
     ];
-    let config = options(u, &CPairConfig { tuning: tuning.at(), ..initialised(swiftprox_pair_config_init_sized) }, &changes)?;
+    let config =
+        options(u, &CPairConfig { tuning: tuning.at(), ..initialised(swiftprox_pair_config_init_sized) }, &changes)?;
     Ok(config.map(|config: Block| config.with(Some(tuning))))
 }
 

@@ -11,6 +11,7 @@ use std::ffi::CStr;
 use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::object::*;
@@ -21,7 +22,6 @@ use swiftprox::ffi::shape_options::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::PairAnswer;
 use swiftprox::shape::Shape;
-use swiftprox::base::simd::environment::Environment;
 
 use model::Scene;
 

@@ -269,7 +269,12 @@ impl Program {
                 }
                 _ => {
                     let (rotations, translations) = (Block::of(&rotations[..count]), Block::of(&translations[..count]));
-                    swiftprox_scene_set_all_transforms(scene.handle, rotations.at(), or_null(u, translations.at())?, count)
+                    swiftprox_scene_set_all_transforms(
+                        scene.handle,
+                        rotations.at(),
+                        or_null(u, translations.at())?,
+                        count,
+                    )
                 }
             })
         }
@@ -335,9 +340,7 @@ impl Program {
         if levels != 0 {
             value.tuning = &tuning;
         }
-        let changes = [
-            (std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..]),
-        ];
+        let changes = [(std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..])];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
         let query = u.int_in_range(0..=3)?;
@@ -452,7 +455,8 @@ impl Program {
                 }
                 _ => {
                     let pairs: Vec<[ObjectId; 2]> = ids.as_chunks().0.to_vec();
-                    let is_pair = |[a, b]: &[ObjectId; 2]| a != b && scene.find(*a).is_some() && scene.find(*b).is_some();
+                    let is_pair =
+                        |[a, b]: &[ObjectId; 2]| a != b && scene.find(*a).is_some() && scene.find(*b).is_some();
                     let is_good = pairs.iter().all(is_pair);
                     let block = Block::of(&ids);
                     let status = swiftprox_scene_set_pairs(scene.handle, block.at(), pairs.len());

@@ -3,6 +3,7 @@
 use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::pair::*;
@@ -10,7 +11,6 @@ use swiftprox::ffi::shape::*;
 use swiftprox::ffi::tuning::*;
 use swiftprox::pair::{Outcome, PairAnswer};
 use swiftprox::shape::Shape;
-use swiftprox::base::simd::environment::Environment;
 
 use super::arguments::{
     Block, any_pose, array, mesh_arrays, mesh_file, options, or_null, pair_config, shape_options, start, temporary_file,
@@ -77,7 +77,15 @@ impl Program {
             let valences = if arrays.triangles { null_mut() } else { valences.at() };
             let face_count = arrays.face_count;
             let out = if u.ratio(1, 32)? { null_mut() } else { &raw mut shape };
-            swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, start(&options), out)
+            swiftprox_shape_create_from_mesh(
+                vertices,
+                vertex_count,
+                indices,
+                valences,
+                face_count,
+                start(&options),
+                out,
+            )
         };
         Ok(self.keep(status, shape))
     }
@@ -239,7 +247,9 @@ impl Program {
         }
         let answer = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
-        Ok(unsafe { inside(self.environment, || swiftprox_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer)) })
+        Ok(unsafe {
+            inside(self.environment, || swiftprox_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer))
+        })
     }
 }
 

@@ -29,12 +29,18 @@ inline bool open_file(const char* filename, std::ifstream& stream)
     return true;
 }
 
-/* The first word of a file, as far as a magic token can be long; the stream stands at the beginning again. */
+/*
+ * The first word of a file, as far as a magic token can be long; the stream stands at the beginning again. SWIFT++'s decomposer puts a
+ * NUL before its own, which is no part of it.
+ */
 inline std::string first_word(std::ifstream& stream)
 {
     const std::size_t most = 64;
     std::string word;
     stream >> std::ws;
+    if (stream.peek() == 0) {
+        stream.get();
+    }
     for (int c = stream.peek(); c != std::ifstream::traits_type::eof() && !std::isspace(c) && word.size() < most; c = stream.peek()) {
         word += static_cast<char>(stream.get());
     }

@@ -126,9 +126,9 @@ inline bool SWIFT_Scene::Add_General_Object(const char* filename, int& id, bool 
 {
     std::vector<swift_legacy::Mesh> pieces;
     switch (swift_legacy::pieces_from_file(filename, pieces)) {
-    case swift_legacy::DECOMPOSITION_REFUSED:
+    case swift_legacy::PIECE_FILE_REFUSED:
         return false;
-    case swift_legacy::DECOMPOSITION_NONE:
+    case swift_legacy::PIECE_FILE_NONE:
         if (Add_Object(filename, id, fixed, orient, trans, scale, box_setting, box_enl_rel, box_enl_abs, DEFAULT_MIN_TCOUNT,
                        DEFAULT_QSLIM_TRATIO, cube_aspect_ratio)) {
             return true;
@@ -136,7 +136,7 @@ inline bool SWIFT_Scene::Add_General_Object(const char* filename, int& id, bool 
         swift_legacy::report("Error (Add_General_Object): a mesh file is taken when its mesh is convex. Give one that is not as a "
                              "decomposition file (Convex_Decomposition), which SWIFT++'s decomposer writes");
         return false;
-    case swift_legacy::DECOMPOSITION_READ:
+    case swift_legacy::PIECE_FILE_READ:
         break;
     }
     const swift_legacy::Transform transform(orient, trans, scale);

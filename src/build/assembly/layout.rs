@@ -6,7 +6,7 @@ use crate::base::memory::{copied, extend, filled, push, reserve, with_capacity};
 use crate::base::normal::unit;
 use crate::base::progress::Progress;
 use crate::build::merge::MergedFaces;
-use crate::build::slack::Flood;
+use crate::build::slack::RiseBounds;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
 
@@ -116,6 +116,15 @@ fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
     Vector::new(block.x[lane], block.y[lane], block.z[lane])
 }
 
+/// A hull whose triangles are merged into faces.
+pub(super) struct MergedHull<'a> {
+    pub surface: &'a Triangulation,
+    pub positions: &'a [Vector],
+    pub merged: &'a MergedFaces,
+    /// σ of each face.
+    pub slacks: &'a [f64],
+}
+
 impl Polyhedron {
     /// Adds the next vertex with its neighbour blocks.
     pub(super) fn add_vertex(&mut self, positions: &[Vector], v: u32, neighbours: &[(u32, u32)]) -> Result<()> {
@@ -145,13 +154,11 @@ impl Polyhedron {
     /// [`Error::Cancelled`] when the caller does not want to go on.
     pub(super) fn add_edges(
         &mut self,
-        surface: &Triangulation,
-        positions: &[Vector],
-        merged: &MergedFaces,
-        slacks: &[f64],
-        flood: &mut Flood,
+        hull: &MergedHull,
+        rises: &mut RiseBounds,
         progress: &mut Progress,
     ) -> Result<Vec<u32>> {
+        let MergedHull { surface, positions, merged, slacks } = *hull;
         let mut edge_of = filled(NONE, surface.twins.len())?;
         // Euler: corners − edges + faces = 2.
         let most = merged.normals.len() + merged.corners.iter().filter(|c| **c).count();
@@ -174,7 +181,7 @@ impl Polyhedron {
                 let mut edge = edge_between([tail, surface.head(last)], positions, faces, merged, slacks);
                 if edge.normals[0].dot(&edge.normals[1]) < 0.0 {
                     edge.bevel = self.bevels.len() as u32;
-                    let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), flood);
+                    let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), rises);
                     edge.slack = edge.slack.max(bevel.slack);
                     push(&mut self.bevels, bevel)?;
                 }
@@ -186,15 +193,8 @@ impl Polyhedron {
     }
 
     /// Adds all faces with their sides.
-    pub(super) fn add_faces(
-        &mut self,
-        surface: &Triangulation,
-        positions: &[Vector],
-        merged: &MergedFaces,
-        slacks: &[f64],
-        edge_of: &[u32],
-        progress: &mut Progress,
-    ) -> Result<()> {
+    pub(super) fn add_faces(&mut self, hull: &MergedHull, edge_of: &[u32], progress: &mut Progress) -> Result<()> {
+        let MergedHull { surface, positions, merged, slacks } = *hull;
         reserve(&mut self.faces, merged.normals.len())?;
         reserve(&mut self.sides, 2 * self.edges.len())?;
         for (face, normal) in merged.normals.iter().enumerate() {
@@ -273,10 +273,10 @@ impl Polyhedron {
 /// The plane that halves a sharp edge; `vertices` are those of the edge beyond its tail, flat ones included: a query may end at any
 /// of them. n_left + n_right cancels for a thin plate; minus the sum of the inward side directions has the same direction and does
 /// not.
-fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, flood: &mut Flood) -> Bevel {
+fn bevel_of(edge: &Edge, vertices: impl Iterator<Item = u32>, rises: &mut RiseBounds) -> Bevel {
     let normal = unit(&(plane_normal(&edge.planes, 2) + plane_normal(&edge.planes, 3)));
     // No limit: the exterior angles of the sharp edges at a vertex sum to less than 2π, so there are at most three.
-    let rise = flood.rise(&normal, edge.tail(), usize::MAX).unwrap_or(f64::INFINITY);
-    let fall = flood.fall(&normal, edge.tail(), vertices);
+    let rise = rises.rise(&normal, edge.tail(), usize::MAX).unwrap_or(f64::INFINITY);
+    let fall = rises.fall(&normal, edge.tail(), vertices);
     Bevel { normal, slack: (rise + fall) * (1.0 + 4.0 * UNIT_ROUNDOFF) }
 }

@@ -14,13 +14,13 @@ use crate::base::progress::Progress;
 use crate::build::hull::{Hull, convex_hull};
 use crate::build::labels::{label_by_index, label_by_polygons};
 use crate::build::mass::mass_properties;
-use crate::build::merge::{MergedFaces, merge_bound, merge_faces};
-use crate::build::slack::Flood;
+use crate::build::merge::{MergedFaces, Triangles, merge_bound, merge_faces};
+use crate::build::slack::RiseBounds;
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
-use layout::neighbours_of;
+use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
 
 /// The polyhedron of the exact convex hull of `points`. `polygons`, over the same points, gives the faces' labels; they lie on the
@@ -71,8 +71,8 @@ pub fn build_in_steps(
         polyhedron.vertex_labels.iter_mut().for_each(|label| *label = vertices[*label as usize]);
     }
     copy_labels_in_steps(&mut polyhedron, &mut progress.part(0.97, 1.0))?;
-    let is_usual = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
-    polyhedron.ordinary = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_usual;
+    let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
+    polyhedron.simple = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_in_range;
     Ok(polyhedron)
 }
 
@@ -212,12 +212,13 @@ impl HullSurface {
         // The norm is right to 3u.
         let radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
         let of_mass = &mut progress.part(0.0, 0.05);
-        let mass = mass_properties(self.dimension, &self.positions, &centre, &self.triangles, &self.areas, of_mass)?;
+        let mass =
+            mass_properties(self.dimension, &self.positions, &self.triangles, &self.areas, of_mass)?.about(&centre);
         let mut polyhedron = Polyhedron {
             dimension: self.dimension,
             centre,
             radius,
-            ordinary: false,
+            simple: false,
             vertices: Vec::new(),
             more_neighbours: Vec::new(),
             triangles: Vec::new(),
@@ -249,14 +250,17 @@ impl HullSurface {
         let of_surface = &mut progress.part(0.05, 0.15);
         let surface = Triangulation::new_in_steps(self.triangles, &self.normals, self.positions.len(), of_surface)?;
         let bound = merge_bound(radius);
+        let triangles =
+            Triangles { surface: &surface, positions: &self.positions, normals: &self.normals, areas: &sizes };
         let of_merging = &mut progress.part(0.15, 0.3);
-        let merged = merge_faces(&surface, &self.positions, &self.normals, &sizes, bound, of_merging)?;
-        let mut flood = Flood::new(&surface, &self.positions, radius)?;
-        let slacks = face_slacks(&surface, &self.normals, &merged, &mut flood, &mut progress.part(0.3, 0.5))?;
+        let merged = merge_faces(&triangles, bound, of_merging)?;
+        let mut rises = RiseBounds::new(&surface, &self.positions, radius)?;
+        let slacks = face_slacks(&surface, &self.normals, &merged, &mut rises, &mut progress.part(0.3, 0.5))?;
+        let hull = MergedHull { surface: &surface, positions: &self.positions, merged: &merged, slacks: &slacks };
         let of_edges = &mut progress.part(0.5, 0.7);
-        let edge_of = polyhedron.add_edges(&surface, &self.positions, &merged, &slacks, &mut flood, of_edges)?;
+        let edge_of = polyhedron.add_edges(&hull, &mut rises, of_edges)?;
         let of_faces = &mut progress.part(0.7, 0.8);
-        polyhedron.add_faces(&surface, &self.positions, &merged, &slacks, &edge_of, of_faces)?;
+        polyhedron.add_faces(&hull, &edge_of, of_faces)?;
         let of_vertices = &mut progress.part(0.8, 0.9);
         reserve(&mut polyhedron.vertices, self.positions.len())?;
         for v in 0..self.positions.len() as u32 {
@@ -279,7 +283,7 @@ fn face_slacks(
     surface: &Triangulation,
     normals: &[Vector],
     merged: &MergedFaces,
-    flood: &mut Flood,
+    rises: &mut RiseBounds,
     progress: &mut Progress,
 ) -> Result<Vec<f64>> {
     let start = |face: usize| surface.tail(merged.first_half_edges[face]);
@@ -290,7 +294,7 @@ fn face_slacks(
     for (face, (normal, count)) in merged.normals.iter().zip(&triangle_counts).enumerate() {
         // Most look at twenty neighbours, as said above; a face of many triangles looks at some of each.
         progress.steps(16 + 8 * count, face, all)?;
-        flooded.push(flood.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
+        flooded.push(rises.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
     }
     let mut slacks: Vec<f64> = collected(flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)))?;
     let mut falls = filled(0.0_f64, slacks.len())?;
@@ -298,11 +302,11 @@ fn face_slacks(
         progress.steps(4, merged.normals.len() + t, all)?;
         let face = face as usize;
         let normal = &merged.normals[face];
-        falls[face] = falls[face].max(flood.fall(normal, start(face), *triangle));
+        falls[face] = falls[face].max(rises.fall(normal, start(face), *triangle));
         if flooded[face].is_none() {
             for h in 3 * t..3 * t + 3 {
                 let beside = [t, surface.twins[h] as usize / 3].map(|t| &normals[t]);
-                slacks[face] = slacks[face].min(flood.rise_beside(normal, start(face), h as u32, beside));
+                slacks[face] = slacks[face].min(rises.rise_beside(normal, start(face), h as u32, beside));
             }
         }
     }

@@ -40,7 +40,7 @@ pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vecto
     polyhedron.bevels.iter_mut().for_each(|bevel| bound(&mut bevel.slack));
     bound(&mut polyhedron.radius);
     let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
-    let [lower, upper] = bounding_box(&positions, &centre);
+    let [lower, upper] = bounding_box(&positions).map(|corner| corner + centre);
     let mass = &polyhedron.mass;
     polyhedron.centre = centre;
     polyhedron.mass = MassProperties {

@@ -109,7 +109,7 @@ pub fn check_convexity(
             exact.from_scaled(distance)
         ));
     }
-    check_single_cover(mesh, hull, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
+    check_single_cover(mesh, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
 }
 
 /// A vertex farther from a plane than allowed.
@@ -142,7 +142,12 @@ impl<'a> Polygon<'a> {
 
     /// All vertices of the mesh at most `allowed` outside of the face's plane, its own on either
     /// side.
-    fn check_plane(&self, position: &[Vector], search: &mut Search, allowed: f64) -> std::result::Result<(), Outside> {
+    fn check_plane(
+        &self,
+        position: &[Vector],
+        search: &mut ExtremeSearch,
+        allowed: f64,
+    ) -> std::result::Result<(), Outside> {
         // The area of a needle's side may be too small for its square.
         let normal = unit(&self.area);
         if normal == Vector::zeros() {
@@ -159,7 +164,7 @@ impl<'a> Polygon<'a> {
     /// All corners at most `allowed` below some supporting plane of the hull. The planes of the
     /// hull's triangle over the face's centre and of those around it are tried: it alone may be as
     /// tiny as the face, and tilted likewise.
-    fn is_near_boundary(&self, position: &[Vector], search: &mut Search, allowed: f64) -> Result<bool> {
+    fn is_near_boundary(&self, position: &[Vector], search: &mut ExtremeSearch, allowed: f64) -> Result<bool> {
         // At a tip of the hull all planes may be those of tiny triangles; but a face as small as
         // the tolerance that has a vertex of the hull is close enough wherever it lies.
         let boundary = search.boundary;
@@ -255,14 +260,13 @@ impl Extent {
 /// The surface has the area and the volume of its hull.
 fn check_single_cover(
     mesh: &PolygonMesh,
-    hull: &Hull,
     boundary: &Boundary,
     surface: &Extent,
     allowed: f64,
     progress: &mut Progress,
 ) -> Result<()> {
     let position = boundary.position;
-    let whole = Extent::of(hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
+    let whole = Extent::of(boundary.hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
     let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
     let volume_allowed =
         2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();
@@ -418,13 +422,13 @@ impl<'a> Boundary<'a> {
         (0..self.hull.triangles.len()).max_by(|s, t| area(s).total_cmp(&area(t))).unwrap_or(0)
     }
 
-    fn search(&'a self) -> Search<'a> {
-        Search { boundary: self, vertex: self.hull.vertices[0], triangle: None, steps: 0 }
+    fn search(&'a self) -> ExtremeSearch<'a> {
+        ExtremeSearch { boundary: self, vertex: self.hull.vertices[0], triangle: None, steps: 0 }
     }
 }
 
 /// Searches that begin where the last one ended.
-struct Search<'a> {
+struct ExtremeSearch<'a> {
     boundary: &'a Boundary<'a>,
     vertex: u32,
     triangle: Option<usize>,
@@ -432,7 +436,7 @@ struct Search<'a> {
     steps: usize,
 }
 
-impl Search<'_> {
+impl ExtremeSearch<'_> {
     /// Begins the next climb at the vertex of fewest neighbours among those of `corners` that are
     /// hull vertices, if any: the last look around, at the top, costs as many tests as it has
     /// neighbours.

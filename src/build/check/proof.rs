@@ -245,7 +245,7 @@ fn check_solid(points: &[Vector], hull: &Hull, is_vertex: &[bool], progress: &mu
     let of_others = &mut progress.part(0.9, 1.0);
     for p in (0..points.len() as u32).filter(|p| !is_vertex[*p as usize]) {
         of_others.step(p as usize, points.len())?;
-        at = pierced_triangle(&exact, triangles, &twins, c, p, at);
+        at = pierced_triangle(&exact, triangles, &twins, [c, p], at);
         if exact.height(&planes[at], p) > 0.0 {
             return fault(format!("point {p} is above triangle {:?}", triangles[at]));
         }
@@ -281,7 +281,13 @@ fn is_proper_ray(
 /// triangles of a convex surface are the projection of a convex function's pieces, so the walk
 /// cannot run in circles, unless through coplanar triangles; hence the bound, after which every
 /// triangle is tried.
-fn pierced_triangle(exact: &ExactPoints, triangles: &[[u32; 3]], twins: &[u32], c: u32, p: u32, start: usize) -> usize {
+fn pierced_triangle(
+    exact: &ExactPoints,
+    triangles: &[[u32; 3]],
+    twins: &[u32],
+    [c, p]: [u32; 2],
+    start: usize,
+) -> usize {
     let exit = |t: usize| {
         let corners = triangles[t];
         (0..3).find(|&i| exact.orientation([c, corners[i], corners[(i + 1) % 3]], p) < 0.0)

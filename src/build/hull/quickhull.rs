@@ -60,6 +60,14 @@ struct Facet {
     unseen_by: u32,
 }
 
+/// What a point sees of the hull.
+struct Cap {
+    /// The facets that it sees.
+    visible: Vec<u32>,
+    /// The edges at which the rest of the hull begins.
+    horizon: Vec<HorizonEdge>,
+}
+
 /// An edge between a facet that the new vertex sees and one that it does not see.
 struct HorizonEdge {
     /// First vertex, in the order of the facet that is seen.
@@ -137,7 +145,7 @@ impl<'a> Quickhull<'a> {
         let mut new = vec![0, 1, 2, 3];
         hull.distribute(&outside, &new, progress)?;
         let work_of_farthest = WORK_OF_FARTHEST * points.len() * points.len().ilog2() as usize;
-        let (mut visible, mut horizon) = (Vec::new(), Vec::new());
+        let mut cap = Cap { visible: Vec::new(), horizon: Vec::new() };
         let mut round = Vec::new();
         loop {
             if round.is_empty() {
@@ -150,9 +158,9 @@ impl<'a> Quickhull<'a> {
                 if hull.work > work_of_farthest {
                     hull.choice = Choice::Random;
                 }
-                hull.remove_visible(f, apex, &mut visible, &mut horizon, progress)?;
-                hull.take_outside(&visible, apex, &mut outside, progress)?;
-                hull.add_cone(apex, &horizon, &mut new, progress)?;
+                hull.remove_visible(f, apex, &mut cap, progress)?;
+                hull.take_outside(&cap.visible, apex, &mut outside, progress)?;
+                hull.add_cone(apex, &cap.horizon, &mut new, progress)?;
                 hull.distribute(&outside, &new, progress)?;
             }
         }
@@ -313,14 +321,12 @@ impl<'a> Quickhull<'a> {
         (seen, tests + test)
     }
 
-    /// Removes all facets that `apex` sees, `start` being one, and lists them in `visible`; lists
-    /// the edges at which the rest of the hull begins in `horizon`.
+    /// Removes all facets that `apex` sees, `start` being one, and lists them and their horizon.
     fn remove_visible(
         &mut self,
         start: u32,
         apex: u32,
-        visible: &mut Vec<u32>,
-        horizon: &mut Vec<HorizonEdge>,
+        Cap { visible, horizon }: &mut Cap,
         progress: &mut Progress,
     ) -> Result<()> {
         visible.clear();

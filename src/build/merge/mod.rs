@@ -78,21 +78,26 @@ impl MergedFaces {
     }
 }
 
-/// Merges the triangles of a hull. `normals` are the triangles' unit normals, `areas` sizes to order them by, `bound` is
-/// [`merge_bound`].
+/// The triangles of a hull.
+pub struct Triangles<'a> {
+    /// Their corners and neighbours.
+    pub surface: &'a Triangulation,
+    /// Of the hull's vertices.
+    pub positions: &'a [Vector],
+    /// Their unit normals.
+    pub normals: &'a [Vector],
+    /// Sizes to order them by.
+    pub areas: &'a [f64],
+}
+
+/// Merges the triangles of a hull; `bound` is [`merge_bound`].
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on; [`crate::base::error::Error::Memory`].
-pub fn merge_faces(
-    surface: &Triangulation,
-    positions: &[Vector],
-    normals: &[Vector],
-    areas: &[f64],
-    bound: f64,
-    progress: &mut Progress,
-) -> Result<MergedFaces> {
+pub fn merge_faces(triangles: &Triangles, bound: f64, progress: &mut Progress) -> Result<MergedFaces> {
+    let &Triangles { surface, positions, normals, .. } = triangles;
     let of_regions = &mut progress.part(0.0, 0.5);
-    let (mut region_of, mut region_normals) = coplanar_regions(surface, positions, normals, areas, bound, of_regions)?;
+    let (mut region_of, mut region_normals) = coplanar_regions(triangles, bound, of_regions)?;
     let mut first = 0.5;
     loop {
         // Hardly ever a second round.

@@ -1,6 +1,6 @@
 //! Which triangles lie in one plane up to rounding.
 
-use super::NONE;
+use super::{NONE, Triangles};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{filled, push, with_capacity};
@@ -10,18 +10,12 @@ use crate::base::sorting::sort_in_steps;
 use crate::polyhedron::triangulation::{Triangulation, previous};
 
 /// The region of each triangle, and the unit normal of each region: connected, each within `bound` of one plane and facing one way,
-/// each a disk. `normals` and `areas` are the triangles'.
+/// each a disk.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
-pub fn coplanar_regions(
-    surface: &Triangulation,
-    positions: &[Vector],
-    normals: &[Vector],
-    areas: &[f64],
-    bound: f64,
-    progress: &mut Progress,
-) -> Result<(Vec<u32>, Vec<Vector>)> {
+pub fn coplanar_regions(triangles: &Triangles, bound: f64, progress: &mut Progress) -> Result<(Vec<u32>, Vec<Vector>)> {
+    let &Triangles { surface, positions, normals, areas } = triangles;
     let mut regions = Regions {
         surface,
         positions,

@@ -503,8 +503,8 @@ mod tests {
                 for corners in &hull.triangles {
                     let [a, b, c] = corners.map(|v| hull.local_position(v));
                     let normal = (b - a).cross(&(c - a));
-                    let reach = |v: &crate::polyhedron::Vertex| normal.dot(&(v.position - centre));
-                    let highest = body.vertices.iter().map(reach).fold(0.0, f64::max);
+                    let support = |v: &crate::polyhedron::Vertex| normal.dot(&(v.position - centre));
+                    let highest = body.vertices.iter().map(support).fold(0.0, f64::max);
                     factor = factor.max(highest / normal.dot(&a));
                 }
                 let mut drawn_back = 0;
@@ -520,8 +520,8 @@ mod tests {
                 let level = build(&points, None).unwrap();
                 for face in &level.faces {
                     let height = face.normal.dot(&(level.local_position(face.vertex)));
-                    let reach = body.vertices.iter().map(|v| face.normal.dot(&v.position)).fold(0.0, f64::max);
-                    assert!(reach <= height + 1e-12 * body.radius, "{reach} {height}");
+                    let support = body.vertices.iter().map(|v| face.normal.dot(&v.position)).fold(0.0, f64::max);
+                    assert!(support <= height + 1e-12 * body.radius, "{support} {height}");
                 }
                 let above = |p: &Vector| body.faces.iter().map(|face| face.planes.value(0, p)).fold(0.0, f64::max);
                 let measure = |points: &mut dyn Iterator<Item = Vector>| {

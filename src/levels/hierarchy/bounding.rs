@@ -44,9 +44,9 @@ pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Sc
         let face = &hull.faces[face as usize];
         let height = face.normal.dot(&from_centre[face.vertex as usize]);
         start = base.support(&face.normal, start).0;
-        let reach = face.normal.dot(&(base.vertices[start as usize].position - centre));
+        let support = face.normal.dot(&(base.vertices[start as usize].position - centre));
         least = least.min(height);
-        factor = factor.max(reach / height);
+        factor = factor.max(support / height);
     }
     if !(least > 0.0 && factor > 0.0 && factor.is_finite()) {
         return Ok(None);

@@ -53,7 +53,7 @@ enumerator!(HierarchyKind { None, Quadric, DobkinKirkpatrick, OuterCuts, Given, 
 
 /// Fewest vertices of a body that is given levels on its own account: for two smaller ones no query takes the way through levels
 /// where the choice is automatic.
-pub const LEAST_VERTICES: usize = 30_000;
+pub const LEAST_VERTICES_FOR_LEVELS: usize = 30_000;
 
 /// What levels to make.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -198,10 +198,10 @@ impl Hierarchy {
         options.check()?;
         let centred = centred(base)?;
         let mut builder = Builder::new(&centred, options.kind)?;
-        if base.dimension == 3 && builder.is_of_usual_size() {
+        if base.dimension == 3 && builder.is_in_range() {
             match options.kind {
                 HierarchyKind::None | HierarchyKind::Given => {}
-                HierarchyKind::Automatic if base.vertices.len() < LEAST_VERTICES => {}
+                HierarchyKind::Automatic if base.vertices.len() < LEAST_VERTICES_FOR_LEVELS => {}
                 HierarchyKind::Automatic => builder.add_quadric(&HierarchyOptions::default(), progress)?,
                 HierarchyKind::Quadric => builder.add_quadric(options, progress)?,
                 HierarchyKind::DobkinKirkpatrick => builder.add_dobkin_kirkpatrick(options, progress)?,
@@ -226,7 +226,7 @@ impl Hierarchy {
     fn of_given(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
         let centred = centred(base)?;
         let mut builder = Builder::new(&centred, HierarchyKind::Given)?;
-        if !levels.is_empty() && !builder.is_of_usual_size() {
+        if !levels.is_empty() && !builder.is_in_range() {
             return Err(Error::Argument("levels need a body of a size between 2^-200 and 2^200".into()));
         }
         for (i, points) in levels.iter().enumerate() {
@@ -328,7 +328,7 @@ impl<'a> Builder<'a> {
     }
 
     /// Whether planes and squares of this body neither over- nor underflow.
-    fn is_of_usual_size(&self) -> bool {
+    fn is_in_range(&self) -> bool {
         (SMALLEST..=LARGEST).contains(&self.base.radius)
     }
 

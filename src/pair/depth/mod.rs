@@ -14,7 +14,6 @@ use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::frame::Frame;
@@ -31,15 +30,11 @@ use cache::{MOST_TRIANGLES, MOST_VERTICES};
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and
 /// `cache` are as they were.
 pub fn depth(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut DepthCache,
     config: &DepthConfig,
     answer: &mut DepthAnswer,
 ) -> Result<()> {
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     with_default(|| answer_query(bodies, cache, config, answer))
 }
 
@@ -51,7 +46,7 @@ fn answer_query(
 ) -> Result<()> {
     config.check()?;
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config, cache });
+    let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache });
     if found.is_none() {
         poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
     }
@@ -62,13 +57,13 @@ fn answer_query(
 /// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing.
 pub(super) fn deepest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> DepthAnswer {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
-    let found = simd::dispatch_to_avx2(&mut Search { polyhedra, poses, config: &config, cache: &mut cache });
+    let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config: &config, cache: &mut cache });
     fill(&mut answer, polyhedra, poses, found.as_ref());
     answer
 }
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the shell.
-struct Search<'a> {
+struct DepthQuery<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
     config: &'a DepthConfig,
@@ -82,14 +77,14 @@ struct Found {
     triangles: u32,
 }
 
-impl Kernel for Search<'_> {
+impl Kernel for DepthQuery<'_> {
     /// None of a pair that floating point is not for.
     type Output = Option<Found>;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<Found> {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
-        if !frame.usual {
+        if !frame.in_range {
             return None;
         }
         let mut shell = Shell::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
@@ -103,7 +98,7 @@ impl Kernel for Search<'_> {
     }
 }
 
-impl Search<'_> {
+impl DepthQuery<'_> {
     #[inline(always)]
     fn search<L: Lanes, const V: usize, const T: usize>(
         &mut self,
@@ -131,7 +126,7 @@ impl Search<'_> {
 
 /// The search from the beginning, with more room: of bodies that are nearly as deep in each other everywhere.
 struct InLarge<'a, 'b, L> {
-    search: &'a mut Search<'b>,
+    search: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,
     start: Start,
 }
@@ -294,7 +289,7 @@ impl Kernel for Proof<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Self::Output {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        if !frame.usual {
+        if !frame.in_range {
             return Vec::new();
         }
         let mut shell = Shell::<255, 508>::empty();

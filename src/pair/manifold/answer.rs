@@ -44,9 +44,11 @@ pub struct ManifoldCache {
     pub(super) pair: PairCache,
     /// Of the depth.
     pub(super) depth: DepthCache,
-    /// 1 or 2: the object whose face was the reference; its face.
-    pub(super) reference: [u32; 2],
+    pub(super) reference: Reference,
 }
+
+/// 1 or 2, the object whose face was the reference, and its face; zeros if there was none.
+pub(crate) type Reference = [u32; 2];
 
 /// One contact point: a point of each object, in line along the normal.
 #[derive(Debug, Clone, Copy, PartialEq)]

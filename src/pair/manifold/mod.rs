@@ -20,8 +20,8 @@ use crate::pair::contact::faces_at;
 use crate::pair::ladder::climb;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::state::FeatureId;
+pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::{Corner, common_part};
 use outline::{Axes, Outline};
@@ -36,17 +36,13 @@ use outline::{Axes, Outline};
 /// # Errors
 /// As of [`crate::pair::depth`]; then nothing is changed.
 pub fn manifold(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
+    bodies: [Placed; 2],
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
     let capacity = points.len();
     let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
-    let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
     manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write })
 }
 
@@ -79,8 +75,34 @@ pub(crate) fn manifold_into(
     with_default(|| {
         config.check()?;
         let contact = find_contact(bodies, cache, config)?;
-        Ok(make(bodies, cache, config, &contact, points))
+        Ok(make(bodies, &mut cache.reference, config, &contact, points))
     })
+}
+
+/// What is known of two objects before their manifold is.
+pub(crate) enum Known<'a> {
+    /// Their distance.
+    Apart(&'a PairAnswer),
+    /// They intersect.
+    Deep(&'a DepthAnswer),
+}
+
+/// As [`manifold_into`], in the default floating-point environment and with a margin that has been checked.
+pub(crate) fn manifold_of(
+    bodies: [Placed; 2],
+    known: Known,
+    reference: &mut Reference,
+    config: &ManifoldConfig,
+    points: &mut Sink,
+) -> Manifold {
+    let contact = match known {
+        Known::Apart(answer) if answer.lower > config.margin => {
+            Contact { outcome: Outcome::Beyond, ..Contact::apart(answer) }
+        }
+        Known::Apart(answer) => Contact::apart(answer),
+        Known::Deep(answer) => Contact::deep(answer),
+    };
+    make(bodies, reference, config, &contact, points)
 }
 
 /// What the pair queries say.
@@ -91,6 +113,34 @@ struct Contact {
     normal: Vector,
     /// The pair of witness points.
     witness: ManifoldPoint,
+}
+
+impl Contact {
+    /// Of objects that are apart.
+    fn apart(answer: &PairAnswer) -> Contact {
+        let &PairAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
+        let (gap_lower, gap_upper) = (answer.lower, answer.upper);
+        let id = id_of(&feature1, &feature2);
+        Contact {
+            outcome: answer.outcome,
+            interval: [gap_lower, gap_upper],
+            normal: answer.normal.into(),
+            witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
+        }
+    }
+
+    /// Of objects that intersect.
+    fn deep(answer: &DepthAnswer) -> Contact {
+        let &DepthAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
+        let (gap_lower, gap_upper) = (-answer.upper, -answer.lower);
+        let id = id_of(&feature1, &feature2);
+        Contact {
+            outcome: answer.outcome,
+            interval: [gap_lower, gap_upper],
+            normal: answer.normal.into(),
+            witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
+        }
+    }
 }
 
 /// How far the objects are apart, or how deep in each other. What they were the last time is asked first.
@@ -115,35 +165,18 @@ fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &Manifol
     {
         return Ok(contact);
     }
-    let PairAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
-    let (gap_lower, gap_upper) = (answer.lower, answer.upper);
-    let id = id_of(&feature1, &feature2);
-    Ok(Contact {
-        outcome: answer.outcome,
-        interval: [answer.lower, answer.upper],
-        normal: answer.normal.into(),
-        witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
-    })
+    Ok(Contact::apart(&answer))
 }
 
 /// `None` of objects that are apart.
 fn find_depth(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &ManifoldConfig) -> Result<Option<Contact>> {
     let mut answer = DepthAnswer::default();
     let depth_config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
-    let [first, second] = bodies;
-    depth(first.shape, first.pose, second.shape, second.pose, &mut cache.depth, &depth_config, &mut answer)?;
+    depth(bodies, &mut cache.depth, &depth_config, &mut answer)?;
     if answer.outcome != Outcome::Intersecting {
         return Ok(None);
     }
-    let DepthAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
-    let (gap_lower, gap_upper) = (-answer.upper, -answer.lower);
-    let id = id_of(&feature1, &feature2);
-    Ok(Some(Contact {
-        outcome: answer.outcome,
-        interval: [gap_lower, gap_upper],
-        normal: answer.normal.into(),
-        witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
-    }))
+    Ok(Some(Contact::deep(&answer)))
 }
 
 /// The cosine between a face's normal and the contact's from which on the face may be the reference: 10°.
@@ -154,7 +187,7 @@ const STICKY: f64 = 1e-3;
 
 fn make(
     bodies: [Placed; 2],
-    cache: &mut ManifoldCache,
+    before: &mut Reference,
     config: &ManifoldConfig,
     contact: &Contact,
     points: &mut Sink,
@@ -169,15 +202,15 @@ fn make(
         found_count: 0,
     };
     if contact.outcome == Outcome::Beyond {
-        cache.reference = [0, 0];
+        *before = [0, 0];
         return answer;
     }
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let faces = [0, 1].map(|i| facing(polyhedra[i], poses[i], i, &contact.normal, cache));
+    let faces = [0, 1].map(|i| facing(polyhedra[i], poses[i], i, &contact.normal, before));
     let reference = [0, 1].into_iter().reduce(|a, b| if parallel(&faces[b]) > parallel(&faces[a]) { b } else { a });
-    let reference = keep_reference(reference.unwrap_or(0), &faces, cache);
+    let reference = keep_reference(reference.unwrap_or(0), &faces, before);
     if parallel(&faces[reference]) >= PARALLEL {
-        cache.reference = [reference as u32 + 1, faces[reference].map_or(0, |facing| facing.face)];
+        *before = [reference as u32 + 1, faces[reference].map_or(0, |facing| facing.face)];
         let found = clip(polyhedra, poses, &faces, reference, config, contact, points);
         if found > 0 {
             answer.reference = reference as u32 + 1;
@@ -185,7 +218,7 @@ fn make(
             return answer;
         }
     } else {
-        cache.reference = [0, 0];
+        *before = [0, 0];
     }
     points.push(|| contact.witness);
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
@@ -206,7 +239,7 @@ fn parallel(facing: &Option<Facing>) -> f64 {
 
 /// The face most parallel to the normal of those at the vertex that reaches farthest along it; the last reference, if it is about
 /// as parallel. `None` of bodies without faces.
-fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, cache: &ManifoldCache) -> Option<Facing> {
+fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, before: &Reference) -> Option<Facing> {
     let towards = pose.rotate_back(&if body == 0 { -normal } else { *normal });
     let cosine = |face: u32| Facing { face, parallel: polyhedron.faces[face as usize].normal.dot(&towards) };
     let better = |a: Facing, b: Facing| if b.parallel > a.parallel { b } else { a };
@@ -214,7 +247,7 @@ fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, ca
     let (vertex, _) = polyhedron.support(&towards, first);
     let around = polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
     let best = around.map(cosine).reduce(better)?;
-    let [last_body, last_face] = cache.reference;
+    let [last_body, last_face] = *before;
     if last_body == body as u32 + 1 && (last_face as usize) < polyhedron.faces.len() {
         let last = cosine(last_face);
         if last.parallel >= best.parallel - STICKY {
@@ -225,8 +258,8 @@ fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, ca
 }
 
 /// The last reference's body, if its face is about as parallel.
-fn keep_reference(best: usize, faces: &[Option<Facing>; 2], cache: &ManifoldCache) -> usize {
-    match cache.reference[0] {
+fn keep_reference(best: usize, faces: &[Option<Facing>; 2], before: &Reference) -> usize {
+    match before[0] {
         last @ 1..=2 if parallel(&faces[last as usize - 1]) >= parallel(&faces[best]) - STICKY => last as usize - 1,
         _ => best,
     }

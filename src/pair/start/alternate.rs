@@ -2,22 +2,35 @@
 
 use super::{Guess, StartPair};
 use crate::base::math::{Pose, Vector};
-use crate::base::simd::{Kernel, Lanes};
+use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
 use crate::tables::nearest_vertex::NearestVertex;
 
 /// Projects on both bodies the other's centre of mass or last vertex, then the vertices that were found there, and so on, by the
 /// tables. Both at once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four
 /// look-ups.
-pub(super) struct Alternate<'a, F, S> {
-    pub(super) first: &'a F,
-    pub(super) second: &'a S,
+struct Alternate<'a, F, S> {
+    first: &'a F,
+    second: &'a S,
     // Lent, not copied (R1).
-    pub(super) polyhedra: &'a [&'a Polyhedron; 2],
-    pub(super) poses: &'a [&'a Pose; 2],
+    from: &'a LookUps<'a>,
+}
+
+/// A pair, and from where its look-ups begin.
+pub(super) struct LookUps<'a> {
+    pub(super) polyhedra: [&'a Polyhedron; 2],
+    pub(super) poses: [&'a Pose; 2],
     /// Vertices to begin from, if rounds from there are fewer than from the centres of mass.
     pub(super) last: [u32; 2],
     pub(super) most_rounds: u32,
+}
+
+impl LookUps<'_> {
+    /// Look-ups on both bodies by turns.
+    #[inline(always)]
+    pub(super) fn alternate<F: NearestVertex, S: NearestVertex>(&self, first: &F, second: &S) -> StartPair {
+        simd::dispatch(&mut Alternate { first, second, from: self })
+    }
 }
 
 impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
@@ -25,14 +38,14 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> StartPair {
-        let &mut Alternate { first, second, .. } = self;
+        let &mut Alternate { first, second, from } = self;
         let [there, back] = self.maps::<L>();
         let mut rounds = first.rounds().max(second.rounds());
         let (mut seen1, mut seen2) = (back.offset, there.offset);
-        if self.most_rounds < rounds {
-            rounds = self.most_rounds;
-            seen1 = back.apply(second.position(self.last[1]));
-            seen2 = there.apply(first.position(self.last[0]));
+        if from.most_rounds < rounds {
+            rounds = from.most_rounds;
+            seen1 = back.apply(second.position(from.last[1]));
+            seen2 = there.apply(first.position(from.last[0]));
         }
         let mut vertices = [first.nearest(seen1), second.nearest(seen2)];
         self.prefetch::<L>(vertices);
@@ -57,7 +70,7 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
 impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, vertices: [u32; 2]) {
-        for (polyhedron, vertex) in self.polyhedra.iter().zip(vertices) {
+        for (polyhedron, vertex) in self.from.polyhedra.iter().zip(vertices) {
             L::prefetch(&polyhedron.vertices, vertex);
         }
     }
@@ -65,8 +78,8 @@ impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
     /// From body 1's frame and unit to body 2's, and back.
     #[inline(always)]
     fn maps<L: Lanes>(&self) -> [Map; 2] {
-        let placed = [LanePose::<L>::new(self.poses[0]), LanePose::<L>::new(self.poses[1])];
-        let [mass1, mass2] = self.polyhedra.map(|polyhedron| &polyhedron.mass);
+        let placed = [LanePose::<L>::new(self.from.poses[0]), LanePose::<L>::new(self.from.poses[1])];
+        let [mass1, mass2] = self.from.polyhedra.map(|polyhedron| &polyhedron.mass);
         let between = placed[0].transform(&mass1.centre_of_mass).sub(placed[1].transform(&mass2.centre_of_mass));
         [
             Map::new([&placed[0], &placed[1]], between, [mass1.radius, mass2.radius]),

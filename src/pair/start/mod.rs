@@ -3,7 +3,7 @@
 mod alternate;
 pub mod policy;
 
-use alternate::Alternate;
+use alternate::LookUps;
 use policy::StartFrom;
 
 use crate::base::math::{Pose, Vector};
@@ -68,44 +68,24 @@ pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFro
 #[inline(never)]
 fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], rounds: u32) -> StartPair {
     let [body1, body2] = polyhedra;
+    let from = LookUps { polyhedra, poses, last, most_rounds: rounds };
     // Returned from where it is found (R1).
     match [body1.lookup.plan, body2.lookup.plan] {
         [Plan::Shells { .. }, Plan::Shells { .. }] => {
             if let (Table::Shells(first), Table::Shells(second)) = (table(body1), table(body2)) {
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::AllVertices { rounds: wanted }, Plan::Shells { .. }] => {
             if let Table::Shells(second) = table(body2) {
                 let first = &AllVertices { polyhedron: body1, rounds: wanted };
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::Shells { .. }, Plan::AllVertices { rounds: wanted }] => {
             if let Table::Shells(first) = table(body1) {
                 let second = &AllVertices { polyhedron: body2, rounds: wanted };
-                return simd::dispatch(&mut Alternate {
-                    first,
-                    second,
-                    polyhedra: &polyhedra,
-                    poses: &poses,
-                    last,
-                    most_rounds: rounds,
-                });
+                return from.alternate(first, second);
             }
         }
         [Plan::Spherical { .. }, Plan::Spherical { .. }] => {
@@ -127,8 +107,8 @@ pub fn may_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool
         return polyhedra.iter().any(|polyhedron| matches!(polyhedron.lookup.plan, Plan::AllVertices { .. }));
     };
     let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
-    let reach = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
-    between.norm_squared() < reach * reach
+    let radii = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
+    between.norm_squared() < radii * radii
 }
 
 /// The support vertices along the line of the bodies' origins, and whether the bodies are apart along it.
@@ -138,8 +118,8 @@ fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> StartPair {
     let between = origin(1) - origin(0);
     let towards = [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)];
     let vertices = [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] }));
-    let reach = |i: usize| polyhedra[i].vertices[vertices[i] as usize].position.dot(&towards[i]);
-    let are_apart = reach(0) + reach(1) < between.norm_squared();
+    let support = |i: usize| polyhedra[i].vertices[vertices[i] as usize].position.dot(&towards[i]);
+    let are_apart = support(0) + support(1) < between.norm_squared();
     StartPair::new(vertices, if are_apart { Guess::Apart } else { Guess::Unclear })
 }
 

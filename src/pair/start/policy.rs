@@ -30,9 +30,9 @@ pub fn choose<L: Lanes>(frame: &Frame<L>, marker: &Marker, last: State) -> Optio
     if !has_jumped(frame, marker) {
         return None;
     }
-    let reach = square_reach(frame);
+    let least = square_jump(frame);
     let is_within = |squares: f64| {
-        let square = squares * reach;
+        let square = squares * least;
         !(frame.has_moved(marker, square) | frame.has_rolled(marker, square))
     };
     Some(if !is_within(TWO_ROUNDS) {
@@ -46,18 +46,18 @@ pub fn choose<L: Lanes>(frame: &Frame<L>, marker: &Marker, last: State) -> Optio
 /// Whether a pair has moved so far that a look into the tables pays. A NaN has not.
 #[inline(always)]
 pub fn has_jumped<L: Lanes>(frame: &Frame<L>, marker: &Marker) -> bool {
-    frame.has_moved(marker, square_reach(frame))
+    frame.has_moved(marker, square_jump(frame))
 }
 
 /// Whether a pair that intersected when it had this marker has jumped, and may be apart: it is for marching, from the tables. Where
 /// spheres inside the bodies may overlap, and the jump is not far, the last enclosure is the better hint.
 pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [&Pose; 2]) -> bool {
     frame.has_moved(marker, FAR)
-        || (frame.has_moved(marker, COME_APART * square_reach(frame)) && !may_cores_overlap(frame.polyhedra(), poses))
+        || (frame.has_moved(marker, COME_APART * square_jump(frame)) && !may_cores_overlap(frame.polyhedra(), poses))
 }
 
 #[inline(always)]
-fn square_reach<L: Lanes>(frame: &Frame<L>) -> f64 {
+fn square_jump<L: Lanes>(frame: &Frame<L>) -> f64 {
     let [first, second] = frame.polyhedra();
-    first.lookup.square_reach(&second.lookup)
+    first.lookup.square_jump(&second.lookup)
 }

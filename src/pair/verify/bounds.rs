@@ -35,8 +35,8 @@ impl<'a> Bounds<'a> {
         let [translation1, translation2] = poses.map(Pose::translation);
         let apart = wide_difference(&translation1, &translation2);
         // The 1-norm of R·p is at most 1.8|p|, for an accepted R.
-        let reach = polyhedra.map(|polyhedron| polyhedron.centre.lp_norm(1) + polyhedron.radius);
-        let size = apart.iter().map(|x| x.hi.abs()).sum::<f64>() + 2.0 * (reach[0] + reach[1]);
+        let radii = polyhedra.map(|polyhedron| polyhedron.centre.lp_norm(1) + polyhedron.radius);
+        let size = apart.iter().map(|x| x.hi.abs()).sum::<f64>() + 2.0 * (radii[0] + radii[1]);
         if !(SMALLEST..=LARGEST).contains(&size) {
             return None;
         }

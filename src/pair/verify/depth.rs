@@ -13,8 +13,8 @@ use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp}
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::Outcome;
 use crate::pair::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
+use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
 use std::cmp::Ordering;
 
@@ -35,20 +35,13 @@ use std::cmp::Ordering;
 ///
 /// # Errors
 /// As of [`super::verify`].
-pub fn verify_depth(
-    shape1: &Shape,
-    pose1: &Pose,
-    shape2: &Shape,
-    pose2: &Pose,
-    cache: &DepthCache,
-    answer: &DepthAnswer,
-) -> Result<()> {
-    let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
+pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
+    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     with_default(|| {
-        [pose1, pose2].iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
+        poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
         match answer.outcome {
-            Outcome::Intersecting => check_overlapping(polyhedra, [pose1, pose2], cache, answer),
-            Outcome::Separated => check_separated(polyhedra, [pose1, pose2], answer),
+            Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, answer),
+            Outcome::Separated => check_separated(polyhedra, poses, answer),
             _ => Err(Error::Argument("the answer holds no depth".into())),
         }
     })

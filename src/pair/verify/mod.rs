@@ -9,8 +9,8 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{DecidedBy, FeatureKind, Outcome, PairAnswer};
+use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::shape::Shape;
 use crate::solve::exact::{self, VertexPair};
 use bounds::{Bounds, PointInside};
 pub use depth::verify_depth;
@@ -51,13 +51,12 @@ use witness::Witness;
 /// [`Error::Unverified`] with what does not hold; [`Error::Pose`] for a pose that no query accepts; [`Error::Argument`] for an
 /// answer that holds no outcome or vertex indices that the shapes do not have, and for a normal or points of objects so large or
 /// far apart that doubles cannot tell.
-pub fn verify(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
-    with_default(|| check_answer(shape1, pose1, shape2, pose2, answer))
+pub fn verify(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
+    with_default(|| check_answer(bodies, answer))
 }
 
-fn check_answer(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, answer: &PairAnswer) -> Result<()> {
-    let polyhedra = [shape1.polyhedron(), shape2.polyhedron()];
-    let poses = [pose1, pose2];
+fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
+    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     for pose in poses {
         pose.check(ROTATION_LIMIT)?;
     }
@@ -202,11 +201,11 @@ fn check_normal(
     between: &Vector,
     least: f64,
 ) -> Result<()> {
-    let reach = |i: usize, direction: Vector| {
+    let support = |i: usize, direction: Vector| {
         let local = poses[i].rotate_back(&direction);
         polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
     };
-    let gap = normal.dot(between) - reach(0, -normal) - reach(1, *normal);
+    let gap = normal.dot(between) - support(0, -normal) - support(1, *normal);
     if gap >= least {
         return Ok(());
     }

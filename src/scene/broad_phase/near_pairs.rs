@@ -4,6 +4,7 @@
 use crate::base::error::Result;
 use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
 use crate::pair::PairCache;
+use crate::scene::contacts::ContactMemory;
 use crate::scene::proxies::{Label, Proxies};
 
 /// Whether a near pair is tested.
@@ -21,7 +22,7 @@ pub(crate) enum Testing {
 pub(crate) struct NearPair {
     pub proxies: [u32; 2],
     /// While both odometers together are below this by more than a tolerance, the pieces are farther apart than that.
-    pub reach: f64,
+    pub apart_until: f64,
     /// The query in which it was last looked at: its number from 1 on.
     pub looked_at: u64,
     /// Where its memory is.
@@ -38,7 +39,7 @@ impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
         NearPair {
             proxies,
-            reach: f64::NEG_INFINITY,
+            apart_until: f64::NEG_INFINITY,
             looked_at: 0,
             cache: 0,
             result: UNLISTED,
@@ -141,6 +142,8 @@ pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
     /// What each pair's queries remember, in no order: pairs move when others come and go, this does not.
     pub caches: Vec<PairCache>,
+    /// … and of contacts, at the same places.
+    pub contacts: ContactMemory,
     /// Caches without a pair; with room for all.
     free: Vec<u32>,
     /// Pairs that come, until they are merged.
@@ -177,6 +180,7 @@ impl NearPairs {
                 kept += 1;
             } else {
                 self.free.push(self.pairs[at].cache);
+                self.contacts.forget(self.pairs[at].cache);
             }
         }
         found.copy_within(next.., new);
@@ -231,6 +235,15 @@ impl NearPairs {
         }
     }
 
+    /// Forgets depths of pairs that are not listed, and of those whose results say so.
+    pub fn forget_depths(&mut self, is_apart: impl Fn(u32) -> bool) {
+        for pair in &self.pairs {
+            if pair.result == UNLISTED || is_apart(pair.result) {
+                self.contacts.forget_depth(pair.cache);
+            }
+        }
+    }
+
     /// Gives back the room that the pairs do not need.
     ///
     /// # Errors
@@ -238,11 +251,12 @@ impl NearPairs {
     pub fn shrink(&mut self) -> Result<()> {
         let mut pairs = copied(&self.pairs)?;
         let caches = collected(pairs.iter().map(|pair| self.caches[pair.cache as usize]))?;
+        let contacts = self.contacts.packed(pairs.iter().map(|pair| pair.cache))?;
         let free = with_capacity(caches.len())?;
         for (place, pair) in (0..).zip(&mut pairs) {
             pair.cache = place;
         }
-        *self = NearPairs { pairs, caches, free, arrivals: Vec::new() };
+        *self = NearPairs { pairs, caches, contacts, free, arrivals: Vec::new() };
         Ok(())
     }
 

@@ -62,13 +62,13 @@ pub struct Minimum<L> {
     pub inverse: f64,
     /// |difference|.
     pub distance: f64,
-    /// How far the difference reaches along the unit direction.
-    pub reach: f64,
+    /// The difference projected on the unit direction.
+    pub projection: f64,
     /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
     /// closer look tells.
-    pub beyond: f64,
-    /// How far the points may lie out of their bodies, both together; holds where `beyond` is finite.
-    pub outside: f64,
+    pub support_excess: f64,
+    /// How far the points may lie out of their bodies, both together; holds where `support_excess` is finite.
+    pub point_error: f64,
     /// Value of the face plane at the vertex in a vertex-face state, else 0.
     pub height: f64,
 }
@@ -77,7 +77,7 @@ impl<L: Lanes> Minimum<L> {
     /// What follows from it, as far as a quick look tells.
     #[inline(always)]
     pub fn gap(&self, frame: &Frame<L>) -> Gap {
-        self.gap_with(frame, self.beyond, self.outside)
+        self.gap_with(frame, self.support_excess, self.point_error)
     }
 
     /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the rim of a cone, skewed
@@ -90,13 +90,16 @@ impl<L: Lanes> Minimum<L> {
         ];
         let points = [self.points[0].to_vector(), self.points[1].to_vector()];
         let defect = closely(frame.polyhedra(), state, points, towards, self.height);
-        self.gap_with(frame, defect.beyond * self.inverse, defect.outside)
+        self.gap_with(frame, defect.support_excess * self.inverse, defect.point_error)
     }
 
     #[inline(always)]
-    fn gap_with(&self, frame: &Frame<L>, beyond: f64, outside: f64) -> Gap {
+    fn gap_with(&self, frame: &Frame<L>, support_excess: f64, point_error: f64) -> Gap {
         let error = frame.difference_error(self.distance) + self.error;
-        Gap { distance: self.distance, interval: interval(self.distance, self.reach, error, beyond, outside) }
+        Gap {
+            distance: self.distance,
+            interval: interval(self.distance, self.projection, error, support_excess, point_error),
+        }
     }
 
     /// The same minimum with a direction in the planes of the normals at its edges, if it has edges. The direction across an
@@ -127,8 +130,8 @@ impl<L: Lanes> Minimum<L> {
             _ => return None,
         };
         let inverse = reciprocal_length(direction.dot(direction));
-        let reach = direction.dot(self.difference) * inverse;
-        Some(Minimum { direction, inverse, reach, ..*self })
+        let projection = direction.dot(self.difference) * inverse;
+        Some(Minimum { direction, inverse, projection, ..*self })
     }
 }
 
@@ -170,19 +173,19 @@ fn closely(
     height: f64,
 ) -> Defect {
     let features = state.features();
-    let mut sum = Defect { beyond: 0.0, outside: 0.0 };
+    let mut sum = Defect { support_excess: 0.0, point_error: 0.0 };
     for i in 0..2 {
         let (polyhedron, g) = (polyhedra[i], &towards[i]);
         let defect = match features[i] {
-            FeatureId::Vertex(v) => Defect { beyond: of_vertex(polyhedron, v, g), outside: 0.0 },
+            FeatureId::Vertex(v) => Defect { support_excess: of_vertex(polyhedron, v, g), point_error: 0.0 },
             FeatureId::Edge(e) => Defect {
-                beyond: of_edge(polyhedron, &polyhedron.edges[e as usize], Portable::from_vector(g)),
-                outside: edge_rounding(polyhedron),
+                support_excess: of_edge(polyhedron, &polyhedron.edges[e as usize], Portable::from_vector(g)),
+                point_error: edge_rounding(polyhedron),
             },
             FeatureId::Face(f) => of_face(polyhedron, f, g, &points[i], height),
         };
-        sum.beyond += defect.beyond;
-        sum.outside += defect.outside;
+        sum.support_excess += defect.support_excess;
+        sum.point_error += defect.point_error;
     }
     sum
 }
@@ -208,11 +211,11 @@ pub fn of_facing_face(polyhedron: &Polyhedron, face: &Face, height: f64, misfit:
     face.slack + face_rounding(polyhedron.radius, height) + 2.0 * polyhedron.radius * misfit
 }
 
-/// The point projected on a face from `height` over it misses the plane by the rounding of height and product; `reach` is the
+/// The point projected on a face from `height` over it misses the plane by the rounding of height and product; `magnitude` is the
 /// larger of the body's radius and the length of the point.
 #[inline(always)]
-pub fn face_rounding(reach: f64, height: f64) -> f64 {
-    16.0 * U * (reach + height)
+pub fn face_rounding(magnitude: f64, height: f64) -> f64 {
+    16.0 * U * (magnitude + height)
 }
 
 /// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which
@@ -229,7 +232,7 @@ pub struct Gap {
 }
 
 /// Square of the shortest direction that proves anything, 2⁻⁸⁰⁰: what underflows in a product with a direction of 2⁻⁴⁰⁰ or more is
-/// less than 2⁻⁶⁰⁰ of it, far below the error bound of any [usual](Frame::usual) pair.
+/// less than 2⁻⁶⁰⁰ of it, far below the error bound of any [in-range](Frame::in_range) pair.
 const SHORTEST_SQUARE: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// 1/|U| from U·U; NaN, which proves nothing, for a direction too short for products with it.
@@ -239,22 +242,22 @@ pub fn reciprocal_length(square: f64) -> f64 {
 }
 
 /// The interval from the difference D of two points that is off by at most `error`, its length `distance`, and how far it reaches
-/// along a direction, U·D/|U|; the bodies reach at most `beyond` farther along U/|U| than the points, and these lie at most
-/// `outside` out of the bodies.
+/// along a direction, U·D/|U|, its `projection`; the bodies reach at most `support_excess` farther along U/|U| than the points, and
+/// these lie at most `point_error` out of the bodies.
 #[inline(always)]
-pub fn interval(distance: f64, reach: f64, error: f64, beyond: f64, outside: f64) -> Interval {
-    // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; beyond has been summed with as much.
-    let lower = (reach - beyond * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
-    let upper = (distance * (1.0 + 4.0 * U) + error + outside) * (1.0 + 4.0 * U);
+pub fn interval(distance: f64, projection: f64, error: f64, support_excess: f64, point_error: f64) -> Interval {
+    // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; support_excess has been summed with as much.
+    let lower = (projection - support_excess * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
+    let upper = (distance * (1.0 + 4.0 * U) + error + point_error) * (1.0 + 4.0 * U);
     Interval { lower, upper }
 }
 
 /// How far a body misses the assumptions at a point of a feature.
 struct Defect {
     /// δ: how far the body reaches beyond the point along g.
-    beyond: f64,
+    support_excess: f64,
     /// How far the point may lie out of the body.
-    outside: f64,
+    point_error: f64,
 }
 
 /// Rounding error of g = RᵀU relative to |U|, which is at most 1.02|g|.
@@ -369,14 +372,14 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let remainder = g - record.normal * c;
     // A point that is not in the face may be far out of the body.
     let apart = point.norm();
-    let reach = if apart > polyhedron.radius { apart } else { polyhedron.radius };
-    let rounding = face_rounding(reach, height);
-    let beyond = c * (record.slack + rounding)
-        + (polyhedron.radius + reach) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
+    let magnitude = if apart > polyhedron.radius { apart } else { polyhedron.radius };
+    let rounding = face_rounding(magnitude, height);
+    let support_excess = c * (record.slack + rounding)
+        + (polyhedron.radius + magnitude) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
     // On the rim of the face nothing is proved about the point; the fallback finds another.
     let is_inside = is_inside_sides(polyhedron, record, Portable::from_vector(point));
-    let outside = if is_inside { record.slack + rounding } else { f64::INFINITY };
-    Defect { beyond, outside }
+    let point_error = if is_inside { record.slack + rounding } else { f64::INFINITY };
+    Defect { support_excess, point_error }
 }
 
 /// Whether a point q of a face's plane surely lies inside all its sides. Left of every line from corner to corner it lies in the
@@ -387,8 +390,8 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
 /// lever counts: at the tip of a needle whose sides are 1u apart the computed planes may diverge.
 #[inline(always)]
 pub fn is_inside_sides<L: Lanes>(polyhedron: &Polyhedron, face: &Face, point: L) -> bool {
-    let reach = point.norm1();
-    let margin = L::splat(64.0 * U * if reach > polyhedron.radius { reach } else { polyhedron.radius });
+    let magnitude = point.norm1();
+    let margin = L::splat(64.0 * U * if magnitude > polyhedron.radius { magnitude } else { polyhedron.radius });
     let mut inside = plane_values(&face.planes, point).greater(margin) & 0b1110 == 0b1110;
     if face.side_count > 3 {
         for block in polyhedron.further_sides(face) {

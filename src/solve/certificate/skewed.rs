@@ -93,8 +93,8 @@ impl<L: Lanes> Minimum<L> {
     fn measured(&self, direction: L) -> Minimum<L> {
         let inverse = reciprocal_length(direction.dot(direction));
         let distance = self.difference.dot(self.difference).sqrt();
-        let reach = direction.dot(self.difference) * inverse;
-        Minimum { direction, inverse, distance, reach, ..*self }
+        let projection = direction.dot(self.difference) * inverse;
+        Minimum { direction, inverse, distance, projection, ..*self }
     }
 }
 

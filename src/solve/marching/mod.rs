@@ -22,7 +22,7 @@ use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
 /// What marching came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum March {
-    /// A minimum at this state; the judge has seen it.
+    /// A minimum at this state; the certifier has seen it.
     Minimum(State),
     /// The step limit was met on the way to this state.
     Limit(State),
@@ -33,17 +33,17 @@ pub enum March {
 /// What one state's tests say. No enum that holds the state (R5).
 pub struct Step {
     /// How to go on.
-    pub way: Way,
+    pub transition: Transition,
     /// From which state.
     pub at: State,
 }
 
 /// How marching goes on from a state.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Way {
+pub enum Transition {
     /// To another state.
     Move,
-    /// Not at all: a minimum; the judge has seen it.
+    /// Not at all: a minimum; the certifier has seen it.
     Minimum,
     /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Elsewhere.
     Behind,
@@ -56,36 +56,36 @@ pub enum Way {
 impl Step {
     #[inline(always)]
     fn to(at: State) -> Step {
-        Step { way: Way::Move, at }
+        Step { transition: Transition::Move, at }
     }
 
     #[inline(always)]
     fn minimum(at: State) -> Step {
-        Step { way: Way::Minimum, at }
+        Step { transition: Transition::Minimum, at }
     }
 
     #[inline(always)]
     fn crossing(at: State) -> Step {
-        Step { way: Way::Crossing, at }
+        Step { transition: Transition::Crossing, at }
     }
 
     #[inline(always)]
     fn nowhere() -> Step {
-        Step { way: Way::Nowhere, at: State::vertex_vertex([0, 0]) }
+        Step { transition: Transition::Nowhere, at: State::vertex_vertex([0, 0]) }
     }
 }
 
-/// Tests one state; a minimum goes to `judge`.
+/// Tests one state; a minimum goes to `certifier`.
 #[inline(always)]
-pub fn visit<L: Lanes, J: Certify<L>>(frame: &Frame<L>, state: State, judge: &mut J) -> Step {
+pub fn visit<L: Lanes, C: Certify<L>>(frame: &Frame<L>, state: State, certifier: &mut C) -> Step {
     let State { first, second, .. } = state;
     match state.kind {
-        Kind::VertexVertex => vertex_vertex(frame, [first, second], judge),
-        Kind::VertexEdge => vertex_edge::<L, J, 0>(frame, first, second, judge),
-        Kind::EdgeVertex => vertex_edge::<L, J, 1>(frame, second, first, judge),
-        Kind::VertexFace => vertex_face::<L, J, 0>(frame, first, second, judge),
-        Kind::FaceVertex => vertex_face::<L, J, 1>(frame, second, first, judge),
-        Kind::EdgeEdge => edge_edge(frame, [first, second], judge),
+        Kind::VertexVertex => vertex_vertex(frame, [first, second], certifier),
+        Kind::VertexEdge => vertex_edge::<L, C, 0>(frame, first, second, certifier),
+        Kind::EdgeVertex => vertex_edge::<L, C, 1>(frame, second, first, certifier),
+        Kind::VertexFace => vertex_face::<L, C, 0>(frame, first, second, certifier),
+        Kind::FaceVertex => vertex_face::<L, C, 1>(frame, second, first, certifier),
+        Kind::EdgeEdge => edge_edge(frame, [first, second], certifier),
     }
 }
 
@@ -95,9 +95,14 @@ pub fn step_limit(polyhedra: [&Polyhedron; 2]) -> u32 {
     64 + polyhedra[0].vertices.len().max(polyhedra[1].vertices.len()) as u32
 }
 
-/// Marches from `start`; a minimum goes to `judge`. Returns the number of states visited too.
+/// Marches from `start`; a minimum goes to `certifier`. Returns the number of states visited too.
 #[inline(always)]
-pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit: u32, judge: &mut J) -> (March, u32) {
+pub fn march<L: Lanes, C: Certify<L>>(
+    frame: &Frame<L>,
+    start: State,
+    step_limit: u32,
+    certifier: &mut C,
+) -> (March, u32) {
     let mut state = start;
     // Brent's cycle detection: a state seen at a power of two and met again.
     let mut mark = start;
@@ -105,14 +110,14 @@ pub fn march<L: Lanes, J: Certify<L>>(frame: &Frame<L>, start: State, step_limit
     let mut jumped = false;
     loop {
         steps += 1;
-        let Step { way, at: next } = visit(frame, state, judge);
-        if way == Way::Minimum {
+        let Step { transition, at: next } = visit(frame, state, certifier);
+        if transition == Transition::Minimum {
             return (March::Minimum(next), steps);
         }
-        if way != Way::Move {
+        if transition != Transition::Move {
             // A local minimum of Voronoi marching (Mirtich 1998, §4.3) is left once; the second time penetration is likely, and
             // decided elsewhere.
-            if way != Way::Behind || jumped {
+            if transition != Transition::Behind || jumped {
                 return (March::Open(next), steps);
             }
             jumped = true;

@@ -18,8 +18,8 @@ struct Leaving {
     edge: u32,
     /// The neighbour.
     head: u32,
-    /// How far the nearest point on the edge's line is.
-    reach: f32,
+    /// How far along the edge the nearest point on its line is.
+    parameter: f32,
 }
 
 /// The edge along which a vertex rises most steeply in direction g, whose length is at most `length`, if it clearly rises, and by
@@ -30,17 +30,17 @@ fn leaving<L: Lanes>(corner: Corner, g: L, length: f64, tolerance: f64) -> Optio
     if corner.record.more > 1 {
         return None;
     }
-    let (reach, edge, head) = steepest(corner, g);
-    let rises = (reach > clear_slope(length)) & (f64::from(reach) > tolerance);
-    (rises & (edge != NONE)).then_some(Leaving { edge, head, reach })
+    let (parameter, edge, head) = steepest(corner, g);
+    let rises = (parameter > clear_slope(length)) & (f64::from(parameter) > tolerance);
+    (rises & (edge != NONE)).then_some(Leaving { edge, head, parameter })
 }
 
-/// Whether the nearest point on the line of an edge, `reach` from where it begins, is beyond its other end, so that the neighbour
-/// there, mostly that end, is the next feature, not the edge; or whether there is no edge, only the neighbour.
+/// Whether the nearest point on the line of an edge, `parameter` from where it begins, is beyond its other end, so that the
+/// neighbour there, mostly that end, is the next feature, not the edge; or whether there is no edge, only the neighbour.
 #[inline(always)]
-pub(super) fn is_passed<L: Lanes, J: Certify<L>>(polyhedron: &Polyhedron, edge: u32, reach: f32) -> bool {
+pub(super) fn is_passed<L: Lanes, C: Certify<L>>(polyhedron: &Polyhedron, edge: u32, parameter: f32) -> bool {
     match polyhedron.edges.get(edge as usize) {
-        Some(edge) => (J::RULE == Rule::Most) & (f64::from(reach) >= edge.length),
+        Some(edge) => (C::RULE == Rule::Most) & (f64::from(parameter) >= edge.length),
         None => true,
     }
 }
@@ -48,21 +48,21 @@ pub(super) fn is_passed<L: Lanes, J: Certify<L>>(polyhedron: &Polyhedron, edge: 
 /// A vertex lies beyond an end of the far body's edge: where it leaves towards that end, both features change in one step, as
 /// between two vertices (Ehmann & Lin 2000, §5.1).
 #[inline(always)]
-pub(super) fn past_the_end<L: Lanes, J: Certify<L>, const NEAR: usize>(
+pub(super) fn past_the_end<L: Lanes, C: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     corner: Corner,
     rotated: L,
     end: u32,
 ) -> Option<State> {
-    if J::RULE == Rule::First {
+    if C::RULE == Rule::First {
         return None;
     }
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let end_position = &far.polyhedron.vertices[end as usize].position;
     let direction = rotated.add(body.offset).sub(far.rotate(end_position));
     let towards_far = body.rotate_back(direction).negate();
-    let Leaving { edge, head, reach } = leaving(corner, towards_far, direction.norm1(), frame.tolerance)?;
-    Some(if is_passed::<L, J>(body.polyhedron, edge, reach) {
+    let Leaving { edge, head, parameter } = leaving(corner, towards_far, direction.norm1(), frame.tolerance)?;
+    Some(if is_passed::<L, C>(body.polyhedron, edge, parameter) {
         State::vertex_vertex(ordered(NEAR, head, end))
     } else {
         State::vertex_edge(1 - NEAR, end, edge)
@@ -72,14 +72,14 @@ pub(super) fn past_the_end<L: Lanes, J: Certify<L>, const NEAR: usize>(
 /// A vertex lies off a side of the far body's face. Where it leaves towards the face's plane, the edge along which it does and the
 /// side are next; where it lies off the side's own region, what lies across that.
 #[inline(always)]
-pub(super) fn over_another_feature<L: Lanes, J: Certify<L>, const NEAR: usize>(
+pub(super) fn over_another_feature<L: Lanes, C: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     corner: Corner,
     face: &Face,
     side: u32,
     [point, values]: [L; 2],
 ) -> Option<State> {
-    if J::RULE == Rule::First {
+    if C::RULE == Rule::First {
         return None;
     }
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);

@@ -18,7 +18,7 @@ use crate::solve::voronoi::{
 };
 
 #[inline(always)]
-pub(super) fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
+pub(super) fn vertex_vertex<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], certifier: &mut C) -> Step {
     let [body1, body2] = &frame.bodies;
     let (Some(corner1), Some(corner2)) =
         (Corner::of(body1.polyhedron, indices[0]), Corner::of(body2.polyhedron, indices[1]))
@@ -31,28 +31,33 @@ pub(super) fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: 
     let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
     // At most √3 times the length, without the root for which the tests would wait.
     let bound = direction.norm1();
-    let test1 = test_corner::<L, J>(corner1, towards[0], bound, frame.tolerance);
-    let test2 = test_corner::<L, J>(corner2, towards[1], bound, frame.tolerance);
+    let test1 = test_corner::<L, C>(corner1, towards[0], bound, frame.tolerance);
+    let test2 = test_corner::<L, C>(corner2, towards[1], bound, frame.tolerance);
     Step::to(match (test1, test2) {
-        (VertexTest::Leaves { edge, head, reach }, VertexTest::Leaves { edge: edge2, head: head2, reach: reach2 }) => {
+        (
+            VertexTest::Leaves { edge, head, parameter },
+            VertexTest::Leaves { edge: edge2, head: head2, parameter: parameter2 },
+        ) => {
             // Both features change in one step (Ehmann & Lin 2000, §5.1).
-            match (is_passed::<L, J>(body1.polyhedron, edge, reach), is_passed::<L, J>(body2.polyhedron, edge2, reach2))
-            {
+            match (
+                is_passed::<L, C>(body1.polyhedron, edge, parameter),
+                is_passed::<L, C>(body2.polyhedron, edge2, parameter2),
+            ) {
                 (false, false) => State::edge_edge([edge, edge2]),
                 (false, true) => State::vertex_edge(1, head2, edge),
                 (true, false) => State::vertex_edge(0, head, edge2),
                 (true, true) => State::vertex_vertex([head, head2]),
             }
         }
-        (VertexTest::Leaves { edge, head, reach }, _) => {
-            if is_passed::<L, J>(body1.polyhedron, edge, reach) {
+        (VertexTest::Leaves { edge, head, parameter }, _) => {
+            if is_passed::<L, C>(body1.polyhedron, edge, parameter) {
                 State::vertex_vertex([head, indices[1]])
             } else {
                 State::vertex_edge(1, indices[1], edge)
             }
         }
-        (_, VertexTest::Leaves { edge, head, reach }) => {
-            if is_passed::<L, J>(body2.polyhedron, edge, reach) {
+        (_, VertexTest::Leaves { edge, head, parameter }) => {
+            if is_passed::<L, C>(body2.polyhedron, edge, parameter) {
                 State::vertex_vertex([indices[0], head])
             } else {
                 State::vertex_edge(0, indices[0], edge)
@@ -69,33 +74,33 @@ pub(super) fn vertex_vertex<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: 
                 direction,
                 inverse: reciprocal_length(square),
                 distance: length,
-                reach: length,
-                beyond: beyond_vertex(test1) + beyond_vertex(test2),
-                outside: 0.0,
+                projection: length,
+                support_excess: excess_at_vertex(test1) + excess_at_vertex(test2),
+                point_error: 0.0,
                 height: 0.0,
             };
             let at = State::vertex_vertex(indices);
-            judge.certify(frame, at, &minimum);
+            certifier.certify(frame, at, &minimum);
             return Step::minimum(at);
         }
     })
 }
 
-/// [`test_vertex`] as the judge wants it.
+/// [`test_vertex`] as the certifier wants it.
 #[inline(always)]
-fn test_corner<L: Lanes, J: Certify<L>>(corner: Corner, towards: L, length: f64, tolerance: f64) -> VertexTest {
-    if J::LOOKS_AHEAD {
+fn test_corner<L: Lanes, C: Certify<L>>(corner: Corner, towards: L, length: f64, tolerance: f64) -> VertexTest {
+    if C::LOOKS_AHEAD {
         prefetch_edges::<L>(corner);
     }
-    test_vertex(J::RULE, corner, towards, length, tolerance)
+    test_vertex(C::RULE, corner, towards, length, tolerance)
 }
 
 #[inline(always)]
-pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
+pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     vertex: u32,
     edge: u32,
-    judge: &mut J,
+    certifier: &mut C,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let (Some(corner), Some(record)) = (Corner::of(body.polyhedron, vertex), far.polyhedron.edges.get(edge as usize))
@@ -110,10 +115,10 @@ pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let inside = values.greater(L::splat(MARGIN * frame.tolerance));
     let least = L::splat(-frame.tolerance);
     if inside != 0b1111 && least.greater(values) != 0 {
-        let lane = J::RULE.violated(values, least);
+        let lane = C::RULE.violated(values, least);
         let across = record.across[lane & 3];
         if lane < 2
-            && let Some(state) = past_the_end::<L, J, NEAR>(frame, corner, rotated, across)
+            && let Some(state) = past_the_end::<L, C, NEAR>(frame, corner, rotated, across)
         {
             return Step::to(state);
         }
@@ -141,9 +146,9 @@ pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
         square = direction.dot(direction);
     }
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_corner::<L, J>(corner, towards_far, direction.norm1(), frame.tolerance);
-    if let VertexTest::Leaves { edge: leaving, head, reach } = test {
-        return Step::to(if is_passed::<L, J>(body.polyhedron, leaving, reach) {
+    let test = test_corner::<L, C>(corner, towards_far, direction.norm1(), frame.tolerance);
+    if let VertexTest::Leaves { edge: leaving, head, parameter } = test {
+        return Step::to(if is_passed::<L, C>(body.polyhedron, leaving, parameter) {
             State::vertex_edge(NEAR, head, edge)
         } else {
             State::edge_edge(ordered(NEAR, leaving, edge))
@@ -151,13 +156,13 @@ pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
     }
     let distance = distance_squared.sqrt();
     let inverse = reciprocal_length(square);
-    let reach = direction.dot(difference) * inverse;
+    let projection = direction.dot(difference) * inverse;
     // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals but for a part along the edge:
     // of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of a
     // feature miss each other by.
     let is_plain = frame.rigid & (inside == 0b1111);
     let misfit = UNIT_ROUNDOFF * (29.0 + 10.5 * leaning.abs() * inverse);
-    let beyond = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
+    let support_excess = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
     // R·tail is one of the products that the frame's bound is for; R·ê, the length of x − tail and the last difference come on top.
     let error = 10.0 * UNIT_ROUNDOFF * (t + distance);
     let foot = L::from_vector(&along).mul_add(L::splat(t), L::from_vector(tail));
@@ -170,22 +175,22 @@ pub(super) fn vertex_edge<L: Lanes, J: Certify<L>, const NEAR: usize>(
         direction: signed::<L, NEAR>(direction),
         inverse,
         distance,
-        reach,
-        beyond: beyond + beyond_vertex(test),
-        outside: edge_rounding(far.polyhedron),
+        projection,
+        support_excess: support_excess + excess_at_vertex(test),
+        point_error: edge_rounding(far.polyhedron),
         height: 0.0,
     };
     let at = State::vertex_edge(NEAR, vertex, edge);
-    judge.certify(frame, at, &minimum);
+    certifier.certify(frame, at, &minimum);
     Step::minimum(at)
 }
 
 #[inline(always)]
-pub(super) fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
+pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     vertex: u32,
     face: u32,
-    judge: &mut J,
+    certifier: &mut C,
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let (Some(corner), Some(record)) = (Corner::of(body.polyhedron, vertex), far.polyhedron.faces.get(face as usize))
@@ -203,10 +208,10 @@ pub(super) fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     // The sides' planes are upright, so the foot lies as deep inside them as the point, up to less than the tolerance.
     let inside = values.greater(L::splat(MARGIN * frame.tolerance)) & 0b1110 == 0b1110;
     if (record.side_count > 3) | !inside
-        && let Some(side) = violated_side(J::RULE, far.polyhedron, record, values, point, frame.tolerance)
+        && let Some(side) = violated_side(C::RULE, far.polyhedron, record, [point, values], frame.tolerance)
     {
         let edge = far.polyhedron.side(record, side);
-        let another = over_another_feature::<L, J, NEAR>(frame, corner, record, edge, [point, values]);
+        let another = over_another_feature::<L, C, NEAR>(frame, corner, record, edge, [point, values]);
         return Step::to(another.unwrap_or(State::vertex_edge(NEAR, vertex, edge)));
     }
     let [height, ..] = values.to_array();
@@ -216,14 +221,14 @@ pub(super) fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
     let normal = L::from_vector(&record.normal);
     let direction = far.lift(normal);
     let towards_far = body.rotate_back(direction).negate();
-    let test = test_corner::<L, J>(corner, towards_far, NEARLY_UNIT, STRICT);
+    let test = test_corner::<L, C>(corner, towards_far, NEARLY_UNIT, STRICT);
     if let VertexTest::Leaves { edge: leaving, head, .. } = test {
-        return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], leaving, head);
+        return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], [leaving, head]);
     }
     let foot = normal.negated_mul_add(L::splat(height), point);
     let square = direction.dot(direction);
     let is_plain = frame.rigid && inside && (record.side_count == 3 || is_inside_sides(far.polyhedron, record, foot));
-    let (inverse, beyond) = if is_plain {
+    let (inverse, support_excess) = if is_plain {
         // |U|² = 1 + ε, |ε| < 100u: one step of Newton's iteration for the reciprocal root.
         (1.5 - 0.5 * square, of_facing_face(far.polyhedron, record, height, RIGID_MISFIT))
     } else {
@@ -239,13 +244,13 @@ pub(super) fn vertex_face<L: Lanes, J: Certify<L>, const NEAR: usize>(
         direction: signed::<L, NEAR>(direction),
         inverse,
         distance: difference.dot(difference).sqrt(),
-        reach: direction.dot(difference) * inverse,
-        beyond: beyond + beyond_vertex(test),
-        outside: record.slack + face_rounding(far.polyhedron.radius, height),
+        projection: direction.dot(difference) * inverse,
+        support_excess: support_excess + excess_at_vertex(test),
+        point_error: record.slack + face_rounding(far.polyhedron.radius, height),
         height,
     };
     let at = State::vertex_face(NEAR, vertex, face);
-    judge.certify(frame, at, &minimum);
+    certifier.certify(frame, at, &minimum);
     Step::minimum(at)
 }
 
@@ -262,7 +267,7 @@ const MARGIN: f64 = 3.0;
 pub(super) const NEARLY_UNIT: f64 = 1.02;
 
 #[inline(always)]
-pub(super) fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], judge: &mut J) -> Step {
+pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], certifier: &mut C) -> Step {
     let [body1, body2] = &frame.bodies;
     let [edges1, edges2] = [&body1.polyhedron.edges, &body2.polyhedron.edges];
     let (Some(record1), Some(record2)) = (edges1.get(indices[0] as usize), edges2.get(indices[1] as usize)) else {
@@ -314,13 +319,13 @@ pub(super) fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32
     let values2 = plane_slopes(&record2.planes, towards[1]);
     let across = L::upper_halves(values1, values2);
     if slack.greater(across) != 0 {
-        let lane = J::RULE.violated(across, slack);
+        let lane = C::RULE.violated(across, slack);
         return if lane < 2 {
             let face = if lane == 0 { record1.left() } else { record1.right() };
-            walk_along_edge::<L, 1>(frame, indices, t, face, &record1.planes, lane + 2)
+            walk_along_edge::<L, 1>(frame, indices, t, face, (&record1.planes, lane + 2))
         } else {
             let face = if lane == 2 { record2.left() } else { record2.right() };
-            walk_along_edge::<L, 0>(frame, indices, s, face, &record2.planes, lane)
+            walk_along_edge::<L, 0>(frame, indices, s, face, (&record2.planes, lane))
         };
     }
     // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
@@ -329,7 +334,7 @@ pub(super) fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32
     let inverse = reciprocal_length(sine_squared);
     let misfit = UNIT_ROUNDOFF * (28.0 + 3.0 * inverse);
     let is_plain = L::splat(0.0).greater(across) == 0;
-    let beyond = if is_plain {
+    let support_excess = if is_plain {
         of_edge_in_cone(body1.polyhedron, record1, misfit) + of_edge_in_cone(body2.polyhedron, record2, misfit)
     } else {
         f64::INFINITY
@@ -351,13 +356,13 @@ pub(super) fn edge_edge<L: Lanes, J: Certify<L>>(frame: &Frame<L>, indices: [u32
         direction: normal,
         inverse,
         distance,
-        reach: normal.dot(difference) * inverse,
-        beyond,
-        outside: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
+        projection: normal.dot(difference) * inverse,
+        support_excess,
+        point_error: edge_rounding(body1.polyhedron) + edge_rounding(body2.polyhedron),
         height: 0.0,
     };
     let at = State::edge_edge(indices);
-    judge.certify(frame, at, &minimum);
+    certifier.certify(frame, at, &minimum);
     Step::minimum(at)
 }
 
@@ -379,6 +384,6 @@ fn signed<L: Lanes, const NEAR: usize>(direction: L) -> L {
 
 /// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look has to tell.
 #[inline(always)]
-fn beyond_vertex(test: VertexTest) -> f64 {
+fn excess_at_vertex(test: VertexTest) -> f64 {
     if matches!(test, VertexTest::Strict) { 0.0 } else { f64::INFINITY }
 }

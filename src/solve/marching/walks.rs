@@ -1,7 +1,7 @@
 //! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's
 //! end, or into the face.
 
-use super::{Step, Way};
+use super::{Step, Transition};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
@@ -9,15 +9,14 @@ use crate::solve::frame::Frame;
 use crate::solve::state::{State, ordered};
 use crate::solve::voronoi::{edge_direction, exit_of_prism, plane_slopes, plane_values};
 
-/// A vertex over a face descends along an edge towards it: to the edge's end, or to the side of the prism where it leaves.
+/// A vertex over a face descends along the edge `leaving` to the neighbour `head`, towards the face: to the edge's end, or to the side of the prism where it leaves.
 #[inline(always)]
 pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     frame: &Frame<L>,
     vertex: u32,
     face: u32,
     [point, values]: [L; 2],
-    leaving: u32,
-    head: u32,
+    [leaving, head]: [u32; 2],
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex
@@ -59,8 +58,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
     indices: [u32; 2],
     t: f64,
     face: u32,
-    far_planes: &PlaneBlock,
-    lane: usize,
+    (far_planes, lane): (&PlaneBlock, usize),
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     let (edge, far_edge) = (indices[NEAR], indices[1 - NEAR]);
@@ -99,7 +97,7 @@ pub(super) fn walk_along_edge<L: Lanes, const NEAR: usize>(
 #[inline(always)]
 pub(super) fn behind<const NEAR: usize>(far: &Polyhedron, vertex: u32, face: u32, point: &Vector) -> Step {
     let support = support_towards(far, point, face);
-    Step { way: Way::Behind, at: State::vertex_vertex(ordered(NEAR, vertex, support)) }
+    Step { transition: Transition::Behind, at: State::vertex_vertex(ordered(NEAR, vertex, support)) }
 }
 
 /// Out of line, with a number for an answer: a step would be handed back in memory, where then all steps would be made.

@@ -99,12 +99,12 @@ pub fn expand<L: Lanes, const V: usize, const T: usize>(
     wanted: &Wanted,
 ) -> Expansion {
     let rounding = Rounding::of(frame);
-    let mut search = Search {
+    let mut search = Expander {
         frame,
         rounding,
         share: 1.0 - 1.0 / (1.0 + wanted.relative),
         width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
-        best: Best { upper: f64::INFINITY, beyond: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
+        best: Best { upper: f64::INFINITY, excess: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
         lower: wanted.lower,
         demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE, grows: true },
         steps: 0,
@@ -133,12 +133,12 @@ pub fn expand<L: Lanes, const V: usize, const T: usize>(
 struct Best {
     upper: f64,
     /// What of it is owed to ties at the support vertices, which no expansion makes less.
-    beyond: f64,
+    excess: f64,
     direction: Vector,
     farthest: VertexPair,
 }
 
-struct Search<'a, L> {
+struct Expander<'a, L> {
     frame: &'a Frame<'a, L>,
     rounding: Rounding,
     /// How wide the interval may be …
@@ -165,7 +165,7 @@ enum Step {
     Separated,
 }
 
-impl<L: Lanes> Search<'_, L> {
+impl<L: Lanes> Expander<'_, L> {
     #[inline(always)]
     fn run<const V: usize, const T: usize>(
         &mut self,
@@ -249,14 +249,14 @@ impl<L: Lanes> Search<'_, L> {
         if self.best.upper == f64::INFINITY {
             return f64::INFINITY;
         }
-        let reach = self.best.upper - self.best.beyond;
-        let share = self.share * reach;
-        let target = reach - if share > self.width { share } else { self.width };
-        let provable = reach - self.rounding.provable;
+        let value = self.best.upper - self.best.excess;
+        let share = self.share * value;
+        let target = value - if share > self.width { share } else { self.width };
+        let provable = value - self.rounding.provable;
         let least = if provable > 0.0 { f64::MIN_POSITIVE } else { provable };
         let target = if target > least { target } else { least };
-        // Where the bounds meet the planes' error still is between the distance of a triangle and the reach beyond it, twice.
-        let lower = self.lower.min(reach - 2.0 * self.rounding.plane);
+        // Where the bounds meet the planes' error still is between the distance of a triangle and the support beyond it, twice.
+        let lower = self.lower.min(value - 2.0 * self.rounding.plane);
         if target > lower { target } else { lower }
     }
 
@@ -266,8 +266,8 @@ impl<L: Lanes> Search<'_, L> {
         self.supports += 1;
         let found = support(self.frame, &self.rounding, direction, from);
         if found.upper < self.best.upper {
-            let Support { upper, beyond, pair, .. } = found;
-            self.best = Best { upper, beyond, direction: *direction, farthest: pair };
+            let Support { upper, excess, pair, .. } = found;
+            self.best = Best { upper, excess, direction: *direction, farthest: pair };
         }
         found
     }
@@ -317,7 +317,7 @@ impl<L: Lanes> Search<'_, L> {
             let height = |corner: &u8| normal.dot(&shell.position(*corner));
             let corners = shell.corners_of(triangle);
             let highest = corners.iter().fold(corners[0], |a, b| if height(b) > height(&a) { *b } else { a });
-            let highest_reach = height(&highest);
+            let highest_value = height(&highest);
             let is_coarse = !is_warm && shell.triangle_count < COARSE;
             let from = (!is_coarse).then_some(shell.pairs[usize::from(highest)]);
             let found = self.ask(&normal, from);
@@ -327,7 +327,7 @@ impl<L: Lanes> Search<'_, L> {
             if shell.distances[triangle] >= self.target() {
                 return Step::On;
             }
-            if found.reach - highest_reach > self.rounding.plane && self.insert(shell, triangle, &found) {
+            if found.value - highest_value > self.rounding.plane && self.insert(shell, triangle, &found) {
                 *straightened = None;
                 return Step::On;
             }

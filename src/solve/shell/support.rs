@@ -18,10 +18,10 @@ pub struct Support {
     pub pair: VertexPair,
     /// Where it is, as computed.
     pub position: [f64; 4],
-    /// How far it reaches along the direction, as computed.
-    pub reach: f64,
+    /// The value there, as computed.
+    pub value: f64,
     /// How much farther the bodies may reach than these vertices.
-    pub beyond: f64,
+    pub excess: f64,
     /// An upper bound of the support of the exact bodies along the exact direction of unit length.
     pub upper: f64,
 }
@@ -40,17 +40,17 @@ pub fn support<L: Lanes>(
 ) -> Support {
     let [body1, body2] = &frame.bodies;
     let along = L::from_vector(direction);
-    let (vertex1, beyond1) = farthest(body1.polyhedron, body1.rotate_back(along), start.map(|pair| pair[0]));
-    let (vertex2, beyond2) = farthest(body2.polyhedron, body2.rotate_back(along).negate(), start.map(|pair| pair[1]));
+    let (vertex1, excess1) = farthest(body1.polyhedron, body1.rotate_back(along), start.map(|pair| pair[0]));
+    let (vertex2, excess2) = farthest(body2.polyhedron, body2.rotate_back(along).negate(), start.map(|pair| pair[1]));
     let position = frame.difference(
         &body1.polyhedron.vertices[vertex1 as usize].position,
         &body2.polyhedron.vertices[vertex2 as usize].position,
     );
-    let reach = along.dot(position);
-    let beyond = (beyond1 + beyond2) * (1.0 + 64.0 * U);
+    let value = along.dot(position);
+    let excess = (excess1 + excess2) * (1.0 + 64.0 * U);
     // `plane` covers the product and the length of the direction, as of the normal of a triangle; the sum is less than 8M.
-    let upper = reach + beyond + rounding.plane;
-    Support { pair: [vertex1, vertex2], position: position.to_array(), reach, beyond, upper }
+    let upper = value + excess + rounding.plane;
+    Support { pair: [vertex1, vertex2], position: position.to_array(), value, excess, upper }
 }
 
 /// A vertex farthest along a direction of about unit length, and how much farther the body may reach.
@@ -67,7 +67,7 @@ fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -
             VertexTest::Strict => return (vertex, 0.0),
             VertexTest::Leaves { head, .. } => head,
             VertexTest::Tied => match plateau(polyhedron, &towards.to_vector(), vertex) {
-                Plateau::Highest(vertex, beyond) => return (vertex, beyond),
+                Plateau::Highest(vertex, excess) => return (vertex, excess),
                 Plateau::Up(head) => head,
                 Plateau::Large => break,
             },

@@ -37,7 +37,7 @@ pub fn fly(
         let poses = poses(pair);
         let mut answer = PairAnswer::default();
         let config = PairConfig::default();
-        distance(shapes[0], &poses[0], shapes[1], &poses[1], &mut cache, &config, &mut answer)?;
+        distance([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &mut cache, &config, &mut answer)?;
         each(number, &poses, &answer, &cache);
     }
     Ok(())

@@ -15,7 +15,7 @@ pub fn validate(name: &str, base: &Polyhedron, hierarchy: &Hierarchy) {
         let name = format!("{name}, {:?} level {}", hierarchy.kind, i + 1);
         let above = &level.polyhedron;
         assert_eq!((above.dimension, above.centre), (3, base.centre), "{name}");
-        assert_eq!(above.ordinary, base.ordinary, "{name}");
+        assert_eq!(above.simple, base.simple, "{name}");
         assert!(contains_by_brute_force(above, base), "{name} does not contain the body");
         check_deviation(&name, base, level);
         check_ranges(&name, above, below, &level.children);

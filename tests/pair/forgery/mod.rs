@@ -19,7 +19,7 @@ use testkit::shapes::{at, cuboid};
 
 impl Scene {
     fn verify(&self, poses: &[Pose; 2], answer: &PairAnswer) -> Result<(), Error> {
-        verify(&self.shapes[0], &poses[0], &self.shapes[1], &poses[1], answer)
+        verify([self.shapes[0].at(&poses[0]), self.shapes[1].at(&poses[1])], answer)
     }
 }
 
@@ -125,7 +125,7 @@ fn a_tilted_normal_proves_no_upper_end() {
         world2: nothing,
         ..PairAnswer::default()
     };
-    let check = |answer: &PairAnswer| verify(&cube, &here, &cube, &there, answer);
+    let check = |answer: &PairAnswer| verify([cube.at(&here), cube.at(&there)], answer);
     assert!(matches!(check(&tilted), Err(Error::Unverified(m)) if m.contains("their distance is in [1e0, 1e0]")));
     // What it does prove may be said of it.
     assert_eq!(check(&PairAnswer { upper: 1.0, ..tilted }), Ok(()));

@@ -4,7 +4,7 @@ use std::sync::LazyLock;
 
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use testkit::cases::{Case, FAMILIES, Random, coordinates};
@@ -100,14 +100,13 @@ fn with_levels() -> Vec<Scene> {
     vec![scene(0, there(2.2)), scene(1, there(4.0))]
 }
 
-type Query =
-    fn(&Shape, &Pose, &Shape, &Pose, &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
+type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
 
 impl Scene {
     fn ask(&self, query: Query, config: &PairConfig) -> PairAnswer {
         let ([shape1, shape2], [pose1, pose2]) = (&self.shapes, &self.poses);
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-        query(shape1, pose1, shape2, pose2, &mut cache, config, &mut answer).unwrap();
+        query([shape1.at(pose1), shape2.at(pose2)], &mut cache, config, &mut answer).unwrap();
         answer
     }
 }

@@ -152,12 +152,12 @@ impl Crowd for Sweep {
         let (mut found, mut answer) = (Found::default(), PairAnswer::default());
         for (&(a, b), cache) in &mut self.pairs {
             let [first, second] =
-                [a, b].map(|i| (&self.shapes[self.shape_of[i as usize] as usize], &self.poses[i as usize]));
+                [a, b].map(|i| self.shapes[self.shape_of[i as usize] as usize].at(&self.poses[i as usize]));
             let ask = match self.question {
                 Question::Intersection => pair::intersection,
                 Question::Distance => pair::distance,
             };
-            ask(first.0, first.1, second.0, second.1, cache, &config, &mut answer).expect("rigid poses");
+            ask([first, second], cache, &config, &mut answer).expect("rigid poses");
             let is_listed = match self.question {
                 Question::Intersection => answer.outcome == Outcome::Intersecting,
                 Question::Distance => answer.outcome != Outcome::Beyond,

@@ -1,0 +1,243 @@
+/*
+ * Hierarchies of hulls (Convex_Hierarchy) of SWIFT++'s decomposer. The leaves of the tree are the pieces of a convex decomposition; the
+ * hulls of several pieces above them, and what else the file keeps to save time, are read over.
+ */
+#ifndef SWIFT_LEGACY_HULL_TREE_FILES_H
+#define SWIFT_LEGACY_HULL_TREE_FILES_H
+
+#include "sub_mesh.h"
+
+namespace swift_legacy {
+
+/* The counts of a hierarchy of hulls. */
+struct HullTreeCounts {
+    int vertices, vertex_map, face_map, surface_faces, twice_held, faces, shared_faces, twins, nodes;
+};
+
+/* Empty when the counts could be read, else what is wrong with them. The stream stands behind the header. */
+inline std::string read_hull_tree_counts(std::ifstream& stream, HullTreeCounts& header)
+{
+    const char* const names[] = {"vertices",    "map_vids",     "map_fids",   "orig_faces", "orig_hier_faces",
+                                 "total_faces", "copied_faces", "edge_twins", "nodes"};
+    int* const counts[] = {&header.vertices, &header.vertex_map,   &header.face_map, &header.surface_faces, &header.twice_held,
+                           &header.faces,    &header.shared_faces, &header.twins,    &header.nodes};
+    const std::string fault = read_named_counts(stream, names, counts, 9);
+    if (!fault.empty()) {
+        return fault;
+    }
+    if (header.vertices == 0 || header.surface_faces == 0 || header.nodes == 0) {
+        return "it has no vertices, faces or nodes";
+    }
+    if ((header.vertex_map != 0 && header.vertex_map != header.vertices) ||
+        (header.face_map != 0 && header.face_map != header.surface_faces)) {
+        return "its maps have other lengths than its vertices and faces";
+    }
+    if (header.faces < header.surface_faces || header.faces > 0x7fffffff / 4 || header.twice_held > 0x7fffffff / 4) {
+        return "its numbers of faces do not fit each other";
+    }
+    return "";
+}
+
+/* The arrays of a hierarchy that all its nodes share. */
+struct HullTreeArrays {
+    Mesh whole;
+    /* Three vertices and some bits of each face: first those of the surface, then those of the nodes. */
+    std::vector<int> corners;
+    /* Faces that a node shares with another or with the surface. */
+    std::vector<int> shared;
+    std::vector<int> face_map;
+};
+
+/*
+ * Reads over so many half-edges, which say what is across an edge: four times a face and which of its edges it is, or -1. What is
+ * across is plain from the vertices, too. False where one is of a face that there is not, or is missing.
+ */
+inline bool skip_half_edges(BinaryNumbers& numbers, int count, int face_count)
+{
+    for (int i = 0; i < count && numbers.is_whole(); ++i) {
+        const int half_edge = numbers.integer();
+        if (half_edge < -1 || half_edge / 4 >= face_count) {
+            return false;
+        }
+    }
+    return numbers.is_whole();
+}
+
+/*
+ * Behind the header: the height of the tree; centre of mass, centre and radius; the coordinates; the number of each vertex and of
+ * each face in the mesh that was decomposed, where the maps are there; 3 vertices and some bits of each face; the shared faces; what
+ * is across each edge of the surface, of its faces that nodes hold again, and of all faces at each level.
+ */
+inline std::string read_hull_tree_arrays(BinaryNumbers& numbers, const HullTreeCounts& header, HullTreeArrays& arrays)
+{
+    const int any = 0x7fffffff;
+    numbers.integer();
+    for (int i = 0; i < 7; ++i) {
+        numbers.real();
+    }
+    const std::string fault = read_vertices(numbers, header.vertices, arrays.whole.vertices);
+    if (!fault.empty()) {
+        return fault;
+    }
+    if (!read_integers(numbers, header.vertex_map, any, arrays.whole.vertex_labels) ||
+        !read_integers(numbers, header.face_map, any, arrays.face_map)) {
+        return "it is cut off among its maps, or a number in them is negative";
+    }
+    for (int face = 0; face < header.faces && numbers.is_whole(); ++face) {
+        for (int corner = 0; corner < 3; ++corner) {
+            arrays.corners.push_back(numbers.integer());
+            if (arrays.corners.back() < 0 || arrays.corners.back() >= header.vertices) {
+                return "face " + text(face) + " has a vertex that there is not";
+            }
+        }
+        numbers.integer();
+    }
+    if (!numbers.is_whole()) {
+        return "it is cut off among its faces";
+    }
+    if (!read_integers(numbers, header.shared_faces, header.faces, arrays.shared)) {
+        return "it is cut off among its copied faces, or there is no such face";
+    }
+    if (!skip_half_edges(numbers, header.surface_faces, header.faces) || !skip_half_edges(numbers, header.surface_faces, header.faces) ||
+        !skip_half_edges(numbers, header.surface_faces, header.faces)) {
+        return "it is cut off among the twins of its edges, or one is of a face that there is not";
+    }
+    for (int i = 0; i < header.twice_held && numbers.is_whole(); ++i) {
+        const int face = numbers.integer();
+        if (face < 0 || face >= header.faces || !skip_half_edges(numbers, 3, header.faces)) {
+            return "it is cut off among the faces that it holds twice, or there is no such face";
+        }
+    }
+    if (!numbers.is_whole() || !skip_half_edges(numbers, header.twins, header.faces)) {
+        return "it is cut off among the twins of its edges, or one is of a face that there is not";
+    }
+    return "";
+}
+
+/* A hull of the tree; the faces are ranges of the shared ones and of all. */
+struct HullNode {
+    int shared_count, first_shared, own_count, first_own, parent;
+    int children[2];
+};
+
+/*
+ * Of each node: how many shared faces and from where, how many of its own and from where, the parent, two children, the level; centre
+ * of mass and radius; the kind of its look-up table and the half-edges in it.
+ */
+inline std::string read_hull_node(BinaryNumbers& numbers, const HullTreeCounts& header, int index, HullNode& node)
+{
+    int* const members[] = {&node.shared_count, &node.first_shared, &node.own_count,   &node.first_own,
+                            &node.parent,       &node.children[0],  &node.children[1]};
+    for (int i = 0; i < 7; ++i) {
+        *members[i] = numbers.integer();
+    }
+    numbers.integer();
+    for (int i = 0; i < 4; ++i) {
+        numbers.real();
+    }
+    const int kind = numbers.integer();
+    const std::string name = "node " + text(index);
+    if (!numbers.is_whole()) {
+        return "it is cut off in " + name;
+    }
+    if (node.shared_count < 0 || node.first_shared < 0 || node.shared_count > header.shared_faces - node.first_shared ||
+        node.own_count < 0 || node.first_own < 0 || node.own_count > header.faces - node.first_own) {
+        return name + " has faces that there are not";
+    }
+    const bool is_leaf = node.children[0] == -1;
+    for (int i = 0; i < 2; ++i) {
+        const int child = node.children[i];
+        if (is_leaf ? child != -1 : child <= index || child >= header.nodes) {
+            return name + " has a child that there is not";
+        }
+    }
+    /* Steps of 22.5, 11.25 and 5.625 degrees. */
+    if (kind < 0 || kind > 2) {
+        return name + " has a look-up table of a kind that there is not";
+    }
+    const int rings = (8 << kind) - 1, around = 16 << kind;
+    if (!skip_half_edges(numbers, rings * around + 2, header.faces)) {
+        return "it is cut off in the look-up table of " + name + ", or that has a face that there is not";
+    }
+    return "";
+}
+
+/* Whether the nodes are a tree below the first: each other one is a child once, of its parent. */
+inline std::string check_hull_tree(const std::vector<HullNode>& nodes)
+{
+    std::vector<int> parents(nodes.size(), -1);
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        for (int k = 0; k < 2 && nodes[i].children[0] != -1; ++k) {
+            int& parent = parents[static_cast<std::size_t>(nodes[i].children[k])];
+            if (parent != -1) {
+                return "node " + text(nodes[i].children[k]) + " is a child twice";
+            }
+            parent = static_cast<int>(i);
+        }
+    }
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].parent != parents[i] || (i > 0 && parents[i] == -1)) {
+            return "node " + text(static_cast<int>(i)) + " is no child of its parent";
+        }
+    }
+    return "";
+}
+
+/* The hull of a leaf: faces of the surface, and those of its own that close it, which have no number. */
+inline void add_hull(const HullTreeArrays& arrays, const HullTreeCounts& header, const HullNode& node, SubMesh& part)
+{
+    for (int i = 0; i < node.shared_count; ++i) {
+        const int face = arrays.shared[static_cast<std::size_t>(node.first_shared + i)];
+        const std::size_t place = static_cast<std::size_t>(face);
+        const bool is_of_surface = face < header.surface_faces;
+        part.add_triangle(&arrays.corners[3 * place], !is_of_surface ? -1 : arrays.face_map.empty() ? face : arrays.face_map[place]);
+    }
+    for (int i = 0; i < node.own_count; ++i) {
+        part.add_triangle(&arrays.corners[3 * static_cast<std::size_t>(node.first_own + i)], -1);
+    }
+}
+
+/* The leaves of a hierarchy of hulls, in its order, before any transform; empty, or what is wrong with it. */
+inline std::string read_hull_tree(std::ifstream& stream, std::vector<Mesh>& pieces)
+{
+    BinaryForm form;
+    HullTreeCounts counts;
+    std::string fault = read_binary_form(stream, form);
+    if (fault.empty()) {
+        fault = read_hull_tree_counts(stream, counts);
+    }
+    if (!fault.empty()) {
+        return fault;
+    }
+    BinaryNumbers numbers(stream, form);
+    HullTreeArrays arrays;
+    fault = read_hull_tree_arrays(numbers, counts, arrays);
+    std::vector<HullNode> nodes;
+    for (int i = 0; i < counts.nodes && fault.empty(); ++i) {
+        nodes.push_back(HullNode());
+        fault = read_hull_node(numbers, counts, i, nodes.back());
+    }
+    if (fault.empty() && !numbers.is_at_end()) {
+        fault = "there are more bytes than its header says";
+    }
+    if (fault.empty()) {
+        fault = check_hull_tree(nodes);
+    }
+    SubMesh part(arrays.whole);
+    for (std::size_t i = 0; i < nodes.size() && fault.empty(); ++i) {
+        if (nodes[i].children[0] != -1) {
+            continue;
+        }
+        part.begin();
+        add_hull(arrays, counts, nodes[i], part);
+        if (part.mesh().face_count == 0) {
+            fault = "node " + text(static_cast<int>(i)) + " has no faces";
+        }
+        pieces.push_back(part.mesh());
+    }
+    return fault;
+}
+
+} // namespace swift_legacy
+
+#endif
