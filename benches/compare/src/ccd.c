@@ -68,18 +68,29 @@ int ccd_shim_mpr(const struct hull *hull, const double poses[24], unsigned last[
 enum { MOST_ITERATIONS = 500 }; /* libccd's own limit is none, and at a tight tolerance it may go on for ever */
 
 struct peer {
-    struct hull *hull;
+    struct hull *hulls[2];
     const double *poses;
     unsigned last[2];
     double tolerance;
     bool by_mpr;
 };
 
-static struct peer *create(const struct peer_mesh *mesh, double tolerance, bool by_mpr)
+void ccd_depth_free(struct peer *peer)
+{
+    hull_free(peer->hulls[0]);
+    hull_free(peer->hulls[1]);
+    free(peer);
+}
+
+static struct peer *create(const struct peer_mesh meshes[2], double tolerance, bool by_mpr)
 {
     struct peer *peer = calloc(1, sizeof *peer);
-    if (!peer || !(peer->hull = hull_create(mesh->vertices, mesh->vertex_count, mesh->corners, mesh->triangle_count))) {
-        free(peer);
+    if (!peer)
+        return NULL;
+    for (int k = 0; k < 2; ++k)
+        peer->hulls[k] = hull_create(meshes[k].vertices, meshes[k].vertex_count, meshes[k].corners, meshes[k].triangle_count);
+    if (!peer->hulls[0] || !peer->hulls[1]) {
+        ccd_depth_free(peer);
         return NULL;
     }
     peer->tolerance = tolerance;
@@ -87,20 +98,14 @@ static struct peer *create(const struct peer_mesh *mesh, double tolerance, bool 
     return peer;
 }
 
-struct peer *ccd_epa_create(const struct peer_mesh *mesh, double tolerance)
+struct peer *ccd_epa_create(const struct peer_mesh meshes[2], double tolerance)
 {
-    return create(mesh, tolerance, false);
+    return create(meshes, tolerance, false);
 }
 
-struct peer *ccd_mpr_create(const struct peer_mesh *mesh, double tolerance)
+struct peer *ccd_mpr_create(const struct peer_mesh meshes[2], double tolerance)
 {
-    return create(mesh, tolerance, true);
-}
-
-void ccd_depth_free(struct peer *peer)
-{
-    hull_free(peer->hull);
-    free(peer);
+    return create(meshes, tolerance, true);
 }
 
 void ccd_depth_load(struct peer *peer, const double *poses, size_t count)
@@ -114,10 +119,10 @@ void ccd_depth_forget(struct peer *peer)
     peer->last[0] = peer->last[1] = 0;
 }
 
-double ccd_depth_ask(struct peer *peer, size_t i)
+double ccd_depth_ask(struct peer *peer, size_t i, double normal[3])
 {
     const double *poses = peer->poses + 24 * i;
-    const struct placed first = {peer->hull, poses, &peer->last[0]}, second = {peer->hull, poses + 12, &peer->last[1]};
+    const struct placed first = {peer->hulls[0], poses, &peer->last[0]}, second = {peer->hulls[1], poses + 12, &peer->last[1]};
     ccd_t ccd;
     prepare(&ccd);
     ccd.max_iterations = MOST_ITERATIONS;
@@ -126,5 +131,7 @@ double ccd_depth_ask(struct peer *peer, size_t i)
     ccd_vec3_t direction, position;
     const int status = peer->by_mpr ? ccdMPRPenetration(&first, &second, &ccd, &depth, &direction, &position)
                                     : ccdGJKPenetration(&first, &second, &ccd, &depth, &direction, &position);
+    if (status == 0)
+        memcpy(normal, direction.v, sizeof direction.v);
     return status == 0 ? depth : status == -1 ? 0.0 : NAN;
 }

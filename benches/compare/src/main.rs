@@ -37,6 +37,9 @@ fn main() -> ExitCode {
         if let Some(arguments) = &options.answers {
             return answers::run(arguments);
         }
+        if let Some(arguments) = &options.depths {
+            return depth::answers::run(arguments);
+        }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {

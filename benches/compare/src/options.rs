@@ -33,6 +33,8 @@ usage: compare [options]
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
                     benches/stability reads; METHOD is parry, parry-hull or parry-hc
+  --depths METHOD A B POSES
+                    the same of depths, in the form that benches/stability/depths.py reads; METHOD is one of --query depth
   --csv FILE        write the results there, too
 lists are separated by commas
 ";
@@ -55,6 +57,7 @@ pub struct Options {
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
     pub answers: Option<[String; 4]>,
+    pub depths: Option<[String; 4]>,
     /// Which figures; empty: all.
     pub figures: Option<Vec<String>>,
     pub csv: Option<PathBuf>,
@@ -80,6 +83,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         build: false,
         crowd: None,
         answers: None,
+        depths: None,
         figures: None,
         csv: None,
         help: false,
@@ -111,6 +115,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
+            "--depths" => options.depths = Some([value()?, value()?, value()?, value()?]),
             "--figures" => {
                 options.figures = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }

@@ -45,7 +45,7 @@ btTransform transform(const double *m)
 } // namespace
 
 struct peer {
-    hull *body;
+    hull *bodies[2];
     std::vector<btTransform> poses;
     btVector3 guess;
     unsigned last[2];
@@ -59,21 +59,26 @@ void bullet_depth_forget(peer *peer)
     peer->last[0] = peer->last[1] = 0;
 }
 
-peer *bullet_depth_create(const peer_mesh *mesh, double)
-{
-    hull *body = hull_create(mesh->vertices, mesh->vertex_count, mesh->corners, mesh->triangle_count);
-    if (!body) {
-        return nullptr;
-    }
-    peer *made = new peer{body, {}, {}, {}};
-    bullet_depth_forget(made);
-    return made;
-}
-
 void bullet_depth_free(peer *peer)
 {
-    hull_free(peer->body);
+    hull_free(peer->bodies[0]);
+    hull_free(peer->bodies[1]);
     delete peer;
+}
+
+peer *bullet_depth_create(const peer_mesh *meshes, double)
+{
+    peer *made = new peer{};
+    for (int k = 0; k < 2; ++k) {
+        const peer_mesh &mesh = meshes[k];
+        made->bodies[k] = hull_create(mesh.vertices, mesh.vertex_count, mesh.corners, mesh.triangle_count);
+    }
+    if (!made->bodies[0] || !made->bodies[1]) {
+        bullet_depth_free(made);
+        return nullptr;
+    }
+    bullet_depth_forget(made);
+    return made;
 }
 
 void bullet_depth_load(peer *peer, const double *poses, size_t count)
@@ -84,13 +89,16 @@ void bullet_depth_load(peer *peer, const double *poses, size_t count)
     }
 }
 
-double bullet_depth_ask(peer *peer, size_t i)
+double bullet_depth_ask(peer *peer, size_t i, double *normal)
 {
-    const Placed first{peer->body, peer->poses[2 * i], &peer->last[0]};
-    const Placed second{peer->body, peer->poses[2 * i + 1], &peer->last[1]};
+    const Placed first{peer->bodies[0], peer->poses[2 * i], &peer->last[0]};
+    const Placed second{peer->bodies[1], peer->poses[2 * i + 1], &peer->last[1]};
     btGjkEpaSolver3::sResults results;
     if (btGjkEpaSolver3_Penetration(first, second, peer->guess, results)) {
         peer->guess = results.normal;
+        for (int k = 0; k < 3; ++k) {
+            normal[k] = results.normal[k];
+        }
         return -results.distance;
     }
     const bool failed = results.status == btGjkEpaSolver3::sResults::EPA_Failed || results.status == btGjkEpaSolver3::sResults::GJK_Failed;

@@ -14,7 +14,7 @@ extern "C" {
 using Convex = coal::Convex<coal::Triangle>;
 
 struct peer {
-    std::unique_ptr<Convex> convex;
+    std::unique_ptr<Convex> convex[2];
     std::unique_ptr<coal::ComputeDistance> distance;
     coal::DistanceRequest request;
     coal::DistanceResult result;
@@ -28,24 +28,30 @@ static coal::Transform3s transform(const double *m)
     return coal::Transform3s(rotation, coal::Vec3s(m[3], m[7], m[11]));
 }
 
+static Convex *convex(const peer_mesh &mesh)
+{
+    auto points = std::make_shared<std::vector<coal::Vec3s>>();
+    for (size_t i = 0; i < mesh.vertex_count; ++i) {
+        points->emplace_back(mesh.vertices[3 * i], mesh.vertices[3 * i + 1], mesh.vertices[3 * i + 2]);
+    }
+    auto triangles = std::make_shared<std::vector<coal::Triangle>>();
+    for (size_t i = 0; i < mesh.triangle_count; ++i) {
+        const unsigned *corners = mesh.corners + 3 * i;
+        triangles->emplace_back(corners[0], corners[1], corners[2]);
+    }
+    return new Convex(points, static_cast<unsigned>(mesh.vertex_count), triangles, static_cast<unsigned>(mesh.triangle_count));
+}
+
 extern "C" {
 
-peer *coal_depth_create(const peer_mesh *mesh, double tolerance)
+peer *coal_depth_create(const peer_mesh *meshes, double tolerance)
 {
     try {
-        auto points = std::make_shared<std::vector<coal::Vec3s>>();
-        for (size_t i = 0; i < mesh->vertex_count; ++i) {
-            points->emplace_back(mesh->vertices[3 * i], mesh->vertices[3 * i + 1], mesh->vertices[3 * i + 2]);
+        std::unique_ptr<peer> made(new peer);
+        for (int k = 0; k < 2; ++k) {
+            made->convex[k].reset(convex(meshes[k]));
         }
-        auto triangles = std::make_shared<std::vector<coal::Triangle>>();
-        for (size_t i = 0; i < mesh->triangle_count; ++i) {
-            const unsigned *corners = mesh->corners + 3 * i;
-            triangles->emplace_back(corners[0], corners[1], corners[2]);
-        }
-        auto made = std::make_unique<peer>();
-        made->convex = std::make_unique<Convex>(points, static_cast<unsigned>(mesh->vertex_count), triangles,
-                                                static_cast<unsigned>(mesh->triangle_count));
-        made->distance = std::make_unique<coal::ComputeDistance>(made->convex.get(), made->convex.get());
+        made->distance.reset(new coal::ComputeDistance(made->convex[0].get(), made->convex[1].get()));
         made->request.gjk_initial_guess = coal::GJKInitialGuess::CachedGuess;
         made->request.enable_signed_distance = true;
         made->request.epa_tolerance = tolerance;
@@ -74,12 +80,14 @@ void coal_depth_forget(peer *peer)
     peer->request.cached_support_func_guess.setZero();
 }
 
-double coal_depth_ask(peer *peer, size_t i)
+double coal_depth_ask(peer *peer, size_t i, double *normal)
 {
     try {
         peer->result.clear();
         const double distance = (*peer->distance)(peer->poses[2 * i], peer->poses[2 * i + 1], peer->request, peer->result);
         peer->request.updateGuess(peer->result);
+        Eigen::Map<coal::Vec3s> said(normal);
+        said = peer->result.normal;
         return distance < 0 ? -distance : distance >= 0 ? 0 : distance;
     } catch (...) {
         return std::numeric_limits<double>::quiet_NaN();

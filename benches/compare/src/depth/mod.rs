@@ -3,6 +3,7 @@
 //! The truth is the certified interval, of which each answer is re-checked by [`verify_depth`]; a peer errs by as much as its depth
 //! is outside of it.
 
+pub mod answers;
 mod ours;
 mod parry;
 mod peers;
@@ -12,7 +13,7 @@ use std::rc::Rc;
 
 use swiftprox::math::{Matrix, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, Outcome, depth};
+use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, Outcome, Placed, depth};
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify_depth;
 
@@ -91,11 +92,11 @@ impl Compared {
         let mesh = &triangulated(mesh).map_err(|e| e.to_string())?;
         let rings = Rc::new(Rings::new(mesh));
         let mut first: Vec<Box<dyn Method>> = vec![Box::new(ours::Depth::new(&shape, 0.0))];
-        first.extend(peers::strongest(mesh));
-        first.push(Box::new(parry::Contact::new(rings)));
+        first.extend(peers::strongest([mesh; 2]));
+        first.push(Box::new(parry::Contact::new([rings.clone(), rings])));
         let mut further = ERRORS.map(|error| Box::new(ours::Depth::new(&shape, error))).into_iter();
         let mut second: Vec<Box<dyn Method>> = Vec::new();
-        for peer in peers::others(mesh) {
+        for peer in peers::others([mesh; 2]) {
             second.extend(further.next().map(|method| method as Box<dyn Method>));
             second.push(peer);
         }
@@ -130,9 +131,9 @@ impl Compared {
         let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
         let mut found = (Vec::new(), Vec::new());
         for (pose, [pose1, pose2]) in poses.iter().zip(poses_of(poses)) {
-            let shape = &*self.shape;
-            depth(shape, &pose1, shape, &pose2, &mut cache, &DepthConfig::default(), &mut answer)
-                .and_then(|()| verify_depth(shape, &pose1, shape, &pose2, &cache, &answer))
+            let bodies = [&pose1, &pose2].map(|pose| Placed { shape: &self.shape, pose });
+            depth(bodies, &mut cache, &DepthConfig::default(), &mut answer)
+                .and_then(|()| verify_depth(bodies, &cache, &answer))
                 .map_err(|e| format!("the truth of {pose:?}: {e}"))?;
             if answer.outcome == Outcome::Intersecting && answer.lower > 0.0 {
                 found.0.push(*pose);

@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <mujoco/mujoco.h>
+#include <stdbool.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -18,45 +19,47 @@ enum { POSE = 12, FARTHEST = 100 };
 
 void mujoco_depth_free(struct peer *peer)
 {
-    mj_deleteData(peer->data);
-    mj_deleteModel(peer->model);
+    if (peer->data)
+        mj_deleteData(peer->data);
+    if (peer->model)
+        mj_deleteModel(peer->model);
     free(peer->poses);
     free(peer);
 }
 
-static mjModel *compile(const struct peer_mesh *mesh, const float *vertices, double tolerance)
+/* A mesh of single precision under a name; false without memory. */
+static bool add_mesh(mjSpec *spec, const char *name, const struct peer_mesh *mesh)
 {
-    mjSpec *spec = mj_makeSpec();
-    spec->option.ccd_tolerance = tolerance;
+    float *vertices = malloc(3 * mesh->vertex_count * sizeof *vertices);
+    if (!vertices)
+        return false;
+    for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
+        vertices[i] = (float)mesh->vertices[i];
     mjsMesh *hull = mjs_addMesh(spec, NULL);
-    mjs_setName(hull->element, "hull");
+    mjs_setName(hull->element, name);
     mjs_setFloat(hull->uservert, vertices, (int)(3 * mesh->vertex_count));
     mjs_setInt(hull->userface, (const int *)mesh->corners, (int)(3 * mesh->triangle_count));
-    for (int k = 0; k < 2; ++k) {
-        mjsGeom *geom = mjs_addGeom(mjs_findBody(spec, "world"), NULL);
-        geom->type = mjGEOM_MESH;
-        mjs_setString(geom->meshname, "hull");
-    }
-    mjModel *model = mj_compile(spec, NULL);
-    mj_deleteSpec(spec);
-    return model;
+    free(vertices);
+    mjsGeom *geom = mjs_addGeom(mjs_findBody(spec, "world"), NULL);
+    geom->type = mjGEOM_MESH;
+    mjs_setString(geom->meshname, name);
+    return true;
 }
 
-struct peer *mujoco_depth_create(const struct peer_mesh *mesh, double tolerance)
+struct peer *mujoco_depth_create(const struct peer_mesh meshes[2], double tolerance)
 {
     struct peer *peer = calloc(1, sizeof *peer);
-    float *vertices = malloc(3 * mesh->vertex_count * sizeof *vertices);
-    if (peer && vertices) {
-        for (size_t i = 0; i < 3 * mesh->vertex_count; ++i)
-            vertices[i] = (float)mesh->vertices[i];
-        peer->model = compile(mesh, vertices, tolerance);
-        peer->data = peer->model ? mj_makeData(peer->model) : NULL;
-    }
-    free(vertices);
-    if (peer && !peer->data) {
-        mj_deleteModel(peer->model);
-        free(peer);
-        peer = NULL;
+    if (!peer)
+        return NULL;
+    mjSpec *spec = mj_makeSpec();
+    spec->option.ccd_tolerance = tolerance;
+    if (add_mesh(spec, "first", &meshes[0]) && add_mesh(spec, "second", &meshes[1]))
+        peer->model = mj_compile(spec, NULL);
+    mj_deleteSpec(spec);
+    peer->data = peer->model ? mj_makeData(peer->model) : NULL;
+    if (!peer->data) {
+        mujoco_depth_free(peer);
+        return NULL;
     }
     return peer;
 }
@@ -88,7 +91,7 @@ void mujoco_depth_forget(struct peer *peer)
     (void)peer;
 }
 
-double mujoco_depth_ask(struct peer *peer, size_t i)
+double mujoco_depth_ask(struct peer *peer, size_t i, double normal[3])
 {
     const mjtNum *poses = peer->poses + 2 * POSE * i;
     for (int k = 0; k < 2; ++k) {
@@ -97,5 +100,7 @@ double mujoco_depth_ask(struct peer *peer, size_t i)
     }
     mjtNum points[6];
     const mjtNum distance = mj_geomDistance(peer->model, peer->data, 0, 1, FARTHEST, points);
+    for (int k = 0; k < 3; ++k)
+        normal[k] = points[3 + k] - points[k];
     return distance < 0 ? -distance : distance >= 0 ? 0 : distance;
 }

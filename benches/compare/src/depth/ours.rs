@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use swiftprox::math::Pose;
-use swiftprox::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome};
+use swiftprox::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome, Placed};
 use swiftprox::shape::Shape;
 
 use crate::method::{Method, Reply};
@@ -55,8 +55,8 @@ impl Method for Depth {
     #[inline]
     fn ask(&mut self, i: usize) {
         let [pose1, pose2] = &self.poses[i];
-        let (shape, cache, answer) = (&*self.shape, &mut self.cache, &mut self.answer);
-        self.failed = pair::depth(shape, pose1, shape, pose2, cache, &self.config, answer).is_err();
+        let bodies = [pose1, pose2].map(|pose| Placed { shape: &self.shape, pose });
+        self.failed = pair::depth(bodies, &mut self.cache, &self.config, &mut self.answer).is_err();
     }
 
     fn reply(&self) -> Reply {

@@ -13,16 +13,18 @@ use crate::parry::{Climber, Rings, pose_pair};
 use testkit::PosePair;
 
 pub struct Contact {
-    rings: Rc<Rings>,
+    rings: [Rc<Rings>; 2],
     poses: Vec<(Pose, Pose)>,
     last: [Cell<u32>; 2],
     direction: Option<Vector>,
     simplex: VoronoiSimplex,
     answer: GJKResult,
+    /// The pose asked about last.
+    asked: usize,
 }
 
 impl Contact {
-    pub fn new(rings: Rc<Rings>) -> Contact {
+    pub fn new(rings: [Rc<Rings>; 2]) -> Contact {
         Contact {
             rings,
             poses: Vec::new(),
@@ -30,7 +32,15 @@ impl Contact {
             direction: None,
             simplex: VoronoiSimplex::new(),
             answer: GJKResult::Intersection,
+            asked: 0,
         }
+    }
+
+    /// Along which it said the last depth, in the world.
+    pub fn normal(&self) -> [f64; 3] {
+        let GJKResult::ClosestPoints(_, _, normal) = self.answer else { return [f64::NAN; 3] };
+        let rotation = self.poses[self.asked].0.rotation;
+        (rotation * normal).to_array()
     }
 }
 
@@ -50,9 +60,10 @@ impl Method for Contact {
 
     #[inline]
     fn ask(&mut self, i: usize) {
+        self.asked = i;
         let (pose1, pose2) = &self.poses[i];
         let pose12 = pose1.inv_mul(pose2);
-        let [climber1, climber2] = [0, 1].map(|k| Climber::<false> { rings: &self.rings, last: &self.last[k] });
+        let [climber1, climber2] = [0, 1].map(|k| Climber::<false> { rings: &self.rings[k], last: &self.last[k] });
         self.answer = contact(&pose12, &climber1, &climber2, 0.0, &mut self.simplex, self.direction);
         self.direction = match self.answer {
             GJKResult::ClosestPoints(_, _, normal) => Some(normal),

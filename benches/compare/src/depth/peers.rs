@@ -21,10 +21,10 @@ struct Mesh {
 /// A library's functions.
 #[derive(Clone, Copy)]
 struct Functions {
-    create: unsafe extern "C" fn(*const Mesh, f64) -> *mut Handle,
+    create: unsafe extern "C" fn(*const [Mesh; 2], f64) -> *mut Handle,
     load: unsafe extern "C" fn(*mut Handle, *const f64, usize),
     forget: unsafe extern "C" fn(*mut Handle),
-    ask: unsafe extern "C" fn(*mut Handle, usize) -> f64,
+    ask: unsafe extern "C" fn(*mut Handle, usize, *mut f64) -> f64,
     free: unsafe extern "C" fn(*mut Handle),
 }
 
@@ -36,10 +36,10 @@ macro_rules! functions {
         #[cfg($condition)]
         let functions = {
             unsafe extern "C" {
-                fn $create(mesh: *const Mesh, tolerance: f64) -> *mut Handle;
+                fn $create(meshes: *const [Mesh; 2], tolerance: f64) -> *mut Handle;
                 fn $load(peer: *mut Handle, poses: *const f64, count: usize);
                 fn $forget(peer: *mut Handle);
-                fn $ask(peer: *mut Handle, i: usize) -> f64;
+                fn $ask(peer: *mut Handle, i: usize, normal: *mut f64) -> f64;
                 fn $free(peer: *mut Handle);
             }
             Some(Functions { create: $create, load: $load, forget: $forget, ask: $ask, free: $free })
@@ -49,26 +49,41 @@ macro_rules! functions {
 }
 
 /// Those that this library is to be held against.
-pub fn strongest(mesh: &PolygonMesh) -> Vec<Box<dyn Method>> {
-    [Peer::new(COAL, 1e-10, mesh), Peer::new(MUJOCO, 1e-6, mesh)].into_iter().flatten().collect()
+pub fn strongest(meshes: [&PolygonMesh; 2]) -> Vec<Box<dyn Method>> {
+    boxed(&[(COAL, 1e-10), (MUJOCO, 1e-6)], meshes)
 }
 
 /// Further tolerances, and further libraries; the default of each is among them.
-pub fn others(mesh: &PolygonMesh) -> Vec<Box<dyn Method>> {
-    let ways = [
-        (COAL, 1e-6),
-        (COAL, 1e-4),
-        (COAL, 1e-3),
-        (COAL, 1e-2),
-        (MUJOCO, 1e-10),
-        (CCD_EPA, 1e-4),
-        (CCD_EPA, 1e-10),
-        (CCD_MPR, 1e-4),
-        (BULLET, 1e-4),
-        (FCL, 1e-6),
-        (FCL, 1e-10),
-    ];
-    ways.into_iter().filter_map(|(library, tolerance)| Peer::new(library, tolerance, mesh)).collect()
+pub fn others(meshes: [&PolygonMesh; 2]) -> Vec<Box<dyn Method>> {
+    boxed(&OTHERS, meshes)
+}
+
+const OTHERS: [(Library, f64); 11] = [
+    (COAL, 1e-6),
+    (COAL, 1e-4),
+    (COAL, 1e-3),
+    (COAL, 1e-2),
+    (MUJOCO, 1e-10),
+    (CCD_EPA, 1e-4),
+    (CCD_EPA, 1e-10),
+    (CCD_MPR, 1e-4),
+    (BULLET, 1e-4),
+    (FCL, 1e-6),
+    (FCL, 1e-10),
+];
+
+fn boxed(ways: &[(Library, f64)], meshes: [&PolygonMesh; 2]) -> Vec<Box<dyn Method>> {
+    let made = ways.iter().filter_map(|(library, tolerance)| Peer::new(*library, *tolerance, meshes));
+    made.map(|peer| Box::new(peer) as Box<dyn Method>).collect()
+}
+
+/// A library with a tolerance, as in coal-1e-10; none where there is none such, or it refuses a mesh.
+pub fn named(name: &str, meshes: [&PolygonMesh; 2]) -> Option<Peer> {
+    let (library, tolerance) = [COAL, MUJOCO, CCD_EPA, CCD_MPR, BULLET, FCL].into_iter().find_map(|library| {
+        let tolerance = name.strip_prefix(library.0)?.strip_prefix('-')?.parse().ok()?;
+        Some((library, tolerance))
+    })?;
+    Peer::new(library, tolerance, meshes)
 }
 
 /// A library's word for tables, and its functions.
@@ -91,35 +106,45 @@ const BULLET: Library = (
 const FCL: Library =
     ("fcl", functions!(fcl: fcl_depth_create, fcl_depth_load, fcl_depth_forget, fcl_depth_ask, fcl_depth_free));
 
-struct Peer {
+/// A library that was found.
+pub struct Peer {
     name: String,
     functions: Functions,
     handle: *mut Handle,
     /// What the library was handed stays where it is.
     poses: Vec<PosePair>,
     depth: f64,
+    normal: [f64; 3],
 }
 
 impl Peer {
-    /// None where the library is not there, or refuses the mesh.
-    fn new((library, functions): Library, tolerance: f64, mesh: &PolygonMesh) -> Option<Box<dyn Method>> {
+    /// None where the library is not there, or refuses a mesh.
+    fn new((library, functions): Library, tolerance: f64, meshes: [&PolygonMesh; 2]) -> Option<Peer> {
         let functions = functions?;
         let name = format!("{library}-{tolerance:e}");
-        assert_eq!(mesh.indices.len(), 3 * mesh.face_count(), "peers are given triangles only");
-        let vertices: Vec<f64> = mesh.vertices.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
-        let given = Mesh {
-            vertices: vertices.as_ptr(),
-            vertex_count: mesh.vertices.len(),
-            corners: mesh.indices.as_ptr(),
-            triangle_count: mesh.face_count(),
-        };
+        let vertices = meshes.map(|mesh| mesh.vertices.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<f64>>());
+        let given = [0, 1].map(|i| {
+            let mesh = meshes[i];
+            assert_eq!(mesh.indices.len(), 3 * mesh.face_count(), "peers are given triangles only");
+            Mesh {
+                vertices: vertices[i].as_ptr(),
+                vertex_count: mesh.vertices.len(),
+                corners: mesh.indices.as_ptr(),
+                triangle_count: mesh.face_count(),
+            }
+        });
         // SAFETY: the pointers are to arrays of the lengths that are passed; the shim copies them.
         let handle = unsafe { (functions.create)(&given, tolerance) };
         if handle.is_null() {
             eprintln!("{name} refuses this model: compared without it");
             return None;
         }
-        Some(Box::new(Peer { name, functions, handle, poses: Vec::new(), depth: f64::NAN }))
+        Some(Peer { name, functions, handle, poses: Vec::new(), depth: f64::NAN, normal: [f64::NAN; 3] })
+    }
+
+    /// Along which it said the last depth, of any length and either sign.
+    pub fn normal(&self) -> [f64; 3] {
+        self.normal
     }
 }
 
@@ -149,8 +174,9 @@ impl Method for Peer {
     #[inline]
     fn ask(&mut self, i: usize) {
         assert!(i < self.poses.len());
-        // SAFETY: the handle lives as long as self, and there is such a pose.
-        self.depth = unsafe { (self.functions.ask)(self.handle, i) };
+        self.normal = [f64::NAN; 3];
+        // SAFETY: the handle lives as long as self, there is such a pose, and the normal is three numbers.
+        self.depth = unsafe { (self.functions.ask)(self.handle, i, self.normal.as_mut_ptr()) };
     }
 
     fn reply(&self) -> Reply {
