@@ -13,8 +13,8 @@ fi
 if [ -x build/peers/bin/python ]; then export PEERS_PYTHON="$PWD/build/peers/bin/python"; fi
 cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 compare="${CARGO_TARGET_DIR:-benches/compare/target}/release/compare"
-$TIMED "$compare" --query depth --n 102,1002,10002 --models fat,plate --orbits deep --steps 0.1,1,10,random --count 1800 --passes 5 \
-    --csv "$1"
+$TIMED "$compare" --query depth --n 102,1002,10002 --models fat,plate --orbits deep --steps 0.1,1,10,random \
+    --count 1800 --passes 5 --csv "$1"
 rm -rf build/hard
 cargo run --locked --release --example hard_cases -- build/hard
 python3 benches/stability/depths.py build/hard --compare "$compare" --csv "$2"

@@ -1,5 +1,5 @@
-//! The depths that a method says of a case, a line a pose, each written at once, so that a crash costs one pose. The protocol is that
-//! of benches/stability/depths.py.
+//! The depths that a method says of a case, a line a pose, each written at once, so that a crash costs one pose. The protocol is
+//! that of benches/stability/depths.py.
 
 use std::io::{Write, stdout};
 use std::path::Path;

@@ -96,12 +96,15 @@ double bullet_depth_ask(peer *peer, size_t i, double *normal)
     btGjkEpaSolver3::sResults results;
     if (btGjkEpaSolver3_Penetration(first, second, peer->guess, results)) {
         peer->guess = results.normal;
+        // In the axes of the first body, unlike the points.
+        const btVector3 turned = first.at.getBasis() * results.normal;
         for (int k = 0; k < 3; ++k) {
-            normal[k] = results.normal[k];
+            normal[k] = turned[k];
         }
         return -results.distance;
     }
-    const bool failed = results.status == btGjkEpaSolver3::sResults::EPA_Failed || results.status == btGjkEpaSolver3::sResults::GJK_Failed;
+    using Results = btGjkEpaSolver3::sResults;
+    const bool failed = results.status == Results::EPA_Failed || results.status == Results::GJK_Failed;
     return failed ? std::numeric_limits<double>::quiet_NaN() : 0;
 }
 }

@@ -57,8 +57,8 @@ pub fn run(options: &Options) -> Result<(), String> {
     Ok(())
 }
 
-/// A box on a like one under gravity as a simulator sees it: a little in it and hardly tilted, it creeps and turns a little, so that
-/// from one query to the next another corner may come to be the deepest.
+/// A box on a like one under gravity as a simulator sees it: a little in it and hardly tilted, it creeps and turns a little, so
+/// that from one query to the next another corner may come to be the deepest.
 fn resting(count: usize) -> Vec<PosePair> {
     let pose = |i: usize| {
         let time = 1e-3 * i as f64;
@@ -227,7 +227,8 @@ fn print(rows: &[Row]) {
             own = time.best;
         }
         println!(
-            "| {model} | {n} | {step} | {count} | {method} | {:.0} | {:.2} | {failures} | {median_error:.1e} | {worst_error:.1e} | {worst_width:.1e} |",
+            "| {model} | {n} | {step} | {count} | {method} | {:.0} | {:.2} | {failures} | {median_error:.1e} | \
+            {worst_error:.1e} | {worst_width:.1e} |",
             time.best,
             time.best / own
         );
