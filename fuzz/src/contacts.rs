@@ -62,7 +62,9 @@ fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment
     for answer in [&answer, &cold] {
         assert_eq!(answer.outcome, known.outcome, "{answer:?}\n{known:?}");
         assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{answer:?}");
-        for proof in [&after, &DepthCache::default()] {
+        // Deeper than the largest double: there is nothing to check.
+        let proofs = if answer.upper == f64::INFINITY { vec![] } else { vec![after, DepthCache::default()] };
+        for proof in &proofs {
             match verify_depth(bodies, proof, answer) {
                 // What is too large or too far apart.
                 Ok(()) | Err(Error::Argument(_)) => {}
