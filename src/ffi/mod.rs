@@ -19,6 +19,7 @@ pub mod shape;
 pub mod level;
 pub mod pair;
 pub mod depth;
+mod parked_threads;
 pub mod workers;
 pub mod scene;
 pub mod object;
