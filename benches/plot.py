@@ -36,6 +36,7 @@ METHODS = {
 }
 CROWDS = {
     "swiftprox": Style("swiftprox", charts.BLUE),
+    "swiftprox-2": Style("swiftprox, two threads", charts.SKY, DASHED, "D"),
     "parry": Style("parry3d-f64, refitted", charts.RED, marker="s"),
     "parry-rebuilt": Style("parry3d-f64, rebuilt", charts.ORANGE, DASHED, "v"),
     "fcl": Style("FCL, dynamic tree", charts.FOREST, marker="P"),
@@ -171,7 +172,7 @@ def crowds(machine, bodies, rows):
         return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
 
     names = {"all": "all move a little", "5%": "one in 20 moves", "rest": "a pile at rest", "teleport": "all jump anywhere"}
-    asked = {"intersection": "intersection", "distance": "distance within 0.25"}
+    asked = {"intersection": "intersection", "distance": "distance within 0.25", "contact": "depth of those that intersect"}
 
     def row(question):
         values = [t for key, times in found.items() if key[0] == question for t in times]
@@ -181,7 +182,7 @@ def crowds(machine, bodies, rows):
 
     return Panels(f"Scenes of many bodies ({bodies} vertices): time a step, poses set and query answered", machine, x, legend,
                   [row(question) for question in questions],
-                  "Points: means over the steps. Lines up from them: to the worst step. One thread.")
+                  "Points: means over the steps. Lines up from them: to the worst step. One thread but where two are said.")
 
 
 def made_of(path):

@@ -9,6 +9,7 @@ use parry3d_f64::math::Pose;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 use parry3d_f64::query::details::{
     closest_points_support_map_support_map_with_params as closest_points,
+    contact_support_map_support_map_with_params as contact,
     intersection_test_support_map_support_map_with_params as intersection_test,
 };
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
@@ -24,6 +25,15 @@ pub enum Upkeep {
     Refit,
     /// Built anew in every step.
     Rebuild,
+}
+
+impl Upkeep {
+    pub fn name(self) -> &'static str {
+        match self {
+            Upkeep::Refit => "parry",
+            Upkeep::Rebuild => "parry-rebuilt",
+        }
+    }
 }
 
 pub struct Parry {
@@ -61,7 +71,7 @@ impl Parry {
         let rings = &self.rings[self.ring_of[i as usize] as usize];
         let tight = point_cloud_aabb_ref(&self.poses[i as usize], rings.vertices());
         match self.question {
-            Question::Intersection => tight,
+            Question::Intersection | Question::Contact => tight,
             Question::Distance => tight.loosened(0.5 * TOLERANCE),
         }
     }
@@ -79,10 +89,7 @@ impl Loosened for Aabb {
 
 impl Crowd for Parry {
     fn name(&self) -> &'static str {
-        match self.upkeep {
-            Upkeep::Refit => "parry",
-            Upkeep::Rebuild => "parry-rebuilt",
-        }
+        self.upkeep.name()
     }
 
     fn load(&mut self, steps: &[Step]) {
@@ -119,8 +126,16 @@ impl Crowd for Parry {
                     GJKResult::ClosestPoints(point1, point2, _) => Some((point1 - point2).length()),
                     GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
                 },
+                Question::Contact => match contact(&pose12, &first.1, &second.1, 0.0, simplex, None) {
+                    GJKResult::ClosestPoints(point1, point2, normal) => Some(-(point2 - point1).dot(normal)),
+                    GJKResult::Intersection | GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
+                },
             };
-            if let Some(distance) = distance.filter(|distance| *distance <= TOLERANCE) {
+            let is_listed = |distance: &f64| match question {
+                Question::Intersection | Question::Distance => *distance <= TOLERANCE,
+                Question::Contact => *distance >= 0.0,
+            };
+            if let Some(distance) = distance.filter(is_listed) {
                 found.pairs += 1;
                 found.sum += distance;
             }

@@ -156,10 +156,11 @@ impl Crowd for Sweep {
             let ask = match self.question {
                 Question::Intersection => pair::intersection,
                 Question::Distance => pair::distance,
+                Question::Contact => pair::contact,
             };
             ask([first, second], cache, &config, &mut answer).expect("rigid poses");
             let is_listed = match self.question {
-                Question::Intersection => answer.outcome == Outcome::Intersecting,
+                Question::Intersection | Question::Contact => answer.outcome == Outcome::Intersecting,
                 Question::Distance => answer.outcome != Outcome::Beyond,
             };
             if is_listed {
