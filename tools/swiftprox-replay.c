@@ -3,27 +3,22 @@
 #include <errno.h>
 #include <fenv.h>
 #include <math.h>
-#include <stdbool.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#include <swiftprox.h>
-
+#include "player.h"
 #include "progress.h"
-#include "scene_file.h"
-
-enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact] [--tolerance T]\n"
-                            "                        [--input strict|flat|hull] [--verify] [--bench PASSES]\n";
+                            "                        [--input strict|flat|hull] [--workers K] [--verify] [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
-    "Plays back a scene: in each step the objects that it names are moved, then one query lists pairs.\n"
+    "Plays back a scene: in each step objects are moved, then one query lists pairs.\n"
     "\n"
-    "  FILE                  a scene as text, - is the standard input:\n"
+    "  FILE                  what swiftprox_scene_record has written, or a scene as text, - is the standard input:\n"
     "                          # swiftprox scene 1      the first line\n"
     "                          shape NAME FILE          a mesh file, relative to the folder of the scene\n"
     "                          object NAME [fixed]      objects are numbered from 0 and stand at the identity\n"
@@ -31,19 +26,24 @@ static const char HELP[] =
     "                          NUMBER and 12 numbers    the object and the row-major 3x4 [R|T]\n"
     "                        blank lines and others that start with # are skipped\n"
     "  --query intersection  list the pairs that intersect\n"
-    "  --query distance      list the pairs within the tolerance (the default), with their distances\n"
+    "  --query distance      list the pairs within the tolerance (the default of text), with their distances\n"
     "  --query contact       the same with depths and contact manifolds, too\n"
-    "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance)\n"
+    "                        (default of a recording: the queries that were made)\n"
+    "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance; of a\n"
+    "                        recording: as it was)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
-    "  --verify              check each answer against the shapes alone; the first that does not hold ends the program\n"
+    "  --workers K           let K threads work on each query (default: 1); it changes no bit of any answer\n"
+    "  --verify              check each answer against the shapes alone, and the answers to recorded queries against the\n"
+    "                        recorded ones; the first that does not hold ends the program\n"
     "  --bench PASSES        print times instead of answers, see below\n"
     "  --help, --version     print this text, the version\n"
     "\n"
     "Each listed pair is a line of 8 fields, numbers with 17 significant digits:\n"
     "  step object1 object2 outcome distance lower upper depth\n"
-    "  step, objects   numbered from 0; object1 is the one that stands earlier in FILE\n"
+    "  step, objects   numbered from 0; object1 is the one that stands earlier in FILE; object2 is - where a recorded\n"
+    "                  query was about a shape that was in no scene\n"
     "  outcome         separated, intersecting or undecided\n"
     "  distance        best estimate; 0 when the objects touch or intersect\n"
     "  lower, upper    the true distance lies between them, rounding included, as printed\n"
@@ -60,14 +60,8 @@ static const char HELP[] =
 
 /* ---- the command line ---- */
 
-typedef swiftprox_status scene_query(swiftprox_scene *, const swiftprox_scene_query *, swiftprox_scene_answer *);
-
 struct arguments {
-    const char *path;
-    scene_query *query;
-    double tolerance;
-    swiftprox_input input;
-    bool verify;
+    struct player_options player;
     size_t passes; /* 0: answers, not times */
 };
 
@@ -82,40 +76,49 @@ static bool parse_option(const char *name, const char *value, struct arguments *
     char *end;
     errno = 0;
     if (strcmp(name, "--query") == 0) {
-        arguments->query = strcmp(value, "intersection") == 0 ? swiftprox_scene_query_intersection
-                           : strcmp(value, "distance") == 0   ? swiftprox_scene_query_exact_distance
-                           : strcmp(value, "contact") == 0    ? swiftprox_scene_query_contacts
-                                                              : NULL;
-        return arguments->query || wrong_usage("--query does not know ", value);
+        arguments->player.query = strcmp(value, "intersection") == 0 ? swiftprox_scene_query_intersection
+                                  : strcmp(value, "distance") == 0   ? swiftprox_scene_query_exact_distance
+                                  : strcmp(value, "contact") == 0    ? swiftprox_scene_query_contacts
+                                                                     : NULL;
+        return arguments->player.query || wrong_usage("--query does not know ", value);
     }
     if (strcmp(name, "--input") == 0) {
-        arguments->input = strcmp(value, "flat") == 0 ? SWIFTPROX_INPUT_FLAT : SWIFTPROX_INPUT_STRICT;
+        arguments->player.input = strcmp(value, "flat") == 0 ? SWIFTPROX_INPUT_FLAT : SWIFTPROX_INPUT_STRICT;
         if (strcmp(value, "hull") == 0) {
-            arguments->input = SWIFTPROX_INPUT_HULL;
+            arguments->player.input = SWIFTPROX_INPUT_HULL;
         }
-        return arguments->input != SWIFTPROX_INPUT_STRICT || strcmp(value, "strict") == 0 ||
+        return arguments->player.input != SWIFTPROX_INPUT_STRICT || strcmp(value, "strict") == 0 ||
                wrong_usage("--input does not know ", value);
     }
     if (strcmp(name, "--tolerance") == 0) {
-        arguments->tolerance = strtod(value, &end);
-        return (end != value && *end == '\0' && arguments->tolerance >= 0) ||
+        arguments->player.tolerance = strtod(value, &end);
+        return (end != value && *end == '\0' && arguments->player.tolerance >= 0) ||
                wrong_usage("--tolerance wants a number from 0 on, not ", value);
     }
-    if (strcmp(name, "--bench") == 0) {
-        const unsigned long long passes = strtoull(value, &end, 10);
-        arguments->passes = (size_t)passes;
-        return (value[strspn(value, "0123456789")] == '\0' && end != value && errno == 0 && passes > 0 && passes < 1000000) ||
-               wrong_usage("--bench wants a number from 1 to 999999, not ", value);
+    const bool is_bench = strcmp(name, "--bench") == 0;
+    if (is_bench || strcmp(name, "--workers") == 0) {
+        const unsigned long long number = strtoull(value, &end, 10);
+        const unsigned long long most = is_bench ? 999999 : 1024;
+        if (value[strspn(value, "0123456789")] != '\0' || end == value || errno != 0 || number == 0 || number > most) {
+            return is_bench ? wrong_usage("--bench wants a number from 1 to 999999, not ", value)
+                            : wrong_usage("--workers wants a number from 1 to 1024, not ", value);
+        }
+        if (is_bench) {
+            arguments->passes = (size_t)number;
+        } else {
+            arguments->player.workers = (uint32_t)number;
+        }
+        return true;
     }
     return wrong_usage("unknown option ", name);
 }
 
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
-    *arguments = (struct arguments){.query = swiftprox_scene_query_exact_distance, .tolerance = SWIFTPROX_DEFAULT_TOLERANCE};
+    *arguments = (struct arguments){.player.tolerance = SWIFTPROX_DEFAULT_TOLERANCE};
     for (int i = 1; i < argc; i++) {
         if (strcmp(argv[i], "--verify") == 0) {
-            arguments->verify = true;
+            arguments->player.verify = true;
         } else if (strncmp(argv[i], "--", 2) == 0) {
             if (i + 1 == argc) {
                 return wrong_usage(argv[i], " wants a value");
@@ -124,91 +127,13 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                 return false;
             }
             i++;
-        } else if (arguments->path) {
+        } else if (arguments->player.path) {
             return wrong_usage("one file too many: ", argv[i]);
         } else {
-            arguments->path = argv[i];
+            arguments->player.path = argv[i];
         }
     }
-    return arguments->path || wrong_usage("a scene is needed", "");
-}
-
-/* ---- playing ---- */
-
-struct player {
-    const struct arguments *arguments;
-    struct scene_file file;
-    const swiftprox_shape **shapes; /* as many as the file has */
-    swiftprox_object_id *ids;       /* of its objects */
-    swiftprox_scene *scene;
-    swiftprox_scene_query query;
-};
-
-static int failed(void)
-{
-    fprintf(stderr, "swiftprox-replay: %s\n", swiftprox_library_last_error_message());
-    return FAILED;
-}
-
-static int load_shapes(struct player *player)
-{
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
-    options.input = player->arguments->input;
-    struct progress progress = progress_start();
-    int result = GOOD;
-    for (size_t i = 0; i < player->file.shape_count && result == GOOD; i++) {
-        const struct scene_shape *const shape = &player->file.shapes[i];
-        const swiftprox_status status = swiftprox_shape_create_from_file(shape->path, &options, &player->shapes[i]);
-        if (status != SWIFTPROX_OK) {
-            progress_erase(&progress);
-            fprintf(stderr, "%s:%zu: %s\n", player->arguments->path, shape->line, swiftprox_library_last_error_message());
-            result = status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH ? BAD_FILE : FAILED;
-        }
-        progress_look(&progress, i + 1, player->file.shape_count);
-    }
-    progress_erase(&progress);
-    return result;
-}
-
-/* The scene before its first step. */
-static int set_up(struct player *player)
-{
-    if (swiftprox_scene_create(NULL, &player->scene) != SWIFTPROX_OK) {
-        return failed();
-    }
-    for (size_t i = 0; i < player->file.object_count; i++) {
-        const struct scene_object *const object = &player->file.objects[i];
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
-        options.user_data = i;
-        options.fixed = object->fixed;
-        if (swiftprox_scene_add_shape(player->scene, player->shapes[object->shape], &options, &player->ids[i]) !=
-            SWIFTPROX_OK) {
-            return failed();
-        }
-    }
-    return GOOD;
-}
-
-static int tear_down(struct player *player)
-{
-    const swiftprox_status status = swiftprox_scene_destroy(player->scene);
-    player->scene = NULL;
-    return status == SWIFTPROX_OK ? GOOD : failed();
-}
-
-static int play_step(struct player *player, size_t step, swiftprox_scene_answer *answer)
-{
-    const size_t end = scene_file_moves_end(&player->file, step);
-    for (size_t m = player->file.steps[step].first_move; m < end; m++) {
-        const struct scene_move *const move = &player->file.moves[m];
-        if (swiftprox_scene_set_pose(player->scene, player->ids[move->object], move->pose) != SWIFTPROX_OK) {
-            fprintf(stderr, "%s:%zu: %s\n", player->arguments->path, move->line, swiftprox_library_last_error_message());
-            return BAD_FILE;
-        }
-    }
-    return player->arguments->query(player->scene, &player->query, answer) == SWIFTPROX_OK ? GOOD : failed();
+    return arguments->player.path || wrong_usage("a scene is needed", "");
 }
 
 /* ---- answers ---- */
@@ -235,10 +160,12 @@ static const char *outcome_word(swiftprox_outcome outcome)
 }
 
 /* `contact` is NULL where none was asked for. */
-static void print_pair(size_t step, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
+static void print_pair(const struct player *player, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
-    printf("%zu %llu %llu %s", step, (unsigned long long)pair->user_data1, (unsigned long long)pair->user_data2,
-           outcome_word(pair->answer.outcome));
+    printf("%zu", player->step - 1);
+    player_print_object(player, pair->object1, pair->user_data1);
+    player_print_object(player, pair->object2, pair->user_data2);
+    printf(" %s", outcome_word(pair->answer.outcome));
     print_number(pair->answer.distance, FE_TONEAREST);
     print_number(pair->answer.lower, FE_DOWNWARD);
     print_number(pair->answer.upper, FE_UPWARD);
@@ -246,55 +173,74 @@ static void print_pair(size_t step, const swiftprox_pair_result *pair, const swi
     putchar('\n');
 }
 
-static int verify_pair(const struct player *player, size_t step, const swiftprox_pair_result *pair,
-                       const swiftprox_contact *contact)
+static int verify_pair(const struct player *player, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
     const swiftprox_depth_cache cold = {{0}};
-    swiftprox_object_info infos[2] = {{.struct_size = sizeof *infos}, {.struct_size = sizeof *infos}};
+    double poses[2][12];
     const swiftprox_shape *shapes[2];
     const swiftprox_object_id ids[2] = {pair->object1, pair->object2};
     const uint32_t pieces[2] = {pair->piece1, pair->piece2};
+    if (pair->object2.bits == 0) {
+        return GOOD; /* a shape that is not there any more */
+    }
     for (int i = 0; i < 2; i++) {
-        if (swiftprox_scene_get_object_info(player->scene, ids[i], &infos[i]) != SWIFTPROX_OK ||
+        if (swiftprox_scene_get_piece_pose(player->scene, ids[i], pieces[i], poses[i]) != SWIFTPROX_OK ||
             swiftprox_scene_get_piece(player->scene, ids[i], pieces[i], &shapes[i]) != SWIFTPROX_OK) {
-            return failed();
+            return player_failed();
         }
     }
     const bool has_depth = contact && pair->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
-    if (swiftprox_pair_verify(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &pair->answer) != SWIFTPROX_OK ||
-        (has_depth && swiftprox_pair_depth_verify(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &cold,
-                                                  &contact->depth) != SWIFTPROX_OK)) {
+    if (swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], &pair->answer) != SWIFTPROX_OK ||
+        (has_depth && swiftprox_pair_depth_verify(shapes[0], poses[0], shapes[1], poses[1], &cold, &contact->depth) !=
+                          SWIFTPROX_OK)) {
+        print_pair(player, pair, contact);
         fflush(stdout);
-        fprintf(stderr, "%s: step %zu, objects %llu and %llu: %s\n", player->arguments->path, step,
-                (unsigned long long)pair->user_data1, (unsigned long long)pair->user_data2,
+        fprintf(stderr, "%s: step %zu, the pair above: %s\n", player->options->path, player->step - 1,
                 swiftprox_library_last_error_message());
         return FAILED;
     }
     return GOOD;
 }
 
+/* What a step lists: of a query that stopped the pair at which it did. */
+static int print_answer(const struct player *player, const swiftprox_scene_answer *answer)
+{
+    const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
+    const size_t count = answer->found ? 1 : answer->count;
+    swiftprox_scene_contacts contacts;
+    int result = swiftprox_scene_get_contacts(player->scene, &contacts) == SWIFTPROX_OK ? GOOD : player_failed();
+    for (size_t i = 0; i < count && result == GOOD; i++) {
+        const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
+        result = player->options->verify ? verify_pair(player, &pairs[i], contact) : GOOD;
+        if (result == GOOD) {
+            print_pair(player, &pairs[i], contact);
+        }
+    }
+    return result;
+}
+
 static int print_answers(struct player *player)
 {
-    int result = set_up(player);
+    int result = player_begin(player);
     struct progress progress = progress_start();
-    for (size_t step = 0; step < player->file.step_count && result == GOOD; step++) {
-        swiftprox_scene_answer answer;
-        swiftprox_scene_contacts contacts;
-        result = play_step(player, step, &answer);
-        if (result == GOOD && swiftprox_scene_get_contacts(player->scene, &contacts) != SWIFTPROX_OK) {
-            result = failed();
+    while (result == GOOD) {
+        const enum next_step next = player_next(player);
+        if (next == STEP) {
+            swiftprox_scene_answer answer;
+            result = player_play(player, &answer);
+            result = result == GOOD ? print_answer(player, &answer) : result;
+        } else if (next == BAD_STEP) {
+            result = BAD_FILE;
+        } else if (next == NO_MORE) {
+            break;
         }
-        for (size_t i = 0; result == GOOD && i < answer.count; i++) {
-            const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
-            print_pair(step, &answer.pairs[i], contact);
-            if (player->arguments->verify) {
-                result = verify_pair(player, step, &answer.pairs[i], contact);
-            }
-        }
-        progress_look(&progress, step + 1, player->file.step_count);
+        progress_look(&progress, (size_t)(player->fraction * 1000), 1000);
     }
     progress_erase(&progress);
-    const int ended = tear_down(player);
+    if (player->cut_off) {
+        fprintf(stderr, "%s: the recording was not ended; this is what there is of it\n", player->options->path);
+    }
+    const int ended = player_end(player);
     return result != GOOD ? result : ended;
 }
 
@@ -307,65 +253,84 @@ static int ascending(const void *left, const void *right)
     return (a > b) - (a < b);
 }
 
-/* What a pass lists. */
-struct listed {
+/* The times of steps, and what a pass lists. */
+struct bench {
+    double *times; /* milliseconds */
+    size_t count;
+    size_t capacity;
     size_t pairs;
     double sum;
 };
 
-/* Milliseconds of all steps but the first. */
-static int time_pass(struct player *player, double *times, struct listed *listed)
+static int add_time(struct bench *bench, double time)
 {
-    int result = set_up(player);
-    *listed = (struct listed){0, 0};
-    for (size_t step = 0; step < player->file.step_count && result == GOOD; step++) {
-        swiftprox_scene_answer answer;
+    if (bench->count == bench->capacity) {
+        const size_t capacity = bench->capacity > 0 ? 2 * bench->capacity : 1024;
+        double *const times = capacity <= SIZE_MAX / sizeof(double) ? realloc(bench->times, capacity * sizeof(double)) : NULL;
+        if (!times) {
+            fputs("swiftprox-replay: no memory for the times of so many steps\n", stderr);
+            return FAILED;
+        }
+        bench->times = times;
+        bench->capacity = capacity;
+    }
+    bench->times[bench->count++] = time;
+    return GOOD;
+}
+
+/* All steps but the first are timed; reading them is not. */
+static int time_pass(struct player *player, struct bench *bench)
+{
+    int result = player_begin(player);
+    bench->pairs = 0;
+    bench->sum = 0;
+    enum next_step next = NO_QUERY;
+    while (result == GOOD && (next = player_next(player)) != NO_MORE) {
+        swiftprox_scene_answer answer = {0};
+        if (next == NO_QUERY) {
+            continue;
+        }
         const double start = seconds();
-        result = play_step(player, step, &answer);
-        if (step > 0) {
-            times[step - 1] = 1e3 * (seconds() - start);
+        result = next == STEP ? player_play(player, &answer) : BAD_FILE;
+        const double time = 1e3 * (seconds() - start);
+        if (result == GOOD && player->step > 1) {
+            result = add_time(bench, time);
         }
         for (size_t i = 0; result == GOOD && i < answer.count; i++) {
-            listed->sum += isnan(answer.pairs[i].answer.distance) ? 0 : answer.pairs[i].answer.distance;
+            bench->sum += isnan(answer.pairs[i].answer.distance) ? 0 : answer.pairs[i].answer.distance;
         }
-        listed->pairs += result == GOOD ? answer.count : 0;
+        bench->pairs += result == GOOD ? answer.count : 0;
     }
-    const int ended = tear_down(player);
+    const int ended = player_end(player);
     return result != GOOD ? result : ended;
 }
 
-static int print_times(struct player *player)
+static int print_times(struct player *player, size_t passes)
 {
-    const size_t passes = player->arguments->passes;
-    if (player->file.step_count < 2) {
-        fprintf(stderr, "%s: there is no step to time: the first is not\n", player->arguments->path);
-        return BAD_FILE;
-    }
-    const size_t timed = player->file.step_count - 1;
-    double *const times = timed <= SIZE_MAX / sizeof(double) / passes ? malloc(passes * timed * sizeof(double)) : NULL;
-    if (!times) {
-        fputs("swiftprox-replay: no memory for the times of so many steps\n", stderr);
-        return FAILED;
-    }
     struct progress progress = progress_start();
-    struct listed listed = {0, 0};
+    struct bench bench = {0};
     int result = GOOD;
     for (size_t pass = 0; pass < passes && result == GOOD; pass++) {
-        result = time_pass(player, times + pass * timed, &listed);
+        result = time_pass(player, &bench);
         progress_look(&progress, pass + 1, passes);
+        if (result == GOOD && bench.count == 0) {
+            progress_erase(&progress);
+            fprintf(stderr, "%s: there is no step to time: the first is not\n", player->options->path);
+            result = BAD_FILE;
+        }
     }
     progress_erase(&progress);
     if (result == GOOD) {
-        const size_t count = passes * timed;
         double sum = 0;
-        for (size_t i = 0; i < count; i++) {
-            sum += times[i];
+        for (size_t i = 0; i < bench.count; i++) {
+            sum += bench.times[i];
         }
-        qsort(times, count, sizeof *times, ascending);
-        const double median = 0.5 * (times[(count - 1) / 2] + times[count / 2]);
-        printf("%.6g %.6g %.6g %zu %.17g\n", sum / (double)count, median, times[count - 1], listed.pairs, listed.sum);
+        qsort(bench.times, bench.count, sizeof *bench.times, ascending);
+        const double median = 0.5 * (bench.times[(bench.count - 1) / 2] + bench.times[bench.count / 2]);
+        printf("%.6g %.6g %.6g %zu %.17g\n", sum / (double)bench.count, median, bench.times[bench.count - 1], bench.pairs,
+               bench.sum);
     }
-    free(times);
+    free(bench.times);
     return result;
 }
 
@@ -375,27 +340,12 @@ static int run(const struct arguments *arguments)
 {
     static char buffer[1 << 16];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
-    struct player player = {.arguments = arguments};
-    swiftprox_scene_query_init(&player.query);
-    player.query.distance_tolerance = arguments->tolerance;
-    player.query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
-    int result = BAD_FILE;
-    if (scene_file_read(arguments->path, &player.file)) {
-        player.shapes = calloc(player.file.shape_count + 1, sizeof *player.shapes);
-        player.ids = calloc(player.file.object_count + 1, sizeof *player.ids);
-        if (!player.shapes || !player.ids) {
-            fputs("swiftprox-replay: no memory for so many objects\n", stderr);
-            result = FAILED;
-        } else if ((result = load_shapes(&player)) == GOOD) {
-            result = arguments->passes ? print_times(&player) : print_answers(&player);
-        }
+    struct player player;
+    int result = player_open(&player, &arguments->player);
+    if (result == GOOD) {
+        result = arguments->passes ? print_times(&player, arguments->passes) : print_answers(&player);
     }
-    for (size_t i = 0; player.shapes && i < player.file.shape_count; i++) {
-        swiftprox_shape_release(player.shapes[i]);
-    }
-    free(player.shapes);
-    free(player.ids);
-    scene_file_free(&player.file);
+    player_free(&player);
     if ((fflush(stdout) != 0 || ferror(stdout)) && result == GOOD) {
         fprintf(stderr, "swiftprox-replay: the output cannot be written: %s\n", strerror(errno));
         return FAILED;

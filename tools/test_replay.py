@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Tests swiftprox-replay from outside:  test_replay.py TOOL"""
+"""Tests swiftprox-replay from outside:  test_replay.py TOOL RECORDER"""
 import math
 import os
 import pty
@@ -10,6 +10,7 @@ import tempfile
 import unittest
 
 TOOL = sys.argv.pop(1)
+RECORDER = sys.argv.pop(1)  # writes a recording to the file that it is given
 MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "models")
 BOX = os.path.join(MODELS, "box.off")  # half sides 0.8, 0.5, 0.3
 BALL = os.path.join(MODELS, "sphere.stl")
@@ -19,6 +20,32 @@ BOXES = HEAD + f"shape box {BOX}\nobject box fixed\nobject box\nobject box\n"
 
 def at(number, x, y=0, z=0):
     return f"{number} 1 0 0 {x} 0 1 0 {y} 0 0 1 {z}\n"
+
+
+def forged(recording):
+    """The recording with another number of pairs in its first answer, and checksums that are right (src/scene/recording/mod.rs)."""
+    total, out, place = 0xCBF29CE484222325, bytearray(), 12
+
+    def add(data):
+        nonlocal total
+        for byte in data:
+            total = (total ^ byte) * 0x100000001B3 % 2**64
+        out.extend(data)
+
+    add(recording[:12])
+    is_first = True
+    while place < len(recording):
+        kind, length = (int.from_bytes(recording[place + at:place + at + 4], "little") for at in (0, 4))
+        content = bytearray(recording[place + 12:place + 12 + length])
+        if kind == 22 and is_first:
+            content[2] += 1
+            is_first = False
+        add(recording[place:place + 8])
+        add((total % 2**32).to_bytes(4, "little"))
+        add(content)
+        add(total.to_bytes(8, "little"))
+        place += 20 + length
+    return bytes(out)
 
 
 class Replay(unittest.TestCase):
@@ -96,6 +123,67 @@ class Replay(unittest.TestCase):
         done = subprocess.run([TOOL, "-"], input=scene, capture_output=True, text=True, timeout=60)
         self.assertEqual((done.returncode, len(done.stdout.splitlines())), (0, 3))
 
+    # -- recordings --
+
+    def recording(self):
+        path = os.path.join(self.folder.name, "scene.swiftprox")
+        if not os.path.exists(path):
+            subprocess.run([RECORDER, path], check=True, timeout=60)
+        return path
+
+    def play_recording(self, *options):
+        done = subprocess.run([TOOL, self.recording(), *options], capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return [line.split() for line in done.stdout.splitlines()]
+
+    def test_a_recording(self):
+        rows = self.play_recording("--verify")
+        # Contacts with depths, distances, what is near a shape put somewhere, and what a removal leaves; see record_scene.c.
+        self.assertEqual([row[:4] for row in rows], [
+            ["0", "0", "1", "intersecting"],
+            ["1", "0", "1", "intersecting"], ["1", "0", "2", "separated"], ["1", "1", "2", "separated"],
+            ["2", "2", "-", "intersecting"],
+            ["3", "0", "3", "separated"]])
+        self.assertAlmostEqual(float(rows[0][7]), 0.25)
+        self.assertEqual(self.play_recording("--verify", "--workers", "2"), rows)
+
+    def test_a_recording_asked_something_else(self):
+        rows = self.play_recording("--query", "distance", "--tolerance", "inf", "--verify")
+        self.assertEqual([row[0] for row in rows], ["0"] * 3 + ["1"] * 3 + ["2"] * 3 + ["3"] * 3)
+        self.assertEqual([row[:3] for row in self.play_recording("--query", "intersection")],
+                         [[str(step), "0", "1"] for step in range(3)])
+        self.assertEqual(len(self.play_recording("--tolerance", "0")), 3)
+
+    def test_a_recording_as_a_bench(self):
+        mean, median, worst, pairs, total = map(float, self.play_recording("--bench", "3")[0])
+        self.assertEqual(pairs, len(self.play_recording()))
+        self.assertTrue(0 < median <= worst and 0 < mean <= worst and total > 0)
+
+    def test_a_recording_that_is_cut_off_damaged_or_forged(self):
+        path = self.recording()
+        with open(path, "rb") as file:
+            whole = file.read()
+        rows = self.play_recording()
+
+        def play(content):
+            with open(path, "wb") as file:
+                file.write(content)
+            done = subprocess.run([TOOL, path, "--verify"], capture_output=True, text=True, timeout=60)
+            return done.returncode, done.stderr, [line.split() for line in done.stdout.splitlines()]
+
+        status, message, listed = play(whole[:-20])
+        self.assertEqual((status, listed), (0, rows))
+        self.assertIn("was not ended", message)
+        status, message, listed = play(whole[:-200] + b"x" + whole[-199:])
+        self.assertEqual((status, listed), (2, rows[:len(listed)]))
+        self.assertIn("at byte ", message)
+        self.assertEqual(play(whole[:10])[0], 2)
+
+        # An answer that is not the recorded one.
+        status, message, listed = play(forged(whole))
+        self.assertEqual((status, listed), (1, []))
+        self.assertIn("step 0: the answer is not the recorded one", message)
+
     def test_a_bench_lists_what_the_answers_list(self):
         draw = random.Random(7)
         scene = HEAD + f"shape box {BOX}\nshape ball {BALL}\n" + "object box\nobject ball\n" * 10
@@ -155,6 +243,8 @@ class Replay(unittest.TestCase):
         self.refused(1, "--tolerance wants", path, "--tolerance", "-1")
         self.refused(1, "--tolerance wants", path, "--tolerance", "nan")
         self.refused(1, "--bench wants", path, "--bench", "0")
+        self.refused(1, "--workers wants", path, "--workers", "0")
+        self.refused(1, "--workers wants", path, "--workers", "many")
         self.refused(1, "wants a value", path, "--bench")
         self.refused(1, "unknown option", path, "--fast", "1")
 

@@ -1,5 +1,5 @@
-//! Files read and written whole: regular ones, no larger than the limit. Whatever else bears a file's name is refused, not waited
-//! for.
+//! Files read and written, regular ones: whatever else bears a file's name is refused, not waited for. What is read whole is no
+//! larger than the limit.
 
 use std::fs::{File, OpenOptions};
 use std::io::{ErrorKind, Read, Write};
@@ -16,6 +16,18 @@ pub const MOST_FILE_BYTES: u64 = 1 << 32;
 /// # Errors
 /// [`Error::File`] if it cannot be read, is no regular file or is larger than [`MOST_FILE_BYTES`]; [`Error::Memory`].
 pub(crate) fn read_whole(path: &Path, name: &str) -> Result<Vec<u8>> {
+    let (file, length) = open_to_read(path, name)?;
+    if length > MOST_FILE_BYTES {
+        return Err(too_large(name, MOST_FILE_BYTES));
+    }
+    read_at_most(file, length, MOST_FILE_BYTES, name)
+}
+
+/// A regular file to be read, and its length. `name` stands for it in messages.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be read or is no regular file.
+pub(crate) fn open_to_read(path: &Path, name: &str) -> Result<(File, u64)> {
     let unreadable = |e: std::io::Error| Error::File(format!("{name}: cannot be read: {e}"));
     let file = open(OpenOptions::new().read(true), path).map_err(unreadable)?;
     let metadata = file.metadata().map_err(unreadable)?;
@@ -24,10 +36,7 @@ pub(crate) fn read_whole(path: &Path, name: &str) -> Result<Vec<u8>> {
         let cure = "only regular files are read: write its content to one first";
         return Err(Error::File(format!("{name}: cannot be read: it is {what}; {cure}")));
     }
-    if metadata.len() > MOST_FILE_BYTES {
-        return Err(too_large(name, MOST_FILE_BYTES));
-    }
-    read_at_most(file, metadata.len(), MOST_FILE_BYTES, name)
+    Ok((file, metadata.len()))
 }
 
 /// Makes these bytes the content of a regular file, a new one or one that is there.
@@ -35,15 +44,28 @@ pub(crate) fn read_whole(path: &Path, name: &str) -> Result<Vec<u8>> {
 /// # Errors
 /// [`Error::File`] if it cannot be written or is no regular file.
 pub(crate) fn write_whole(path: &Path, bytes: &[u8]) -> Result<()> {
-    let unwritable = |e: std::io::Error| Error::File(format!("{}: cannot be written: {e}", path.display()));
+    create(path)?.write_all(bytes).map_err(|e| unwritable(path, &e))
+}
+
+/// A regular file, a new one or one that is there, without content.
+///
+/// # Errors
+/// [`Error::File`] if it cannot be written or is no regular file.
+pub(crate) fn create(path: &Path) -> Result<File> {
+    let unwritable = |e: std::io::Error| unwritable(path, &e);
     // Cut off only once it is known to be a file.
-    let mut file = open(OpenOptions::new().write(true).create(true).truncate(false), path).map_err(unwritable)?;
+    let file = open(OpenOptions::new().write(true).create(true).truncate(false), path).map_err(unwritable)?;
     let file_type = file.metadata().map_err(unwritable)?.file_type();
     if !file_type.is_file() {
         let (name, what) = (path.display(), kind(&file_type));
         return Err(Error::File(format!("{name}: cannot be written: it is {what}; only regular files are written")));
     }
-    file.set_len(0).and_then(|()| file.write_all(bytes)).map_err(unwritable)
+    file.set_len(0).map_err(unwritable)?;
+    Ok(file)
+}
+
+fn unwritable(path: &Path, error: &std::io::Error) -> Error {
+    Error::File(format!("{}: cannot be written: {error}", path.display()))
 }
 
 /// Opens a file without waiting for another end of it, and without becoming the terminal's.

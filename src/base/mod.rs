@@ -4,6 +4,7 @@
 pub mod error;
 pub(crate) mod memory;
 pub mod files;
+pub(crate) mod binary;
 pub(crate) mod enumerator;
 pub mod math;
 #[doc(hidden)]

@@ -27,6 +27,7 @@ pub mod pose;
 pub mod query;
 pub mod filter;
 pub mod object_query;
+pub mod record;
 
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -162,13 +163,22 @@ fn discard(payload: Box<dyn Any + Send>) {
 #[cold]
 #[inline(never)]
 fn report(failure: Failure) -> StatusCode {
+    let status = failure.status;
+    let message = log(failure);
+    // At the end of a thread the message has no place any more; the status still says what happened.
+    let _ = LAST_ERROR.try_with(|last| last.replace(message));
+    status
+}
+
+/// Hands what went wrong to the log; gives the message.
+#[cold]
+#[inline(never)]
+fn log(failure: Failure) -> CString {
     let Failure { status, message } = failure;
     // A message may quote a file: C must see all of it.
     let message = CString::new(message.replace('\0', "\u{fffd}")).unwrap_or_default();
     library::log(status, &message);
-    // At the end of a thread the message has no place any more; the status still says what happened.
-    let _ = LAST_ERROR.try_with(|last| last.replace(message));
-    status
+    message
 }
 
 thread_local! {

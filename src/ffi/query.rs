@@ -86,8 +86,17 @@ pub struct CSceneAnswer {
 }
 
 impl CSceneAnswer {
-    const EMPTY: CSceneAnswer =
+    pub(super) const EMPTY: CSceneAnswer =
         CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
+
+    pub(super) fn new(answer: &SceneAnswer) -> CSceneAnswer {
+        CSceneAnswer {
+            pairs: if answer.pairs.is_empty() { std::ptr::null() } else { answer.pairs.as_ptr() },
+            count: answer.pairs.len(),
+            intersecting: i32::from(answer.intersecting),
+            found: answer.found.map_or(std::ptr::null(), std::ptr::from_ref),
+        }
+    }
 }
 
 /// Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
@@ -293,13 +302,7 @@ pub(super) unsafe fn ask(
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
                 margin: query.margin,
             };
-            let listed = run(scene, &query)?;
-            if !listed.pairs.is_empty() {
-                said.pairs = listed.pairs.as_ptr();
-            }
-            said.count = listed.pairs.len();
-            said.intersecting = i32::from(listed.intersecting);
-            said.found = listed.found.map_or(std::ptr::null(), std::ptr::from_ref);
+            said = CSceneAnswer::new(&run(scene, &query)?);
             Ok(())
         })
     };

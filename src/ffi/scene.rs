@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
 use super::{
-    Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, output, read_struct,
+    Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, log, output, read_struct,
 };
 use crate::base::math::ROTATION_LIMIT;
 use crate::scene::object::ObjectId;
@@ -27,6 +27,8 @@ struct Content {
     scene: Scene,
     /// A change was begun and not ended: a panic left it, and what it left behind is unknown.
     poisoned: bool,
+    /// The log knows that the recording has ended early.
+    told_of_recording: bool,
 }
 
 /// One call changes the scene, or ends it.
@@ -120,7 +122,7 @@ unsafe impl Versioned for CSceneOptions {
 }
 
 impl CSceneOptions {
-    const DEFAULT: CSceneOptions = CSceneOptions {
+    pub(super) const DEFAULT: CSceneOptions = CSceneOptions {
         struct_size: size_of::<CSceneOptions>(),
         rotation_limit: ROTATION_LIMIT,
         worker_count: 0,
@@ -156,11 +158,7 @@ pub unsafe extern "C" fn swiftprox_scene_create(
         output(scene, "scene", std::ptr::null_mut())?;
         keep_panics_quiet();
         let options = read_struct(options, CSceneOptions::DEFAULT)?;
-        let mut made = Scene::new(&SceneOptions { rotation_limit: options.rotation_limit })?;
-        made.set_workers(read_workers(&options)?);
-        let content = Content { scene: made, poisoned: false };
-        let handle = SceneHandle { users: AtomicU32::new(0), content: UnsafeCell::new(content) };
-        scene.write(Box::into_raw(Box::new(handle)));
+        scene.write(new_scene(&SceneOptions { rotation_limit: options.rotation_limit }, &options)?);
         Ok(())
     })
 }
@@ -169,7 +167,7 @@ pub unsafe extern "C" fn swiftprox_scene_create(
 /// Null is ignored.
 ///
 /// SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
-/// of its memory.
+/// of its memory. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the scene is gone, and its recording was not written to its end.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
     guard(|| {
@@ -178,7 +176,10 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
             // Nobody enters any more: whoever tries while the scene is freed is told so as long as its memory is there.
             std::mem::forget(Changing::enter(handle)?);
             // SAFETY: a live scene by the header's pointer rules; every one comes from Box::into_raw.
-            drop(unsafe { Box::from_raw(scene) });
+            let handle = unsafe { Box::from_raw(scene) };
+            let Content { mut scene, poisoned, .. } = handle.content.into_inner();
+            // A bug was told when it was met: what there is of a recording ends here.
+            return if poisoned { Ok(()) } else { Ok(scene.end_recording()?) };
         }
         Ok(())
     })
@@ -286,6 +287,15 @@ pub unsafe extern "C" fn swiftprox_scene_is_pair_active(
     })
 }
 
+/// A scene that the caller is to end, with the workers of `workers`.
+pub(super) fn new_scene(options: &SceneOptions, workers: &CSceneOptions) -> Checked<*mut SceneHandle> {
+    let mut made = Scene::new(options)?;
+    made.set_workers(read_workers(workers)?);
+    let content = Content { scene: made, poisoned: false, told_of_recording: false };
+    let handle = SceneHandle { users: AtomicU32::new(0), content: UnsafeCell::new(content) };
+    Ok(Box::into_raw(Box::new(handle)))
+}
+
 /// Who works on the queries of a scene.
 fn read_workers(options: &CSceneOptions) -> Checked<Option<Workers>> {
     let count = options.worker_count as usize;
@@ -343,8 +353,24 @@ pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scen
         content.poisoned = true;
         let result = body(&mut content.scene);
         content.poisoned = false;
+        content.tell_of_recording();
         result
     })
+}
+
+impl Content {
+    /// Tells the log once that the recording has ended early: the call that met it did what it says all the same.
+    #[inline(always)]
+    fn tell_of_recording(&mut self) {
+        match self.scene.recording_failure() {
+            None => self.told_of_recording = false,
+            Some(_) if self.told_of_recording => {}
+            Some(error) => {
+                self.told_of_recording = true;
+                log(Failure::from(error.clone()));
+            }
+        }
+    }
 }
 
 #[cfg(test)]

@@ -7,11 +7,19 @@
 use std::collections::HashMap;
 
 use crate::base::error::Result;
-use crate::base::memory::lacking;
+use crate::base::memory::{collected, extend, lacking};
 use crate::scene::object::{Object, ObjectId, Stamp};
 
 /// So many words on pairs are kept without a look at whether their objects are still there.
 const LEAST_CROWD: usize = 64;
+
+/// Of which pairs something was said.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Word {
+    All,
+    Object(ObjectId),
+    Pair([ObjectId; 2]),
+}
 
 /// What was said of all pairs and of single ones; what was said of an object is in the object.
 #[derive(Debug, Default)]
@@ -65,6 +73,21 @@ impl Activation {
         let stamp = self.say(active);
         self.pairs.insert(pair, stamp);
         Ok(())
+    }
+
+    /// What was said and may hold still, in the order in which it was: said again of these objects it makes the same pairs active.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub(crate) fn words<'a>(&self, objects: impl Iterator<Item = &'a Object>) -> Result<Vec<(Word, bool)>> {
+        if !self.says_no {
+            return Ok(Vec::new());
+        }
+        let mut words = collected([(self.all, Word::All)])?;
+        extend(&mut words, objects.map(|object| (object.activation, Word::Object(object.id()))))?;
+        extend(&mut words, self.pairs.iter().map(|(pair, stamp)| (*stamp, Word::Pair(*pair))))?;
+        words.sort_unstable_by_key(|(stamp, _)| *stamp);
+        collected(words.iter().map(|(stamp, word)| (*word, stamp.active())))
     }
 
     /// Whether some pair may be inactive.

@@ -8,6 +8,7 @@ use crate::base::memory::{extend, push};
 use crate::pair::Query;
 use crate::scene::object::ObjectId;
 use crate::scene::query::{PairResult, SceneQuery};
+use crate::scene::recording::format::Subject;
 
 /// A pair of objects, the earlier created first.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -57,7 +58,7 @@ impl Scene {
     pub fn query_events(&mut self, distance: f64) -> Result<SceneEvents<'_>> {
         let query = SceneQuery { distance_tolerance: distance, ..SceneQuery::default() };
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
-        self.run(&query, kind)?;
+        self.answer(&Subject::Events, kind, &query, |scene| scene.find(&query, kind))?;
         let mut now = std::mem::take(&mut self.events.before);
         now.clear();
         let listed = self.list_objects(&mut now);

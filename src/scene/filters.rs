@@ -2,13 +2,14 @@
 
 use super::{News, Scene};
 use crate::base::error::{Error, Result};
-use crate::base::memory::copied;
+use crate::base::memory::{copied, push};
 use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
 use crate::scene::narrow_phase::{Before, Findings};
 use crate::scene::object::{Object, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
+use crate::scene::recording::format::Record;
 
 impl Scene {
     // --- Activation --------------------------------------------------------------------------------------------------------------
@@ -31,6 +32,7 @@ impl Scene {
                 self.broad_phase.near.set_testing(&self.proxies.firsts, [proxy1 as u32, proxy2 as u32], testing);
             }
         }
+        self.note(|notes| notes.write(&Record::PairActive([notes.number(id1)?, notes.number(id2)?], active)));
         Ok(())
     }
 
@@ -41,6 +43,7 @@ impl Scene {
     pub fn set_object_active(&mut self, id: ObjectId, active: bool) -> Result<()> {
         self.activation.set_object(self.objects.get_mut(id)?, active);
         self.news = self.news.max(News::Activation);
+        self.note(|notes| notes.write(&Record::ObjectActive(notes.number(id)?, active)));
         Ok(())
     }
 
@@ -48,6 +51,7 @@ impl Scene {
     pub fn set_all_active(&mut self, active: bool) {
         self.activation.set_all(active);
         self.news = self.news.max(News::Activation);
+        self.note(|notes| notes.write(&Record::AllActive(active)));
     }
 
     /// Whether queries test the pair of two objects when it is near, given in either order; the filter is not asked.
@@ -84,12 +88,16 @@ impl Scene {
     /// the scene.
     pub fn set_pair_filter(&mut self, filter: Option<PairFilter>) {
         self.filter = filter;
-        self.filter_again();
+        self.news = News::Filter;
+        let (is_set, is_watched) = (self.filter.is_some(), self.is_recording());
+        self.filter_is_watched(is_watched);
+        self.note(|notes| notes.write(&Record::Filter(is_set)));
     }
 
     /// Asks the filter anew of all pairs that are near.
     pub fn filter_again(&mut self) {
         self.news = News::Filter;
+        self.note(|notes| notes.write(&Record::FilterAgain));
     }
 
     /// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. An
@@ -108,6 +116,7 @@ impl Scene {
         }
         self.given = pairs.map(copied).transpose()?;
         self.broad_phase.begin_anew();
+        self.note(|notes| notes.given(pairs));
         Ok(())
     }
 
@@ -120,10 +129,13 @@ impl Scene {
     /// [`Error::Memory`] if there is none to bring the near pairs up to date; no result is lost then.
     pub fn shrink(&mut self) -> Result<()> {
         let tolerance = self.broad_phase.tolerance();
-        self.update_near_pairs(if self.keeps_list(tolerance) { tolerance } else { 0.0 })?;
+        let updated = self.update_near_pairs(if self.keeps_list(tolerance) { tolerance } else { 0.0 });
+        self.note_decisions();
+        updated?;
         self.broad_phase.shrink()?;
         (self.findings, self.before, self.last) = (Findings::default(), Before::default(), None);
         self.parts = Vec::new();
+        self.note(|notes| notes.write(&Record::Shrink));
         Ok(())
     }
 
@@ -143,7 +155,11 @@ impl Scene {
                 _ if is_active(objects, activation, pair) => Testing::Active,
                 _ => Testing::Inactive,
             }),
-            News::Filter => near.for_each_testing(&self.proxies.labels, |_, pair| testing(pair)),
+            News::Filter => near.for_each_testing(&self.proxies.labels, |old, pair| {
+                // Pairs of objects that are gone are still to be dropped: the program does not know them any more.
+                let is_gone = pair.iter().any(|label| label.object == ObjectId::NULL);
+                if is_gone { old } else { testing(pair) }
+            }),
         }
         match &self.given {
             None => {
@@ -170,14 +186,42 @@ impl Scene {
 }
 
 /// A program's word on which pairs of objects are tested, the earlier created first.
-pub struct PairFilter(Box<Filter>);
+pub struct PairFilter {
+    filter: Box<Filter>,
+    /// What it has decided and is not yet written down, of a scene that is recorded.
+    decided: Option<Result<Vec<Decided>>>,
+}
+
+/// Whether a pair is tested.
+type Decided = ([ObjectId; 2], bool);
 
 type Filter = dyn FnMut(ObjectId, ObjectId) -> bool + Send + Sync;
 
 impl PairFilter {
     /// A filter that calls a function.
     pub fn new(filter: impl FnMut(ObjectId, ObjectId) -> bool + Send + Sync + 'static) -> PairFilter {
-        PairFilter(Box::new(filter))
+        PairFilter { filter: Box::new(filter), decided: None }
+    }
+
+    /// Whether it remembers what it decides.
+    pub(super) fn watch(&mut self, watched: bool) {
+        self.decided = watched.then(|| Ok(Vec::new()));
+    }
+
+    /// What it has decided since the last time; an error if not all is known.
+    pub(super) fn decided(&mut self) -> Option<Result<Vec<Decided>>> {
+        self.decided.as_mut().map(|decided| std::mem::replace(decided, Ok(Vec::new())))
+    }
+
+    fn accepts(&mut self, pair: [ObjectId; 2]) -> bool {
+        let [object1, object2] = pair;
+        let accepts = with_callers(|| (self.filter)(object1, object2));
+        if let Some(Ok(decided)) = &mut self.decided
+            && let Err(error) = push(decided, (pair, accepts))
+        {
+            self.decided = Some(Err(error));
+        }
+        accepts
     }
 }
 
@@ -194,9 +238,8 @@ pub(super) fn testing(
     filter: &mut Option<PairFilter>,
     labels: [&Label; 2],
 ) -> Testing {
-    let [object1, object2] = labels.map(|label| label.object);
-    let accepts = |PairFilter(filter): &mut PairFilter| with_callers(|| filter(object1, object2));
-    if !filter.as_mut().is_none_or(accepts) {
+    let pair = labels.map(|label| label.object);
+    if !filter.as_mut().is_none_or(|filter| filter.accepts(pair)) {
         return Testing::Rejected;
     }
     if is_active(objects, activation, labels) { Testing::Active } else { Testing::Inactive }

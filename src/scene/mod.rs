@@ -20,11 +20,13 @@ mod contacts;
 mod broad_phase;
 mod narrow_phase;
 mod workers;
+pub(crate) mod recording;
 mod poses;
 mod filters;
 mod run;
 mod object_query;
 mod events;
+mod replay;
 
 use std::sync::Arc;
 
@@ -44,6 +46,8 @@ use crate::scene::events::Events;
 use crate::scene::narrow_phase::{Before, Findings};
 use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::proxies::{Label, NewProxy, Proxies};
+use crate::scene::recording::Recording;
+use crate::scene::recording::format::Record;
 use crate::scene::workers::PartFindings;
 use crate::shape::Shape;
 
@@ -51,6 +55,7 @@ pub use crate::pair::Query;
 pub use events::{ObjectPair, SceneEvents};
 pub use filters::PairFilter;
 pub use query::{Contact, ContactDetail, PairResult, SceneAnswer, SceneContacts, SceneQuery};
+pub use replay::{Replay, ReplayAnswer, ReplayStep};
 pub use statistics::SceneStatistics;
 pub use workers::Workers;
 
@@ -95,6 +100,7 @@ pub struct Scene {
     /// Who shares the work on near pairs, and what each part found.
     workers: Option<Workers>,
     parts: Vec<PartFindings>,
+    recording: Recording,
     statistics: SceneStatistics,
 }
 
@@ -140,6 +146,7 @@ impl Scene {
             events: Events::default(),
             workers: None,
             parts: Vec::new(),
+            recording: Recording::Off,
             statistics: SceneStatistics::default(),
         })
     }
@@ -158,6 +165,12 @@ impl Scene {
     /// [`Error::Argument`] without pieces, [`Error::Pose`] for a pose that is not accepted, [`Error::Limit`] when there are
     /// no ids left, [`Error::Memory`]. Nothing is added then.
     pub fn add_object(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
+        let id = self.insert(pieces, options)?;
+        self.note(|notes| notes.object(id));
+        Ok(id)
+    }
+
+    fn insert(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
         if pieces.is_empty() {
             return Err(Error::Argument("an object needs at least one piece".into()));
         }
@@ -189,8 +202,9 @@ impl Scene {
         let original = self.objects.get(id)?;
         let options = original.options();
         let piece_poses = copied(&original.piece_poses)?;
-        let copy = self.add_object(copied(&original.pieces)?, &options)?;
+        let copy = self.insert(copied(&original.pieces)?, &options)?;
         self.put_pieces(copy, piece_poses)?;
+        self.note(|notes| notes.write(&Record::Copy(notes.number(id)?)));
         Ok(copy)
     }
 
@@ -199,6 +213,8 @@ impl Scene {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn remove_object(&mut self, id: ObjectId) -> Result<()> {
+        self.objects.get(id)?;
+        self.note(|notes| notes.write(&Record::Remove(notes.number(id)?)));
         let object = self.objects.get(id)?;
         for proxy in object.proxies() {
             self.broad_phase.take_out(proxy, object.fixed);
@@ -239,6 +255,7 @@ impl Scene {
                 self.proxies.look_for_pairs_of(proxy);
             }
         }
+        self.note(|notes| notes.write(&Record::Fixed(notes.number(id)?, fixed)));
         Ok(())
     }
 
@@ -255,6 +272,7 @@ impl Scene {
                 self.proxies.look_for_pairs_of(proxy);
             }
         }
+        self.note(|notes| notes.write(&Record::Groups { object: notes.number(id)?, groups, mask }));
         Ok(())
     }
 
@@ -268,6 +286,7 @@ impl Scene {
         for proxy in object.proxies() {
             self.proxies.labels[proxy].user_data = user_data;
         }
+        self.note(|notes| notes.write(&Record::UserData(notes.number(id)?, user_data)));
         Ok(())
     }
 

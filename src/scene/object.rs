@@ -361,6 +361,11 @@ impl ObjectTable {
         }
     }
 
+    /// How many there have ever been.
+    pub(crate) fn created(&self) -> u64 {
+        self.created
+    }
+
     /// How many there are.
     pub(crate) fn len(&self) -> usize {
         self.count

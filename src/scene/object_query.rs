@@ -13,6 +13,7 @@ use crate::scene::narrow_phase::Own;
 use crate::scene::object::{Object, ObjectId};
 use crate::scene::proxies::{Label, NewProxy};
 use crate::scene::query::{SceneAnswer, SceneQuery};
+use crate::scene::recording::format::Subject;
 use crate::shape::Shape;
 
 impl Scene {
@@ -23,7 +24,7 @@ impl Scene {
     /// [`Scene::query_intersection`].
     pub fn query_object(&mut self, id: ObjectId, kind: Query, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.objects.get(id)?;
-        self.answer(kind, |scene| {
+        self.answer(&Subject::Object(id), kind, query, |scene| {
             let asked = Asked::new(query, kind)?;
             scene.begin_pass();
             if scene.keeps_list(asked.tolerance()) {
@@ -80,7 +81,7 @@ impl Scene {
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
-        self.answer(kind, |scene| {
+        self.answer(&Subject::Placed(shape, *pose), kind, query, |scene| {
             pose.check(scene.rotation_limit)?;
             let asked = Asked::new(query, kind)?;
             scene.begin_pass();

@@ -7,6 +7,7 @@ use crate::base::memory::filled;
 use crate::base::simd::environment::with_default;
 use crate::scene::object::{Object, ObjectId, composed};
 use crate::scene::proxies::Proxies;
+use crate::scene::recording::format::Record;
 
 impl Scene {
     /// Moves an object, a fixed one too. For twelve numbers see [`Pose::from_row_major`], for R and T [`Pose::new`].
@@ -21,7 +22,9 @@ impl Scene {
             let defect = check(object, pose, limit)?;
             place(object, pose, defect, proxies, passes);
             Ok(())
-        })
+        })?;
+        self.note(|notes| notes.write(&Record::Pose(notes.number(id)?, *pose)));
+        Ok(())
     }
 
     /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts.
@@ -44,7 +47,9 @@ impl Scene {
                 place(objects.get_mut(*id)?, pose, pose.rotation_defect(), proxies, passes);
                 Ok(())
             })
-        })
+        })?;
+        self.note(|notes| notes.write(&Record::Poses(notes.numbers(ids)?.into(), poses.into())));
+        Ok(())
     }
 
     /// Moves all objects that are not fixed, in order of creation.
@@ -62,17 +67,18 @@ impl Scene {
             with_default(|| check(object, pose, self.rotation_limit))
                 .map_err(|e| in_pose(&format!("pose {k} of {count}"), &e))?;
         }
-        let mut poses = poses.iter();
+        let mut next = poses.iter();
         let (proxies, passes) = (&mut self.proxies, self.passes);
         with_default(|| {
             self.objects.for_each_mut(|object| {
                 if !object.fixed
-                    && let Some(pose) = poses.next()
+                    && let Some(pose) = next.next()
                 {
                     place(object, pose, pose.rotation_defect(), proxies, passes);
                 }
             });
         });
+        self.note(|notes| notes.write(&Record::AllPoses(poses.into())));
         Ok(())
     }
 
@@ -100,7 +106,9 @@ impl Scene {
             object.piece_poses[at] = *pose;
             proxies.place(object.proxies().start + at, &object.piece_pose_in_world(at), defect, passes);
             Ok(())
-        })
+        })?;
+        self.note(|notes| notes.write(&Record::PiecePose { object: notes.number(id)?, piece, pose: *pose }));
+        Ok(())
     }
 
     /// Gives an object the piece poses of another one, none or one for each piece, which were accepted with its pose.

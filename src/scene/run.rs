@@ -1,6 +1,7 @@
 //! How a query runs: over the near pairs, or where everything is near over all pairs.
 
 use std::ops::Range;
+use std::sync::Arc;
 
 use super::filters::testing;
 use super::{Asked, Scene};
@@ -11,10 +12,12 @@ use crate::pair::{self, PairCache, PairConfig, Query};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing, order};
 use crate::scene::contacts::Details;
 use crate::scene::narrow_phase::{BLOCK, Before, Findings, Own, Pass};
-use crate::scene::object::Object;
+use crate::scene::object::{Object, ObjectId};
 use crate::scene::proxies::{Label, Proxies};
 use crate::scene::query::{SceneAnswer, SceneQuery};
+use crate::scene::recording::format::Subject;
 use crate::scene::workers::{FEWEST_SHARED, run_in_parts};
+use crate::shape::Shape;
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, beyond that none is.
 const MOST_KEPT: usize = 1 << 14;
@@ -25,7 +28,7 @@ impl Scene {
     /// # Errors
     /// See [`Scene::query_intersection`]; nothing is listed then, and nothing is counted.
     pub(super) fn run(&mut self, query: &SceneQuery, kind: Query) -> Result<SceneAnswer<'_>> {
-        self.answer(kind, |scene| scene.find(query, kind))
+        self.answer(&Subject::AllPairs, kind, query, |scene| scene.find(query, kind))
     }
 
     /// What a search found that says whether it stopped at an intersecting pair, the last result.
@@ -34,35 +37,33 @@ impl Scene {
     /// Those of the search; nothing is listed then, and nothing is counted.
     pub(super) fn answer(
         &mut self,
+        subject: &Subject<ObjectId, &Arc<Shape>>,
         kind: Query,
+        query: &SceneQuery,
         search: impl FnOnce(&mut Scene) -> Result<bool>,
     ) -> Result<SceneAnswer<'_>> {
         let counted = self.statistics;
-        match with_default(|| search(self)) {
-            Ok(stopped) => {
-                self.statistics.queries += 1;
-                if kind != Query::Intersection {
-                    self.statistics.error_spent += self.findings.error_spent();
-                }
-                if stopped {
-                    self.findings.contacts.keep_last();
-                }
-                let contacts = self.findings.contacts.view();
-                let (results, intersecting) = (self.findings.results(), self.findings.intersecting);
-                let pairs = if stopped { &[] } else { results };
-                let found = if stopped { results.last() } else { None };
-                Ok(SceneAnswer { intersecting, pairs, found, contacts })
-            }
-            Err(error) => {
+        self.note_question(subject, kind, query);
+        let stopped = with_default(|| search(self));
+        match stopped {
+            Ok(false) => {}
+            Ok(true) => self.findings.contacts.keep_last(),
+            Err(_) => {
                 self.findings.clear();
                 self.statistics = counted;
-                Err(error)
             }
         }
+        self.note_answer(stopped.as_ref().ok().copied());
+        let stopped = stopped?;
+        self.statistics.queries += 1;
+        if kind != Query::Intersection {
+            self.statistics.error_spent += self.findings.error_spent();
+        }
+        Ok(self.said(stopped))
     }
 
     /// True if the query stopped at an intersecting pair, the last result.
-    fn find(&mut self, query: &SceneQuery, kind: Query) -> Result<bool> {
+    pub(super) fn find(&mut self, query: &SceneQuery, kind: Query) -> Result<bool> {
         let asked = Asked::new(query, kind)?;
         if kind != Query::Approximate || query.error_budget == f64::INFINITY {
             return self.ask(asked, query.early_exit);

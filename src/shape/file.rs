@@ -8,11 +8,12 @@
 
 use std::path::Path;
 
+use crate::base::binary::{EMPTY_CHECKSUM, Reader, Writer, checksum};
 use crate::base::enumerator::Enumerator;
 use crate::base::error::{Error, Result};
 use crate::base::files::{read_whole, write_whole};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, copied, extend, push, with_capacity};
+use crate::base::memory::{collected, copied, push};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::{Labels, build_in_steps};
@@ -27,6 +28,9 @@ use crate::tables::{LookupKind, LookupOptions, plan_lookup};
 
 /// What a shape file begins with. The last byte keeps it from passing for text.
 const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
+
+/// What a shape file is, in messages.
+const WHAT: &str = "the shape file";
 
 /// The version that is written, and the only one that is read.
 const VERSION: u32 = 1;
@@ -81,11 +85,11 @@ pub(super) fn scaled(shape: &Shape, power_of_two: f64, progress: &mut Progress) 
 }
 
 fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
-    let mut writer = Writer { bytes: Vec::new(), scale };
+    let mut writer = Writer::default();
     writer.raw(MAGIC)?;
     writer.number(VERSION)?;
     let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
-    writer.polyhedron(polyhedron)?;
+    writer.polyhedron(polyhedron, scale)?;
     let (kind, resolution, factor) = match polyhedron.lookup.plan {
         Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
         Plan::AllVertices { .. } => (LookupKind::Automatic, 0, LookupOptions::DEFAULT.radius_factor),
@@ -99,12 +103,12 @@ fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     let levels = if with_levels { &hierarchy.levels[..] } else { &[] };
     writer.number(levels.len() as u32)?;
     for level in levels {
-        writer.polyhedron(&level.polyhedron)?;
+        writer.polyhedron(&level.polyhedron, scale)?;
         writer.links(&level.children)?;
         writer.links(&level.parents)?;
     }
-    let checksum = checksum(&writer.bytes);
-    writer.raw(checksum.to_le_bytes())?;
+    let sum = checksum(EMPTY_CHECKSUM, &writer.bytes);
+    writer.raw(sum.to_le_bytes())?;
     Ok(writer.bytes)
 }
 
@@ -129,7 +133,7 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     const SHARE_OF_BODIES: f64 = 0.8;
     progress.report(0.0)?;
     let mut bodies = progress.part(0.0, SHARE_OF_BODIES);
-    let mut reader = Reader { whole: bytes.len(), rest: bytes };
+    let mut reader = Reader::new(WHAT, bytes);
     if reader.take(8).ok() != Some(&MAGIC[..]) {
         return Err(Error::File("this is no shape file".into()));
     }
@@ -140,7 +144,7 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     let Some((content, sum)) = bytes.split_last_chunk::<8>() else {
         return damaged("it is cut off");
     };
-    if checksum(content) != u64::from_le_bytes(*sum) {
+    if checksum(EMPTY_CHECKSUM, content) != u64::from_le_bytes(*sum) {
         return damaged("its checksum is wrong");
     }
     reader.rest = content.get(12..).unwrap_or_default();
@@ -181,7 +185,7 @@ fn read_kind<T: Enumerator>(number: u32) -> Option<T> {
 }
 
 fn damaged<T>(what: &str) -> Result<T> {
-    Err(Error::File(format!("the shape file is damaged: {what}")))
+    Err(Error::File(format!("{WHAT} is damaged: {what}")))
 }
 
 /// Whatever is wrong with what was read is damage; a load that is cancelled is not, nor memory that is not there.
@@ -192,61 +196,32 @@ fn sound<T>(result: Result<T>) -> Result<T> {
     })
 }
 
-/// FNV-1a, 64 bits (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
-fn checksum(bytes: &[u8]) -> u64 {
-    bytes.iter().fold(0xcbf2_9ce4_8422_2325, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(0x0000_0100_0000_01b3))
-}
-
-struct Writer {
-    bytes: Vec<u8>,
-    /// What lengths are multiplied by.
-    scale: f64,
+/// A length at another scale, exactly.
+fn at_scale(length: f64, scale: f64) -> Result<f64> {
+    let scaled = length * scale;
+    if scaled / scale == length {
+        return Ok(scaled);
+    }
+    Err(Error::Argument(format!("at scale {scale:e} the coordinate {length:e} leaves the range of doubles")))
 }
 
 impl Writer {
-    fn raw<const N: usize>(&mut self, bytes: [u8; N]) -> Result<()> {
-        extend(&mut self.bytes, bytes)
-    }
-
-    fn number(&mut self, x: u32) -> Result<()> {
-        self.raw(x.to_le_bytes())
-    }
-
-    fn real(&mut self, x: f64) -> Result<()> {
-        self.raw(x.to_le_bytes())
-    }
-
-    /// At another scale, too, exactly.
-    fn length(&mut self, x: f64) -> Result<()> {
-        let scaled = x * self.scale;
-        if scaled / self.scale != x {
-            let message = format!("at scale {:e} the coordinate {x:e} leaves the range of doubles", self.scale);
-            return Err(Error::Argument(message));
-        }
-        self.real(scaled)
-    }
-
-    fn numbers(&mut self, list: &[u32]) -> Result<()> {
+    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>, scale: f64) -> Result<()> {
         self.number(list.len() as u32)?;
-        list.iter().try_for_each(|x| self.number(*x))
-    }
-
-    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>) -> Result<()> {
-        self.number(list.len() as u32)?;
-        list.try_for_each(|v| v.iter().try_for_each(|x| self.length(*x)))
+        list.try_for_each(|v| v.iter().try_for_each(|x| self.real(at_scale(*x, scale)?)))
     }
 
     /// Centre and centred coordinates, so that a level, whose sums are not exact, comes back as it was.
-    fn polyhedron(&mut self, polyhedron: &Polyhedron) -> Result<()> {
+    fn polyhedron(&mut self, polyhedron: &Polyhedron, scale: f64) -> Result<()> {
         self.number(u32::from(polyhedron.dimension))?;
-        polyhedron.centre.iter().try_for_each(|x| self.length(*x))?;
-        self.vectors(polyhedron.vertices.iter().map(|v| v.position))?;
+        polyhedron.centre.iter().try_for_each(|x| self.real(at_scale(*x, scale)?))?;
+        self.vectors(polyhedron.vertices.iter().map(|v| v.position), scale)?;
         self.numbers(polyhedron.triangles.as_flattened())?;
         // The labels, as `Labels` has them.
         self.numbers(&polyhedron.vertex_labels)?;
         self.numbers(&polyhedron.face_labels)?;
         self.numbers(&polyhedron.face_label_starts)?;
-        self.vectors(polyhedron.polygon_corners.iter().copied())?;
+        self.vectors(polyhedron.polygon_corners.iter().copied(), scale)?;
         self.numbers(&polyhedron.polygon_starts)
     }
 
@@ -267,56 +242,7 @@ impl Writer {
     }
 }
 
-/// Reads what is left of a file.
-struct Reader<'a> {
-    /// Bytes of the file.
-    whole: usize,
-    rest: &'a [u8],
-}
-
 impl<'a> Reader<'a> {
-    /// The fraction of the file that is read.
-    fn done(&self) -> f64 {
-        1.0 - self.rest.len() as f64 / self.whole as f64
-    }
-
-    fn take(&mut self, count: usize) -> Result<&'a [u8]> {
-        match self.rest.split_at_checked(count) {
-            Some((taken, rest)) => {
-                self.rest = rest;
-                Ok(taken)
-            }
-            None => damaged("it is cut off"),
-        }
-    }
-
-    fn number(&mut self) -> Result<u32> {
-        let bytes = self.take(4)?;
-        Ok(u32::from_le_bytes([bytes[0], bytes[1], bytes[2], bytes[3]]))
-    }
-
-    fn real(&mut self) -> Result<f64> {
-        let bytes = self.take(8)?.first_chunk().copied().unwrap_or_default();
-        Ok(f64::from_le_bytes(bytes))
-    }
-
-    /// A list of items of so many bytes each; its length is checked against what is left before anything is allocated.
-    fn list<T>(&mut self, size: usize, item: impl Fn(&mut Reader<'a>) -> Result<T>) -> Result<Vec<T>> {
-        let count = self.number()? as usize;
-        if count > self.rest.len() / size {
-            return damaged("it is cut off");
-        }
-        let mut list = with_capacity(count)?;
-        for _ in 0..count {
-            list.push(item(self)?);
-        }
-        Ok(list)
-    }
-
-    fn numbers(&mut self) -> Result<Vec<u32>> {
-        self.list(4, Reader::number)
-    }
-
     fn vector(&mut self) -> Result<Vector> {
         let vector = Vector::new(self.real()?, self.real()?, self.real()?);
         if vector.iter().all(|x| x.is_finite()) { Ok(vector) } else { damaged("a coordinate is not finite") }

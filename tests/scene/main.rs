@@ -2,6 +2,7 @@
 
 mod contacts;
 mod motions;
+mod record;
 mod scenes;
 mod soak;
 mod threads;

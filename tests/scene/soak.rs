@@ -7,12 +7,17 @@ use std::sync::Arc;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::scene::{ObjectPair, PairFilter, PairResult, Query, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ObjectPair, PairFilter, PairResult, Query, Scene, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::Shape;
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 
+use super::record::{Tape, play};
+
 /// Without the variable.
 const CALLS: usize = 10_000;
+
+/// So many calls from the first on are recorded as a whole.
+const RECORDED: usize = 1_500;
 
 const MOST_OBJECTS: usize = 40;
 
@@ -211,12 +216,14 @@ fn a_long_life() {
     shapes.push(ellipsoid(&mut random, 12, [0.3, 0.3, 0.3], Vector::new(0.4, 0.0, 0.0)));
     shapes.push(ellipsoid(&mut random, 600, [0.6, 0.6, 0.6], Vector::new(3.0, 0.0, 0.1)));
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut tape = Some(Tape::default());
+    scene.record_to(tape.clone().unwrap_or_default()).unwrap();
     let mut model = Model { objects: Vec::new(), inactive: Vec::new(), refused: None, given: None, events: Vec::new() };
     for call in 0..calls {
         let what = format!("call {call}");
         let count = model.objects.len();
         let any = if count > 0 { random.below(count) } else { 0 };
-        match random.below(36) {
+        match random.below(40) {
             0..3 if count < MOST_OBJECTS => {
                 let pieces: Vec<_> =
                     (0..1 + random.below(3)).map(|_| shapes[random.below(shapes.len())].clone()).collect();
@@ -327,7 +334,25 @@ fn a_long_life() {
                 model.given = None;
                 scene.set_pairs(None).unwrap();
             }
+            23 => scene.shrink().unwrap(),
+            24 => scene.filter_again(),
+            25 => scene.set_workers(Some(Workers::threads(1 + random.below(3)))),
+            26 if call > RECORDED && random.below(4) == 0 => match tape.take() {
+                // What was recorded from the middle of the scene's life lists the same when it is played.
+                Some(tape) => {
+                    scene.end_recording().unwrap();
+                    play(&tape.bytes(), None).unwrap();
+                }
+                None => scene.record_to(tape.insert(Tape::default()).clone()).unwrap(),
+            },
             _ => query(&mut scene, &mut model, &shapes, &mut random, &what),
+        }
+        if call == RECORDED
+            && let Some(tape) = tape.take()
+        {
+            scene.end_recording().unwrap();
+            let played = play(&tape.bytes(), None).unwrap();
+            assert!(played.asked > RECORDED / 4 && played.identical == played.asked, "{played:?}");
         }
         assert_eq!(scene.object_count(), model.objects.len());
     }

@@ -4,10 +4,11 @@ mod approximate;
 mod arguments;
 mod model;
 mod readers;
+mod recordings;
 mod scenes;
 mod shapes;
 
-use std::ffi::CStr;
+use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
@@ -43,6 +44,8 @@ pub struct Program {
     caches: [CPairCache; 2],
     /// The last answer of a pair query.
     answer: Option<PairAnswer>,
+    /// Files that scenes were recorded in.
+    recordings: Vec<CString>,
 }
 
 const MOST_SHAPES: usize = 12;
@@ -61,6 +64,7 @@ impl Program {
             old_ids: Vec::new(),
             caches: Default::default(),
             answer: None,
+            recordings: Vec::new(),
         }
     }
 
@@ -94,7 +98,8 @@ impl Program {
                 10..=12 => self.scene_query_through_levels(u),
                 13 => self.shape_from_levels(u),
                 14 => self.shrink(u),
-                _ => self.set_log(u),
+                _ if u.int_in_range(0..=3)? == 0 => self.set_log(u),
+                _ => self.record(u),
             },
         }
     }
@@ -107,6 +112,9 @@ impl Program {
         unsafe {
             for scene in &self.scenes {
                 assert_eq!(swiftprox_scene_destroy(scene.handle), StatusCode::Ok);
+            }
+            for path in &self.recordings {
+                std::fs::remove_file(path.to_str().expect("a path in UTF-8")).expect("the file of a recording");
             }
             for &shape in &self.shapes {
                 swiftprox_shape_release(shape);

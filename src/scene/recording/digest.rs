@@ -1,0 +1,129 @@
+//! What an answer said, in few bytes: enough to tell whether another one says the same.
+
+use crate::base::binary::{CHECKSUM_PRIME, EMPTY_CHECKSUM, Reader, Writer};
+use crate::base::error::{Error, Result};
+use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::scene::object::ObjectId;
+use crate::scene::query::{Contact, PairResult, SceneAnswer};
+
+/// Of one answer.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Digest {
+    intersecting: bool,
+    /// The query stopped at an intersecting pair, which is then the only one that is listed here.
+    stopped: bool,
+    count: u64,
+    /// Of which pairs are listed with which outcome.
+    listed: u64,
+    /// Sums over the listed pairs: the true one lies in between.
+    lower: f64,
+    upper: f64,
+    /// Of all bits of distances, intervals, points, normals and depths.
+    bits: u64,
+}
+
+/// A sum over words: FNV-1a's step, of 64 bits at a time. Its product carries bits up alone, the rotation brings them down.
+#[derive(Clone, Copy)]
+struct Sum(u64);
+
+impl Sum {
+    fn add(&mut self, word: u64) {
+        self.0 = (self.0 ^ word).wrapping_mul(CHECKSUM_PRIME).rotate_left(29);
+    }
+
+    fn add_real(&mut self, x: f64) {
+        // Which NaN it is says nothing.
+        self.add(if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() });
+    }
+}
+
+impl Digest {
+    /// `number` names objects as the recording does, any other way for what is none.
+    pub fn of(answer: &SceneAnswer, number: impl Fn(ObjectId) -> u32) -> Digest {
+        let results = answer.found.map_or(answer.pairs, std::slice::from_ref);
+        let (mut listed, mut bits) = (Sum(EMPTY_CHECKSUM), Sum(EMPTY_CHECKSUM));
+        let (mut lower, mut upper) = (0.0, 0.0);
+        for PairResult { object1, object2, piece1, piece2, answer, .. } in results {
+            listed.add(u64::from(number(*object1)) << 32 | u64::from(number(*object2)));
+            listed.add(u64::from(*piece1) << 32 | u64::from(*piece2));
+            listed.add(answer.outcome as u64);
+            for x in [answer.distance, answer.lower, answer.upper] {
+                bits.add_real(x);
+            }
+            let vectors = [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
+            vectors.as_flattened().iter().for_each(|x| bits.add_real(*x));
+            lower += answer.lower;
+            upper += answer.upper;
+        }
+        for Contact { depth, manifold, .. } in answer.contacts.contacts {
+            bits.add_real(depth.depth);
+            bits.add(u64::from(manifold.point_count));
+        }
+        Digest {
+            intersecting: answer.intersecting,
+            stopped: answer.found.is_some(),
+            count: results.len() as u64,
+            listed: listed.0,
+            lower,
+            upper,
+            bits: bits.0,
+        }
+    }
+
+    /// Whether both answers are the same, bit for bit.
+    pub fn is(&self, other: &Digest) -> bool {
+        let Digest { intersecting, stopped, count, listed, lower: _, upper: _, bits } = *self;
+        let other = (other.intersecting, other.stopped, other.count, other.listed, other.bits);
+        (intersecting, stopped, count, listed, bits) == other
+    }
+
+    /// Refuses an answer that cannot be right if the other one is: wherever it was found, and whatever the scene had been asked
+    /// before.
+    ///
+    /// # Errors
+    /// [`Error::Unverified`].
+    pub fn check(&self, recorded: &Digest) -> Result<()> {
+        let words = |digest: &Digest| {
+            let verdict = if digest.intersecting { "some intersecting" } else { "none intersecting" };
+            format!("{} pairs, {verdict}, distances from {:e} to {:e} in all", digest.count, digest.lower, digest.upper)
+        };
+        let refuse = |what: &str| {
+            let (found, recorded) = (words(self), words(recorded));
+            Err(Error::Unverified(format!("{what}: it says {found}; the recorded answer says {recorded}")))
+        };
+        if (self.intersecting, self.stopped, self.count) != (recorded.intersecting, recorded.stopped, recorded.count) {
+            return refuse("the answer is not the recorded one");
+        }
+        if self.listed != recorded.listed {
+            return refuse("the answer lists other pairs or outcomes than the recorded one");
+        }
+        // Each sum of n positive terms is off by n roundings of itself at most.
+        let error = 2.0 * U * (self.count as f64 + 2.0);
+        if self.lower > recorded.upper * (1.0 + error) || recorded.lower > self.upper * (1.0 + error) {
+            return refuse("the intervals of distances have nothing in common with the recorded ones");
+        }
+        Ok(())
+    }
+
+    pub fn write(&self, to: &mut Writer) -> Result<()> {
+        to.flag(self.intersecting)?;
+        to.flag(self.stopped)?;
+        to.raw(self.count.to_le_bytes())?;
+        to.raw(self.listed.to_le_bytes())?;
+        to.real(self.lower)?;
+        to.real(self.upper)?;
+        to.raw(self.bits.to_le_bytes())
+    }
+
+    pub fn read(from: &mut Reader) -> Result<Digest> {
+        Ok(Digest {
+            intersecting: from.flag()?,
+            stopped: from.flag()?,
+            count: u64::from_le_bytes(from.raw()?),
+            listed: u64::from_le_bytes(from.raw()?),
+            lower: from.real()?,
+            upper: from.real()?,
+            bits: u64::from_le_bytes(from.raw()?),
+        })
+    }
+}

@@ -1,0 +1,420 @@
+//! Records: their kinds, and what each holds.
+
+use std::borrow::Cow;
+use std::sync::Arc;
+
+use crate::base::binary::{Reader, Writer};
+use crate::base::enumerator::{Enumerator, enumerator};
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::pair::Query;
+use crate::scene::object::ObjectOptions;
+use crate::scene::query::SceneQuery;
+use crate::scene::recording::digest::Digest;
+use crate::shape::Shape;
+use crate::shape::file::{from_bytes, to_bytes};
+
+/// What a recording begins with. The last byte keeps it from passing for text.
+pub(crate) const MAGIC: [u8; 8] = *b"SWFTREC\x1a";
+
+/// The version that is written, and the only one that is read.
+pub(crate) const VERSION: u32 = 1;
+
+/// Numbers of kinds of records, never used again.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
+pub(crate) enum Kind {
+    End = 0,
+    Scene = 1,
+    Shape = 2,
+    Object = 3,
+    Copy = 4,
+    Remove = 5,
+    Fixed = 6,
+    Groups = 7,
+    UserData = 8,
+    Pose = 9,
+    Poses = 10,
+    AllPoses = 11,
+    PiecePose = 12,
+    PairActive = 13,
+    ObjectActive = 14,
+    AllActive = 15,
+    Filter = 16,
+    FilterAgain = 17,
+    Pairs = 18,
+    Shrink = 19,
+    Question = 20,
+    Decisions = 21,
+    Answer = 22,
+    Failed = 23,
+}
+
+enumerator!(Kind {
+    End,
+    Scene,
+    Shape,
+    Object,
+    Copy,
+    Remove,
+    Fixed,
+    Groups,
+    UserData,
+    Pose,
+    Poses,
+    AllPoses,
+    PiecePose,
+    PairActive,
+    ObjectActive,
+    AllActive,
+    Filter,
+    FilterAgain,
+    Pairs,
+    Shrink,
+    Question,
+    Decisions,
+    Answer,
+    Failed
+});
+
+/// What a query is about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Subject<Object, Shape> {
+    AllPairs,
+    Object(Object),
+    Placed(Shape, Pose),
+    /// What has changed since the last query of this kind; its distance is the query's tolerance.
+    Events,
+}
+
+/// A filter's word on a pair of objects.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Decision {
+    pub pair: [u32; 2],
+    pub is_tested: bool,
+}
+
+/// One record. Objects and shapes are numbers.
+#[derive(Debug, Clone, PartialEq)]
+pub(crate) enum Record<'a> {
+    /// The recording was ended.
+    End,
+    /// The first record; whether the scene had never had an object.
+    Scene {
+        rotation_limit: f64,
+        is_whole: bool,
+    },
+    /// The next number's.
+    Shape(Arc<Shape>),
+    /// The next number's.
+    Object {
+        pieces: Cow<'a, [u32]>,
+        options: ObjectOptions,
+    },
+    /// The next number's.
+    Copy(u32),
+    Remove(u32),
+    Fixed(u32, bool),
+    Groups {
+        object: u32,
+        groups: u32,
+        mask: u32,
+    },
+    UserData(u32, u64),
+    Pose(u32, Pose),
+    Poses(Cow<'a, [u32]>, Cow<'a, [Pose]>),
+    AllPoses(Cow<'a, [Pose]>),
+    PiecePose {
+        object: u32,
+        piece: u32,
+        pose: Pose,
+    },
+    PairActive([u32; 2], bool),
+    ObjectActive(u32, bool),
+    AllActive(bool),
+    /// A filter was set, or none.
+    Filter(bool),
+    FilterAgain,
+    Pairs(Option<Cow<'a, [[u32; 2]]>>),
+    Shrink,
+    Question {
+        subject: Subject<u32, u32>,
+        kind: Query,
+        query: SceneQuery,
+    },
+    /// Those of the question before.
+    Decisions(Cow<'a, [Decision]>),
+    /// To the question before.
+    Answer(Digest),
+    /// The question before was refused.
+    Failed,
+}
+
+impl Record<'_> {
+    pub fn kind(&self) -> Kind {
+        match self {
+            Record::End => Kind::End,
+            Record::Scene { .. } => Kind::Scene,
+            Record::Shape(_) => Kind::Shape,
+            Record::Object { .. } => Kind::Object,
+            Record::Copy(_) => Kind::Copy,
+            Record::Remove(_) => Kind::Remove,
+            Record::Fixed(..) => Kind::Fixed,
+            Record::Groups { .. } => Kind::Groups,
+            Record::UserData(..) => Kind::UserData,
+            Record::Pose(..) => Kind::Pose,
+            Record::Poses(..) => Kind::Poses,
+            Record::AllPoses(_) => Kind::AllPoses,
+            Record::PiecePose { .. } => Kind::PiecePose,
+            Record::PairActive(..) => Kind::PairActive,
+            Record::ObjectActive(..) => Kind::ObjectActive,
+            Record::AllActive(_) => Kind::AllActive,
+            Record::Filter(_) => Kind::Filter,
+            Record::FilterAgain => Kind::FilterAgain,
+            Record::Pairs(_) => Kind::Pairs,
+            Record::Shrink => Kind::Shrink,
+            Record::Question { .. } => Kind::Question,
+            Record::Decisions(_) => Kind::Decisions,
+            Record::Answer(_) => Kind::Answer,
+            Record::Failed => Kind::Failed,
+        }
+    }
+
+    /// Appends the content.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn write(&self, to: &mut Writer) -> Result<()> {
+        match self {
+            Record::End | Record::FilterAgain | Record::Shrink | Record::Failed => Ok(()),
+            Record::Scene { rotation_limit, is_whole } => {
+                to.real(*rotation_limit)?;
+                to.flag(*is_whole)
+            }
+            Record::Shape(shape) => crate::base::memory::extend(&mut to.bytes, to_bytes(shape)?),
+            Record::Object { pieces, options } => {
+                let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
+                to.numbers(pieces)?;
+                to.pose(pose)?;
+                to.flag(*fixed)?;
+                to.raw(user_data.to_le_bytes())?;
+                to.number(*groups)?;
+                to.number(*mask)
+            }
+            Record::Copy(object) | Record::Remove(object) => to.number(*object),
+            Record::Fixed(object, flag) | Record::ObjectActive(object, flag) => {
+                to.number(*object)?;
+                to.flag(*flag)
+            }
+            Record::Groups { object, groups, mask } => {
+                [object, groups, mask].iter().try_for_each(|number| to.number(**number))
+            }
+            Record::UserData(object, user_data) => {
+                to.number(*object)?;
+                to.raw(user_data.to_le_bytes())
+            }
+            Record::Pose(object, pose) => {
+                to.number(*object)?;
+                to.pose(pose)
+            }
+            Record::Poses(objects, poses) => {
+                to.numbers(objects)?;
+                to.poses(poses)
+            }
+            Record::AllPoses(poses) => to.poses(poses),
+            Record::PiecePose { object, piece, pose } => {
+                to.number(*object)?;
+                to.number(*piece)?;
+                to.pose(pose)
+            }
+            Record::PairActive(pair, flag) => {
+                to.pair(pair)?;
+                to.flag(*flag)
+            }
+            Record::AllActive(flag) | Record::Filter(flag) => to.flag(*flag),
+            Record::Pairs(pairs) => {
+                to.flag(pairs.is_some())?;
+                let pairs = pairs.as_deref().unwrap_or_default();
+                to.number(pairs.len() as u32)?;
+                pairs.iter().try_for_each(|pair| to.pair(pair))
+            }
+            Record::Question { subject, kind, query } => {
+                to.subject(subject)?;
+                to.number(*kind as u32)?;
+                to.query(query)
+            }
+            Record::Decisions(decisions) => {
+                to.number(decisions.len() as u32)?;
+                decisions.iter().try_for_each(|decision| {
+                    to.pair(&decision.pair)?;
+                    to.flag(decision.is_tested)
+                })
+            }
+            Record::Answer(digest) => digest.write(to),
+        }
+    }
+
+    /// A record from its content.
+    ///
+    /// # Errors
+    /// [`Error::File`](crate::base::error::Error::File) for what is none, [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn read(kind: Kind, from: &mut Reader) -> Result<Record<'static>> {
+        let record = match kind {
+            Kind::End => Record::End,
+            Kind::Scene => Record::Scene { rotation_limit: from.real()?, is_whole: from.flag()? },
+            Kind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
+            Kind::Object => Record::Object {
+                pieces: from.numbers()?.into(),
+                options: ObjectOptions {
+                    pose: from.pose()?,
+                    fixed: from.flag()?,
+                    user_data: u64::from_le_bytes(from.raw()?),
+                    groups: from.number()?,
+                    mask: from.number()?,
+                },
+            },
+            Kind::Copy => Record::Copy(from.number()?),
+            Kind::Remove => Record::Remove(from.number()?),
+            Kind::Fixed => Record::Fixed(from.number()?, from.flag()?),
+            Kind::Groups => Record::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
+            Kind::UserData => Record::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
+            Kind::Pose => Record::Pose(from.number()?, from.pose()?),
+            Kind::Poses => Record::Poses(from.numbers()?.into(), from.poses()?.into()),
+            Kind::AllPoses => Record::AllPoses(from.poses()?.into()),
+            Kind::PiecePose => Record::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? },
+            Kind::PairActive => Record::PairActive(from.pair()?, from.flag()?),
+            Kind::ObjectActive => Record::ObjectActive(from.number()?, from.flag()?),
+            Kind::AllActive => Record::AllActive(from.flag()?),
+            Kind::Filter => Record::Filter(from.flag()?),
+            Kind::FilterAgain => Record::FilterAgain,
+            Kind::Pairs => {
+                let (is_some, pairs) = (from.flag()?, from.list(8, Reader::pair)?);
+                Record::Pairs(is_some.then_some(pairs.into()))
+            }
+            Kind::Shrink => Record::Shrink,
+            Kind::Question => Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? },
+            Kind::Decisions => {
+                let decision = |from: &mut Reader| Ok(Decision { pair: from.pair()?, is_tested: from.flag()? });
+                Record::Decisions(from.list(9, decision)?.into())
+            }
+            Kind::Answer => Record::Answer(Digest::read(from)?),
+            Kind::Failed => Record::Failed,
+        };
+        if from.rest.is_empty() { Ok(record) } else { from.damaged("there is more behind its end") }
+    }
+}
+
+impl Writer {
+    pub(super) fn flag(&mut self, flag: bool) -> Result<()> {
+        self.raw([u8::from(flag)])
+    }
+
+    fn pair(&mut self, pair: &[u32; 2]) -> Result<()> {
+        pair.iter().try_for_each(|number| self.number(*number))
+    }
+
+    fn pose(&mut self, pose: &Pose) -> Result<()> {
+        pose.rows.as_flattened().iter().try_for_each(|x| self.real(*x))
+    }
+
+    fn poses(&mut self, poses: &[Pose]) -> Result<()> {
+        self.number(poses.len() as u32)?;
+        poses.iter().try_for_each(|pose| self.pose(pose))
+    }
+
+    fn subject(&mut self, subject: &Subject<u32, u32>) -> Result<()> {
+        match subject {
+            Subject::AllPairs => self.raw([0]),
+            Subject::Object(object) => {
+                self.raw([1])?;
+                self.number(*object)
+            }
+            Subject::Placed(shape, pose) => {
+                self.raw([2])?;
+                self.number(*shape)?;
+                self.pose(pose)
+            }
+            Subject::Events => self.raw([3]),
+        }
+    }
+
+    fn query(&mut self, query: &SceneQuery) -> Result<()> {
+        let SceneQuery {
+            early_exit,
+            distance_tolerance,
+            absolute_error,
+            relative_error,
+            error_budget,
+            step_budget,
+            levels,
+            refinement,
+            start,
+            detail,
+            margin,
+        } = *query;
+        self.flag(early_exit)?;
+        for real in [distance_tolerance, absolute_error, relative_error, error_budget, margin] {
+            self.real(real)?;
+        }
+        let choices = [step_budget, levels as u32, refinement as u32, start as u32, detail as u32];
+        choices.iter().try_for_each(|x| self.number(*x))
+    }
+}
+
+impl Reader<'_> {
+    pub(super) fn flag(&mut self) -> Result<bool> {
+        match self.raw()? {
+            [0] => Ok(false),
+            [1] => Ok(true),
+            _ => self.damaged("a flag is neither 0 nor 1"),
+        }
+    }
+
+    fn pair(&mut self) -> Result<[u32; 2]> {
+        Ok([self.number()?, self.number()?])
+    }
+
+    fn choice<T: Enumerator>(&mut self) -> Result<T> {
+        let number = self.number()?;
+        let found = i32::try_from(number).ok().and_then(T::from_number);
+        found.map_or_else(|| self.damaged("a choice that is none"), Ok)
+    }
+
+    fn pose(&mut self) -> Result<Pose> {
+        let mut pose = Pose::IDENTITY;
+        for number in pose.rows.as_flattened_mut() {
+            *number = self.real()?;
+        }
+        Ok(pose)
+    }
+
+    fn poses(&mut self) -> Result<Vec<Pose>> {
+        self.list(size_of::<Pose>(), Reader::pose)
+    }
+
+    fn subject(&mut self) -> Result<Subject<u32, u32>> {
+        match self.raw()? {
+            [0] => Ok(Subject::AllPairs),
+            [1] => Ok(Subject::Object(self.number()?)),
+            [2] => Ok(Subject::Placed(self.number()?, self.pose()?)),
+            [3] => Ok(Subject::Events),
+            _ => self.damaged("a query about nothing known"),
+        }
+    }
+
+    fn query(&mut self) -> Result<SceneQuery> {
+        Ok(SceneQuery {
+            early_exit: self.flag()?,
+            distance_tolerance: self.real()?,
+            absolute_error: self.real()?,
+            relative_error: self.real()?,
+            error_budget: self.real()?,
+            margin: self.real()?,
+            step_budget: self.number()?,
+            levels: self.choice()?,
+            refinement: self.choice()?,
+            start: self.choice()?,
+            detail: self.choice()?,
+        })
+    }
+}

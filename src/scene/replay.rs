@@ -1,0 +1,415 @@
+//! A recording done again, step by step, and its answers checked.
+
+use std::collections::HashMap;
+use std::io::Read;
+use std::path::Path;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+
+use super::{Scene, SceneOptions};
+use crate::base::error::{Error, Result};
+use crate::base::files::open_to_read;
+use crate::base::memory::{lacking, push};
+use crate::pair::Query;
+use crate::scene::filters::PairFilter;
+use crate::scene::object::ObjectId;
+use crate::scene::query::{SceneAnswer, SceneQuery};
+use crate::scene::recording::digest::Digest;
+use crate::scene::recording::format::{Decision, Record, Subject};
+use crate::scene::recording::reader::{Next, RecordReader};
+use crate::shape::Shape;
+
+/// Does again what was [recorded](Scene::record) of a scene.
+///
+/// A step is what was done up to a query, and the query. [`Replay::read`] reads one, [`Replay::change`] does what was done in it,
+/// [`Replay::ask`] makes its query; a program may make others instead, of the scene itself. A file of any content is safe: it is an
+/// error, or does to the scene what a program could.
+///
+/// ```no_run
+/// use swiftprox::scene::{Replay, Scene};
+///
+/// let mut replay = Replay::open("crash.swiftprox".as_ref())?;
+/// let mut scene = Scene::new(&replay.scene_options())?;
+/// while let Some(step) = replay.read()? {
+///     replay.change(&mut scene)?;
+///     if step.query.is_some() {
+///         replay.ask(&mut scene, None)?.check?;
+///     }
+/// }
+/// # Ok::<(), swiftprox::error::Error>(())
+/// ```
+#[derive(Debug)]
+pub struct Replay {
+    reader: RecordReader,
+    /// Bytes of the whole recording; 0 where it is not known.
+    length: u64,
+    options: SceneOptions,
+    is_whole: bool,
+    shapes: Vec<Arc<Shape>>,
+    /// All objects that there ever were, by number.
+    ids: Vec<ObjectId>,
+    decisions: Arc<Mutex<Decisions>>,
+    /// What is done in the step that was read, until it is done.
+    changes: Vec<Record<'static>>,
+    decided: Vec<Decision>,
+    question: Option<Question>,
+    /// The first record of the next step.
+    ahead: Option<Record<'static>>,
+    state: State,
+}
+
+#[derive(Debug, Clone, PartialEq)]
+enum State {
+    /// There may be more to read.
+    Reading,
+    /// The recording was ended.
+    Ended,
+    /// The program that was recorded was.
+    CutOff,
+    /// It is damaged from here on, or cannot be done.
+    Failed(Error),
+}
+
+#[derive(Debug, Clone, Copy)]
+struct Question {
+    subject: Subject<u32, u32>,
+    kind: Query,
+    query: SceneQuery,
+    outcome: Recorded,
+}
+
+/// What came of a question.
+#[derive(Debug, Clone, Copy)]
+enum Recorded {
+    /// It ended the program, or the recording.
+    Nothing,
+    Failure,
+    Answer(Digest),
+}
+
+/// What the recorded filter has said.
+#[derive(Debug, Default)]
+struct Decisions {
+    known: HashMap<[ObjectId; 2], bool>,
+    /// It was asked of a pair that is not known.
+    has_guessed: bool,
+}
+
+/// A step that was read.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct ReplayStep {
+    /// Its query, and what that was asked for; none of a query that was refused, and at the end of the recording.
+    pub query: Option<(Query, SceneQuery)>,
+    /// How much of the recording is read, from 0 to 1; NaN where its length is not known.
+    pub fraction: f64,
+}
+
+/// The answer to a recorded query.
+#[derive(Debug, Clone, PartialEq)]
+pub struct ReplayAnswer<'a> {
+    /// As of the query itself; of one about events the pairs of pieces that are near.
+    pub answer: SceneAnswer<'a>,
+    /// Whether it says what the recorded one does: the same pairs are listed, with the same outcomes, and the sums of lower ends
+    /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, but for
+    /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
+    pub check: Result<()>,
+    /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with another
+    /// version of the library, on another processor, or where the recording began in the middle of the scene's life.
+    pub is_identical: bool,
+}
+
+impl Replay {
+    /// From a file that [`Scene::record`] has written.
+    ///
+    /// # Errors
+    /// [`Error::File`] if it cannot be read, is no regular file, no recording or one of another version; [`Error::Memory`].
+    pub fn open(path: &Path) -> Result<Replay> {
+        let name = path.display().to_string();
+        let (file, length) = open_to_read(path, &name)?;
+        Replay::begin(Box::new(std::io::BufReader::new(file)), name, length)
+    }
+
+    /// From whatever gives the bytes of a recording.
+    ///
+    /// # Errors
+    /// As [`Replay::open`].
+    pub fn from_reader(source: impl Read + Send + Sync + 'static) -> Result<Replay> {
+        Replay::begin(Box::new(source), "the recording".into(), 0)
+    }
+
+    fn begin(source: Box<dyn Read + Send + Sync>, name: String, length: u64) -> Result<Replay> {
+        let mut reader = RecordReader::new(source, name)?;
+        let start = reader.position();
+        let (rotation_limit, is_whole) = match reader.next()? {
+            Next::Record(Record::Scene { rotation_limit, is_whole }) => (rotation_limit, is_whole),
+            Next::Record(_) => return Err(reader.damaged(start, "the first one is not about the scene")),
+            Next::CutOff => return Err(reader.damaged(start, "it is cut off")),
+        };
+        Ok(Replay {
+            reader,
+            length,
+            options: SceneOptions { rotation_limit },
+            is_whole,
+            shapes: Vec::new(),
+            ids: Vec::new(),
+            decisions: Arc::default(),
+            changes: Vec::new(),
+            decided: Vec::new(),
+            question: None,
+            ahead: None,
+            state: State::Reading,
+        })
+    }
+
+    /// How the recorded scene was made. All steps are to be done to one new scene made like this.
+    pub fn scene_options(&self) -> SceneOptions {
+        self.options
+    }
+
+    /// Whether the scene was recorded from its beginning.
+    pub fn is_whole(&self) -> bool {
+        self.is_whole
+    }
+
+    /// Whether what was read ends before the recording was ended, as when the program that was recorded was.
+    pub fn is_cut_off(&self) -> bool {
+        self.state == State::CutOff
+    }
+
+    // --- Reading -----------------------------------------------------------------------------------------------------------------
+
+    /// Reads the next step; `None` when there is none. A recording that is cut off ends with its last whole record.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a recording that is damaged: the steps before stay good, the message says where it is. [`Error::Memory`].
+    /// [`Error::Argument`] if the step before has not been done.
+    pub fn read(&mut self) -> Result<Option<ReplayStep>> {
+        if !self.changes.is_empty() || !self.decided.is_empty() {
+            return Err(Error::Argument("the step that was read before has not been done".into()));
+        }
+        self.question = None;
+        if let State::Failed(error) = &self.state {
+            return Err(error.clone());
+        }
+        if let Err(error) = self.read_step() {
+            (self.changes, self.decided, self.question) = (Vec::new(), Vec::new(), None);
+            self.state = State::Failed(error.clone());
+            return Err(error);
+        }
+        if self.changes.is_empty() && self.question.is_none() {
+            return Ok(None);
+        }
+        let is_asked = |question: &Question| !matches!(question.outcome, Recorded::Failure);
+        let query = self.question.filter(is_asked).map(|question| (question.kind, question.query));
+        let fraction = if self.length > 0 { self.reader.position() as f64 / self.length as f64 } else { f64::NAN };
+        Ok(Some(ReplayStep { query, fraction }))
+    }
+
+    fn read_step(&mut self) -> Result<()> {
+        while let Some((start, record)) = self.next_record()? {
+            match (record, &mut self.question) {
+                (Record::Shape(shape), _) => push(&mut self.shapes, shape)?,
+                (Record::Question { subject, kind, query }, None) => {
+                    self.question = Some(Question { subject, kind, query, outcome: Recorded::Nothing });
+                }
+                (Record::Decisions(decisions), None) => push(&mut self.changes, Record::Decisions(decisions))?,
+                (Record::Decisions(decisions), Some(_)) => self.decided = decisions.into_owned(),
+                (Record::Answer(digest), Some(question)) => {
+                    question.outcome = Recorded::Answer(digest);
+                    return Ok(());
+                }
+                (Record::Failed, Some(question)) => {
+                    question.outcome = Recorded::Failure;
+                    return Ok(());
+                }
+                (Record::Answer(_) | Record::Failed, None) => {
+                    return Err(self.reader.damaged(start, "an answer without a question"));
+                }
+                (Record::Scene { .. }, _) => return Err(self.reader.damaged(start, "a scene within a scene")),
+                // A question without an answer ended the program.
+                (record, Some(_)) => {
+                    self.ahead = Some(record);
+                    return Ok(());
+                }
+                (record, None) => push(&mut self.changes, record)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// The next record and where it begins.
+    fn next_record(&mut self) -> Result<Option<(u64, Record<'static>)>> {
+        let start = self.reader.position();
+        if let Some(record) = self.ahead.take() {
+            return Ok(Some((start, record)));
+        }
+        if self.state != State::Reading {
+            return Ok(None);
+        }
+        match self.reader.next()? {
+            Next::Record(Record::End) => self.state = State::Ended,
+            Next::CutOff => self.state = State::CutOff,
+            Next::Record(record) => return Ok(Some((start, record))),
+        }
+        Ok(None)
+    }
+
+    // --- Doing -------------------------------------------------------------------------------------------------------------------
+
+    /// Does what was done in the step that was read, but for its query.
+    ///
+    /// # Errors
+    /// [`Error::File`] for a recording that the scene refuses: it is another scene, or a damaged recording. It cannot be gone on
+    /// with. [`Error::Memory`].
+    pub fn change(&mut self, scene: &mut Scene) -> Result<()> {
+        let (changes, decided) = (std::mem::take(&mut self.changes), std::mem::take(&mut self.decided));
+        let done = changes.into_iter().try_for_each(|record| self.change_one(scene, record));
+        let done = done.and_then(|()| self.learn(scene, &decided));
+        done.map_err(|error| {
+            let refused = error.unless_memory(|error| self.reader.refused(error));
+            self.state = State::Failed(refused.clone());
+            refused
+        })
+    }
+
+    fn change_one(&mut self, scene: &mut Scene, record: Record) -> Result<()> {
+        match record {
+            Record::Object { pieces, options } => {
+                let mut shapes = Vec::new();
+                pieces.iter().try_for_each(|piece| push(&mut shapes, self.shape(*piece)?.clone()))?;
+                let id = scene.add_object(shapes, &options)?;
+                push(&mut self.ids, id)
+            }
+            Record::Copy(original) => {
+                let id = scene.copy_object(self.id(original)?)?;
+                push(&mut self.ids, id)
+            }
+            Record::Remove(object) => scene.remove_object(self.id(object)?),
+            Record::Fixed(object, fixed) => scene.set_fixed(self.id(object)?, fixed),
+            Record::Groups { object, groups, mask } => scene.set_filter(self.id(object)?, groups, mask),
+            Record::UserData(object, user_data) => scene.set_user_data(self.id(object)?, user_data),
+            Record::Pose(object, pose) => scene.set_pose(self.id(object)?, &pose),
+            Record::Poses(objects, poses) => {
+                let mut ids = Vec::new();
+                objects.iter().try_for_each(|object| push(&mut ids, self.id(*object)?))?;
+                scene.set_poses(&ids, &poses)
+            }
+            Record::AllPoses(poses) => scene.set_all_poses(&poses),
+            Record::PiecePose { object, piece, pose } => scene.set_piece_pose(self.id(object)?, piece, &pose),
+            Record::PairActive([object1, object2], active) => {
+                scene.set_pair_active(self.id(object1)?, self.id(object2)?, active)
+            }
+            Record::ObjectActive(object, active) => scene.set_object_active(self.id(object)?, active),
+            Record::AllActive(active) => {
+                scene.set_all_active(active);
+                Ok(())
+            }
+            Record::Filter(is_set) => {
+                let decisions = self.decisions.clone();
+                let says = move |object1, object2| lock(&decisions).say([object1, object2]);
+                scene.set_pair_filter(is_set.then(|| PairFilter::new(says)));
+                Ok(())
+            }
+            Record::FilterAgain => {
+                scene.filter_again();
+                Ok(())
+            }
+            Record::Pairs(pairs) => {
+                let mut ids = Vec::new();
+                let list = pairs.as_deref().unwrap_or_default();
+                list.iter().try_for_each(|[a, b]| push(&mut ids, [self.id(*a)?, self.id(*b)?]))?;
+                scene.set_pairs(pairs.is_some().then_some(&ids))
+            }
+            Record::Shrink => scene.shrink(),
+            Record::Decisions(decisions) => self.learn(scene, &decisions),
+            // The others are no changes.
+            Record::End
+            | Record::Scene { .. }
+            | Record::Shape(_)
+            | Record::Question { .. }
+            | Record::Answer(_)
+            | Record::Failed => Ok(()),
+        }
+    }
+
+    fn id(&self, number: u32) -> Result<ObjectId> {
+        let absent = || Error::File(format!("object {number} of {}", self.ids.len()));
+        self.ids.get(number as usize).copied().ok_or_else(absent)
+    }
+
+    fn shape(&self, number: u32) -> Result<&Arc<Shape>> {
+        let absent = || Error::File(format!("shape {number} of {}", self.shapes.len()));
+        self.shapes.get(number as usize).ok_or_else(absent)
+    }
+
+    /// Takes what the recorded filter has decided.
+    fn learn(&self, scene: &mut Scene, decisions: &[Decision]) -> Result<()> {
+        let mut all = lock(&self.decisions);
+        for Decision { pair: [object1, object2], is_tested } in decisions {
+            let pair = [self.id(*object1)?, self.id(*object2)?];
+            let count = all.known.len() + 1;
+            all.known.try_reserve(1).map_err(|e| lacking::<([ObjectId; 2], bool)>(count, &e))?;
+            all.known.insert(pair, *is_tested);
+        }
+        // Pairs may be near here that were not there, and the other way round: all is asked anew once more is known.
+        if !decisions.is_empty() && std::mem::take(&mut all.has_guessed) {
+            drop(all);
+            scene.filter_again();
+        }
+        Ok(())
+    }
+
+    /// Makes the query of the step that was read and done, and holds the answer against the recorded one. With a distance tolerance
+    /// of the caller's it is another query, whose answer is not checked.
+    ///
+    /// # Errors
+    /// Those of the query. [`Error::Argument`] if there is none, or the step is not done.
+    pub fn ask<'a>(&mut self, scene: &'a mut Scene, tolerance: Option<f64>) -> Result<ReplayAnswer<'a>> {
+        let is_open = self.changes.is_empty() && self.decided.is_empty();
+        let Some(Question { subject, kind, mut query, outcome }) = self.question.filter(|_| is_open) else {
+            return Err(Error::Argument("the step has no query, or has not been done".into()));
+        };
+        query.distance_tolerance = tolerance.unwrap_or(query.distance_tolerance);
+        let stopped = match subject {
+            Subject::AllPairs => match kind {
+                Query::Intersection => scene.query_intersection(&query),
+                Query::Distance => scene.query_exact_distance(&query),
+                Query::Contact => scene.query_contacts(&query),
+                Query::Approximate => scene.query_approximate_distance(&query),
+            }
+            .map(|answer| answer.found.is_some())?,
+            Subject::Object(object) => scene.query_object(self.id(object)?, kind, &query)?.found.is_some(),
+            Subject::Placed(shape, pose) => {
+                scene.query_placed(self.shape(shape)?, &pose, kind, &query)?.found.is_some()
+            }
+            Subject::Events => scene.query_events(query.distance_tolerance).map(|_| false)?,
+        };
+        let scene = &*scene;
+        let answer = scene.said(stopped);
+        let digest = Digest::of(&answer, |id| self.number(scene, id).unwrap_or(u32::MAX));
+        let (Recorded::Answer(recorded), None) = (outcome, tolerance) else {
+            return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
+        };
+        let check = if query.step_budget == u32::MAX { digest.check(&recorded) } else { Ok(()) };
+        Ok(ReplayAnswer { answer, check, is_identical: digest.is(&recorded) })
+    }
+
+    /// The number of an object of the scene: how many there were before it in the recording.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub fn number(&self, scene: &Scene, id: ObjectId) -> Result<u32> {
+        Ok(scene.objects.get(id)?.serial() as u32)
+    }
+}
+
+impl Decisions {
+    fn say(&mut self, pair: [ObjectId; 2]) -> bool {
+        let said = self.known.get(&pair).copied();
+        self.has_guessed |= said.is_none();
+        said.unwrap_or(true)
+    }
+}
+
+fn lock(decisions: &Mutex<Decisions>) -> MutexGuard<'_, Decisions> {
+    decisions.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,68 @@
+/* Records a short scene for test_replay.py:  record_scene FILE */
+#include <stdio.h>
+#include <stdlib.h>
+
+#include <swiftprox.h>
+
+static void demand(swiftprox_status status)
+{
+    if (status != SWIFTPROX_OK) {
+        fprintf(stderr, "record_scene: %s\n", swiftprox_library_last_error_message());
+        exit(EXIT_FAILURE);
+    }
+}
+
+static void move(swiftprox_scene *scene, swiftprox_object_id id, double x)
+{
+    const double pose[12] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0};
+    demand(swiftprox_scene_set_pose(scene, id, pose));
+}
+
+int main(int argc, char **argv)
+{
+    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+    const double there[12] = {1, 0, 0, 3.5, 0, 1, 0, 0.25, 0, 0, 1, 0};
+    const swiftprox_shape *cube;
+    swiftprox_object_id ids[4];
+    swiftprox_scene *scene;
+    swiftprox_scene_query query;
+    swiftprox_scene_answer answer;
+    if (argc < 2) {
+        return EXIT_FAILURE;
+    }
+    demand(swiftprox_shape_create_from_points(CUBE, 8, NULL, &cube));
+    demand(swiftprox_scene_create(NULL, &scene));
+    demand(swiftprox_scene_record(scene, argv[1]));
+    for (int i = 0; i < 3; i++) {
+        demand(swiftprox_scene_add_shape(scene, cube, NULL, &ids[i]));
+    }
+    swiftprox_scene_query_init(&query);
+
+    /* Two overlap by a quarter, the third is far from them. */
+    move(scene, ids[1], 0.75);
+    move(scene, ids[2], 3);
+    query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
+    demand(swiftprox_scene_query_contacts(scene, &query, &answer));
+    query.distance_tolerance = 2;
+    demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+
+    /* A shape that is in no scene, beside the third; what is asked in vain is not played. */
+    query.distance_tolerance = -3;
+    if (swiftprox_scene_query_exact_distance(scene, &query, &answer) == SWIFTPROX_OK) {
+        return EXIT_FAILURE;
+    }
+    demand(swiftprox_scene_query_placed(scene, cube, there, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+
+    /* A copy of the first, far away, and the second is gone. */
+    demand(swiftprox_scene_copy_object(scene, ids[0], &ids[3]));
+    move(scene, ids[3], -2);
+    move(scene, ids[2], 30);
+    demand(swiftprox_scene_remove_object(scene, ids[1]));
+    query.distance_tolerance = 1.5;
+    demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+
+    demand(swiftprox_scene_record(scene, NULL));
+    demand(swiftprox_scene_destroy(scene));
+    swiftprox_shape_release(cube);
+    return EXIT_SUCCESS;
+}
