@@ -1,13 +1,12 @@
 #!/bin/sh
-# Compiles the tests of SWIFT.h with one compiler by one standard, every warning an error. With flags of its own, which may change what
-# they do, it links and runs them, too.
+# Compiles the tests of SWIFT.h with one compiler by one standard, every warning an error; links and runs them, too, if it is told to.
 #
-#   legacy_compilers.sh COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]
+#   legacy_compilers.sh compile|run COMPILER STANDARD SOURCE LIBRARY FOLDER [FLAG...]
 #
 # SOURCE: the project's folder; LIBRARY: that of the library; FOLDER: for the programs.
 set -eu
-compiler=$1 standard=$2 source=$3 library=$4 folder=$5
-shift 5
+what=$1 compiler=$2 standard=$3 source=$4 library=$5 folder=$6
+shift 6
 mkdir -p "$folder"
 
 compile() {
@@ -23,8 +22,8 @@ for test in "$source"/c_tests/legacy_*.cpp; do
     legacy_units) more=$source/c_tests/legacy_units_other.cpp ;;
     legacy_macros) more=-DSWIFT_LEGACY_VERSION=2 ;;
     esac
-    if [ $# -eq 0 ]; then
-        compile -fsyntax-only "$test" ${more:+"$more"}
+    if [ "$what" = compile ]; then
+        compile "$@" -fsyntax-only "$test" ${more:+"$more"}
     else
         compile "$@" "$test" ${more:+"$more"} -L"$library" -lswiftprox -Wl,-rpath,"$library" -o "$folder/$name"
         "$folder/$name" "$folder"

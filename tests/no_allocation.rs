@@ -1,11 +1,6 @@
 //! Queries allocate nothing: the pair layer never, a scene not once it has seen as
 //! large a crowd. Only integer arithmetic may, and the statistics say when it ran.
 
-// GlobalAlloc is an unsafe trait.
-#![allow(unsafe_code)]
-
-use std::alloc::{GlobalAlloc, Layout, System};
-use std::cell::Cell;
 use std::sync::Arc;
 
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
@@ -15,44 +10,11 @@ use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::Shape;
+use testkit::counting::{Counting, allocations};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
-
-struct Counting;
-
-thread_local! {
-    /// Of this thread alone: the test harness allocates in others.
-    static ALLOCATIONS: Cell<usize> = const { Cell::new(0) };
-}
-
-// SAFETY: every call is handed to the system's allocator unchanged; the counter neither allocates nor has a destructor.
-unsafe impl GlobalAlloc for Counting {
-    unsafe fn alloc(&self, layout: Layout) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: the caller's promise, passed on.
-        unsafe { System.alloc(layout) }
-    }
-
-    unsafe fn dealloc(&self, pointer: *mut u8, layout: Layout) {
-        // SAFETY: the caller's promise, passed on; `alloc` and `realloc` hand out the system's pointers.
-        unsafe { System.dealloc(pointer, layout) }
-    }
-
-    unsafe fn realloc(&self, pointer: *mut u8, layout: Layout, size: usize) -> *mut u8 {
-        ALLOCATIONS.set(ALLOCATIONS.get() + 1);
-        // SAFETY: as for `dealloc`.
-        unsafe { System.realloc(pointer, layout, size) }
-    }
-}
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
-
-/// How many allocations `work` makes.
-fn allocations(work: impl FnOnce()) -> usize {
-    let before = ALLOCATIONS.get();
-    work();
-    ALLOCATIONS.get() - before
-}
 
 fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
     let mut shapes = vec![cuboid([0.5, 0.5, 0.5]), cuboid([0.1, 0.4, 1.0])];

@@ -3,6 +3,7 @@
 
 pub mod random;
 
+pub mod counting;
 pub mod files;
 pub mod hard;
 pub mod models;

@@ -1,7 +1,7 @@
 //! Depth: against exact integers, against the independent check on many kinds of bodies, whatever the cache holds and the
 //! environment is, without allocation; and what the check refuses.
 
-// GlobalAlloc is an unsafe trait.
+// Any bytes are a cache.
 #![allow(unsafe_code)]
 
 mod allocation;

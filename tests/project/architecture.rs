@@ -78,14 +78,18 @@ fn a_folder_uses_only_folders_above_it() {
 
 #[test]
 fn a_file_uses_only_files_of_its_folder_that_stand_above_it() {
-    for folder in folders() {
+    let mut folders = folders();
+    while let Some(folder) = folders.pop() {
         let modules = modules(source(&folder).join("mod.rs"));
         for (place, module) in modules.iter().enumerate() {
             let nested = source(&folder).join(module);
+            if nested.is_dir() {
+                folders.push(format!("{folder}/{module}"));
+            }
             let module_files =
                 if nested.is_dir() { files(&nested) } else { vec![source(&folder).join(format!("{module}.rs"))] };
             for file in module_files {
-                let own_folder = format!("crate::{folder}::");
+                let own_folder = format!("crate::{}::", folder.replace('/', "::"));
                 let check = |line: usize, path: &str| {
                     let below = modules[place + 1..].iter().any(|other| other == first(path));
                     assert!(!below, "{}:{line}: `{module}` stands above `{}`", file.display(), first(path));

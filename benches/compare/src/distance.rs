@@ -6,17 +6,15 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::PairConfig;
 use swiftprox::shape::{Shape, ShapeOptions};
 
-use crate::method::{Method, Reply, replies};
+use crate::accuracy::Accuracy;
+use crate::method::{Method, replies};
 use crate::options::Options;
 use crate::parry::{Climbing, Parry, Rings};
 use crate::report::{self, Row};
 use crate::setting::{Query, setting, setting_of_pair};
-use crate::timing::{Time, median, time_methods};
+use crate::timing::{Time, time_methods};
 use crate::{model, motion};
 use testkit::models::cuboid;
-
-/// Answers farther apart than this, relative to the distance, are counted as disagreement.
-const AGREEMENT: f64 = 1e-6;
 
 pub fn run(options: &Options) -> Result<(), String> {
     // A workload's models have the number of vertices that they have.
@@ -121,34 +119,4 @@ fn times(methods: &mut [Box<dyn Method>], options: &Options, count: usize) -> Ve
     let is_split = options.query == Query::Distance && options.methods.is_empty();
     let (first, second) = methods.split_at_mut(if is_split { FIRST_TURNS } else { methods.len() });
     [time_methods(first, count, options.passes), time_methods(second, count, options.passes)].concat()
-}
-
-/// How a method's answers differ from the reference's.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy {
-    /// Another verdict, a distance off by more than [`AGREEMENT`], or no answer.
-    pub disagreements: usize,
-    /// Of |distance − reference|, where both separate; models have radius 1.
-    pub median_error: f64,
-    pub worst_error: f64,
-}
-
-impl Accuracy {
-    fn of(query: Query, replies: &[Reply], reference: &[Reply]) -> Accuracy {
-        let (mut disagreements, mut errors) = (0, Vec::new());
-        for (reply, reference) in replies.iter().zip(reference) {
-            let error = (reply.distance - reference.distance).abs();
-            let same_verdict = (reply.distance > 0.0) == (reference.distance > 0.0);
-            // Negated, so that NaN disagrees.
-            let verdict_alone = query == Query::Intersection;
-            if !(same_verdict && (verdict_alone || error <= AGREEMENT * reference.distance)) {
-                disagreements += 1;
-            }
-            if reply.distance > 0.0 && reference.distance > 0.0 && !verdict_alone {
-                errors.push(error);
-            }
-        }
-        let median_error = median(&mut errors);
-        Accuracy { disagreements, median_error, worst_error: errors.last().copied().unwrap_or(f64::NAN) }
-    }
 }

@@ -1,5 +1,6 @@
 //! `compare --help`.
 
+mod accuracy;
 mod answers;
 mod build_time;
 #[cfg(ccd)]

@@ -5,7 +5,7 @@ use std::fmt::Write;
 use std::fs;
 use std::path::Path;
 
-use crate::distance::Accuracy;
+use crate::accuracy::Accuracy;
 use crate::method::Reply;
 use crate::timing::{Time, median};
 use testkit::orbits::Step;

@@ -1,8 +1,8 @@
 //! Is the caller's mesh what it promises: closed, 2-manifold, oriented, connected, convex? Or a
 //! message naming the face, edge or vertex where it is not.
 
-mod convexity;
 mod edges;
+mod convexity;
 mod proof;
 
 use convexity::{Side, most_inward};

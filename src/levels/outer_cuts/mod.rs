@@ -14,8 +14,8 @@
 //!
 //! All that is floating point here only steers. What a level promises, that it contains the body, is checked exactly at the end.
 
-mod cuts;
 mod isotropy;
+mod cuts;
 
 use crate::base::error::Result;
 use crate::base::math::Vector;

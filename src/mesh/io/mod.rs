@@ -1,13 +1,14 @@
-//! Readers for TRI, POLY, OFF, OBJ and STL files, and for others that a program registers.
+//! Readers for TRI, POLY, OFF, OBJ and STL files, and for others that a program registers. Each format is a file here, and one of
+//! [`Format`].
 //!
 //! Vertices and faces keep the file's order, so that index i of the file (counted from 0) is index i of the mesh. STL
 //! has no vertex list: there, vertices are numbered by first occurrence. Nothing is allocated from a count that the file
 //! only claims.
 
+mod scanner;
 mod obj;
 mod off;
 mod registered;
-mod scanner;
 mod stl;
 mod tri_poly;
 

@@ -19,8 +19,8 @@
 
 pub(crate) mod digest;
 pub(crate) mod format;
-pub(crate) mod reader;
 pub(crate) mod recorder;
+pub(crate) mod reader;
 
 use std::io::Write;
 use std::path::Path;

@@ -9,8 +9,8 @@
 
 mod ahead;
 mod shortcuts;
-mod states;
 mod walks;
+mod states;
 
 use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;

@@ -5,13 +5,15 @@
 //! parts of those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by
 //! the cycle detection.
 
-use super::states::NEARLY_UNIT;
 use crate::base::simd::Lanes;
 use crate::polyhedron::{Face, NONE, Polyhedron, clear_slope};
 use crate::solve::certificate::Certify;
 use crate::solve::frame::Frame;
 use crate::solve::state::{State, ordered};
 use crate::solve::voronoi::{Corner, Rule, STRICT, plane_values, steepest};
+
+/// An upper bound of the length of a vector that is unit up to 1 %.
+pub(super) const NEARLY_UNIT: f64 = 1.02;
 
 /// An edge along which to leave a vertex.
 struct Leaving {

@@ -3,7 +3,7 @@
 
 use super::Step;
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
-use super::shortcuts::{is_passed, over_another_feature, past_the_end};
+use super::shortcuts::{NEARLY_UNIT, is_passed, over_another_feature, past_the_end};
 use super::walks::{behind, walk_along_edge, walk_over_face};
 use crate::base::math::{UNIT_ROUNDOFF, clamp};
 use crate::base::simd::Lanes;
@@ -262,9 +262,6 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
 /// they would say of RᵀU + foot by 37u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x,
 /// 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|: at most 70u·(ρ₁ + ρ₂ + |Δ|) in all.
 const MARGIN: f64 = 3.0;
-
-/// An upper bound of the length of a vector that is unit up to 1 %.
-pub(super) const NEARLY_UNIT: f64 = 1.02;
 
 #[inline(always)]
 pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32; 2], certifier: &mut C) -> Step {
