@@ -1,6 +1,6 @@
 /*
- * A scene whose queries several threads share: a pool of the scene's own, and the program's threads by callbacks. The answers are
- * those of one thread bit for bit, in the child of a fork, too, which has no pool.
+ * A scene whose queries several threads share: a pool of the scene's own, and the program's threads by callbacks. The answers
+ * are those of one thread bit for bit, in the child of a fork, too, which has no pool.
  *
  *     workers [callbacks]        the callbacks alone: what helgrind can judge, as it does not know the pool's locks
  */

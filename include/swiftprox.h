@@ -317,13 +317,13 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
 /**
  * Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
  * swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
- * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which takes
- * up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
- * handed to it.
+ * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
+ * takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
+ * is handed to it.
  *
  * A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
- * scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or mirrored
- * is made from other vertices. On failure `*shape` is null.
+ * scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
+ * mirrored is made from other vertices. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
  * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
@@ -1034,8 +1034,8 @@ typedef struct swiftprox_scene_options {
   /**
    * Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
    * own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
-   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's thread.
-   * exit() does not wait for them. A program that unloads the library destroys its scenes first.
+   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+   * thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
    */
   swiftprox_enqueue_task_callback enqueue_task;
   /** Waits for what enqueue_task has shared out. Default: null. */

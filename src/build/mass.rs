@@ -86,12 +86,12 @@ fn surface_centre(positions: &[Vector], triangles: &[[u32; 3]], areas: &[WideVec
     if total > 0.0 { moment / (3.0 * total) } else { positions.iter().sum::<Vector>() / positions.len() as f64 }
 }
 
-/// The inertia tensor of a body of mass 1 about its centre of mass, in the axes of its local frame; of a body without interior that of
-/// its area or length.
+/// The inertia tensor of a body of mass 1 about its centre of mass, in the axes of its local frame; of a body without interior that
+/// of its area or length.
 ///
 /// Everything is measured from the centre of mass, from where all tetrahedra over triangles are positive: so nothing cancels, and
-/// each entry is off by a few u of the largest. Heights over triangles are in double-double: of a thin body they have the digits that
-/// its thickness needs. What the centre's own rounding leaves is removed with the first moment.
+/// each entry is off by a few u of the largest. Heights over triangles are in double-double: of a thin body they have the digits
+/// that its thickness needs. What the centre's own rounding leaves is removed with the first moment.
 pub fn inertia(polyhedron: &Polyhedron) -> Matrix {
     // Near size 1: no square of a length leaves the doubles on the way.
     let radius = polyhedron.mass.radius;

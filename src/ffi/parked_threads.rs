@@ -21,8 +21,8 @@ use crate::scene::Workers;
 const MOST_THREADS: usize = 256;
 
 impl Workers {
-    /// Threads of the standard library, started now, which wait between queries and end with the last owner of this; the caller's is
-    /// one of the `count`, and more than 256 are taken as 256.
+    /// Threads of the standard library, started now, which wait between queries and end with the last owner of this; the caller's
+    /// is one of the `count`, and more than 256 are taken as 256.
     pub fn threads(count: usize) -> Workers {
         let count = count.min(MOST_THREADS);
         let threads = ParkedThreads::new(count.saturating_sub(1));
@@ -424,8 +424,8 @@ mod tests {
         }
     }
 
-    /// Every world that can be reached: in each somebody can go on or all is finished, tasks are used only while they live, and each
-    /// part is done once. Without wakes by chance a lost notice would leave a world in which nobody can go on.
+    /// Every world that can be reached: in each somebody can go on or all is finished, tasks are used only while they live, and
+    /// each part is done once. Without wakes by chance a lost notice would leave a world in which nobody can go on.
     fn explore<const THREADS: usize>(chance: bool) -> usize {
         let first = World {
             handover: Handover::IDLE,

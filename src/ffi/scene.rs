@@ -107,8 +107,8 @@ pub struct CSceneOptions {
     pub worker_count: u32,
     /// Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
     /// own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
-    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's thread.
-    /// exit() does not wait for them. A program that unloads the library destroys its scenes first.
+    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+    /// thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
     pub enqueue_task: EnqueueTaskCallback,
     /// Waits for what enqueue_task has shared out. Default: null.
     pub finish_task: FinishTaskCallback,

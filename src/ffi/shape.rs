@@ -154,13 +154,13 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_file(
 
 /// Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
 /// swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
-/// are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which takes
-/// up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
-/// handed to it.
+/// are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
+/// takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
+/// is handed to it.
 ///
 /// A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
-/// scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or mirrored
-/// is made from other vertices. On failure `*shape` is null.
+/// scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
+/// mirrored is made from other vertices. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
 /// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.

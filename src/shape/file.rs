@@ -75,8 +75,8 @@ pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
     write(shape, 1.0, shape.hierarchy().kind != HierarchyKind::Automatic)
 }
 
-/// A shape with every length multiplied by a power of two, as if it had been saved and loaded: proved and measured anew, levels, too,
-/// those that are automatic if they are made.
+/// A shape with every length multiplied by a power of two, as if it had been saved and loaded: proved and measured anew, levels,
+/// too, those that are automatic if they are made.
 ///
 /// # Errors
 /// What is wrong with what came of it; [`Error::Memory`], [`Error::Cancelled`].

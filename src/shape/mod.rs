@@ -317,13 +317,13 @@ impl Shape {
     /// those multiplied, and labels are the same. Levels are not built anew, automatic ones are taken over if they are made. What
     /// answers rest on is proved and measured again, as by [`file::load`]; that takes up to half as long as making the shape did.
     ///
-    /// A shape that is turned or moved needs no copy: it is a pose, of an object or of a piece of it. At any other scale vertices would
-    /// be rounded, faces with them, and levels might no longer contain the body: such a shape is to be made anew
+    /// A shape that is turned or moved needs no copy: it is a pose, of an object or of a piece of it. At any other scale vertices
+    /// would be rounded, faces with them, and levels might no longer contain the body: such a shape is to be made anew
     /// ([`ShapeOptions::scale`]), one that is stretched or mirrored from other vertices.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a scale that is not a positive power of two, or at which a length leaves the doubles; [`Error::Memory`];
-    /// [`Error::Cancelled`] when the caller does not want to go on.
+    /// [`Error::Argument`] for a scale that is not a positive power of two, or at which a length leaves the doubles;
+    /// [`Error::Memory`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn scaled(&self, scale: f64, progress: &mut Progress) -> Result<Shape> {
         const FRACTION: u64 = (1 << 52) - 1;
         if !(scale.is_normal() && scale > 0.0 && scale.to_bits() & FRACTION == 0) {

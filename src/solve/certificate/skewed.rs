@@ -1,6 +1,6 @@
 //! Minima of pairs whose rotations are not orthonormal: marching measures in a body's own frame, where the transpose stands for the
-//! inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes. All is in line: so
-//! it is compiled for the vector units of whoever asks; out of line every operation on lanes would be a call.
+//! inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes. All is in line:
+//! so it is compiled for the vector units of whoever asks; out of line every operation on lanes would be a call.
 
 use super::{Minimum, edge_rounding, reciprocal_length};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
