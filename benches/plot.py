@@ -171,8 +171,8 @@ def crowds(machine, bodies, rows):
         worst = [Curve(method, [(n, mean), (n, most)], Kind.LINE) for n, (mean, most) in here.items()]
         return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
 
-    names = {"all": "all move a little", "5%": "one in 20 moves", "rest": "a pile at rest", "teleport": "all jump anywhere"}
-    asked = {"intersection": "intersection", "distance": "distance within 0.25", "contact": "depth of those that intersect"}
+    names = {"all": "all move a little", "5%": "5 % move", "rest": "a pile at rest", "teleport": "all jump"}
+    asked = {"intersection": "intersecting", "distance": "within 0.25", "contact": "how deep"}
 
     def row(question):
         values = [t for key, times in found.items() if key[0] == question for t in times]
