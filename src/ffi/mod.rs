@@ -8,8 +8,7 @@
 #![allow(unsafe_code, reason = "this is where C comes in; the lint stays on everywhere else")]
 #![allow(clippy::missing_safety_doc, reason = "the header's pointer rules, stated once, are the safety section of all")]
 
-// In the order of the header.
-pub mod library;
+pub mod library; // In the order of the header.
 pub mod allocator;
 mod arrays;
 pub mod mesh_reader;
