@@ -26,7 +26,7 @@ enum Question {
     Intersection,
     /// Which are at most [`TOLERANCE`] apart, and how far.
     Distance,
-    /// Which intersect, and how deep.
+    /// How deep those are in each other that intersect; this library says their manifolds, too.
     Contact,
 }
 

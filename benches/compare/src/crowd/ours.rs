@@ -54,7 +54,7 @@ impl Crowd for Ours {
             self.scene.set_pose(*id, pose).expect("a rigid pose");
         }
         let near = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
-        let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Depth, ..SceneQuery::default() };
+        let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
         let answer = match self.question {
             Question::Intersection => self.scene.query_intersection(&near),
             Question::Distance => self.scene.query_exact_distance(&near),
@@ -62,7 +62,7 @@ impl Crowd for Ours {
         };
         let answer = answer.expect("a sound query");
         let sum = match self.question {
-            Question::Contact => answer.contacts.contacts.iter().map(|contact| contact.depth.upper).sum(),
+            Question::Contact => answer.contacts.contacts.iter().map(|contact| contact.depth.depth).sum(),
             _ => answer.pairs.iter().map(|pair| pair.answer.distance).sum(),
         };
         Found { pairs: answer.pairs.len(), sum }
