@@ -10,6 +10,7 @@
 #                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
+# make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -36,11 +37,12 @@ DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
 MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
 STABILITY = benches/results/stability
 STABILITY_PAGE = $(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
+DEPTHS = benches/results/depths
 FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds steps charts cases hard clean
+.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -128,6 +130,13 @@ crowds:
 	cargo run --locked --release --manifest-path benches/compare/Cargo.toml -- --crowd 100,1000,10000,100000 --count 256 \
 	    --csv benches/results/crowds.csv
 	$(DRAW) benches/plot.py benches/results/crowds.csv
+
+depths:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
+	TIMED='$(TIMED)' scripts/depths.sh $(DEPTHS).csv $(DEPTHS)-failures.csv
+	$(DRAW) benches/plot.py $(DEPTHS).csv
+	$(DRAW) benches/plot.py $(DEPTHS)-failures.csv
 
 steps:
 	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)

@@ -9,13 +9,14 @@ use std::time::Instant;
 use swiftprox::error::{Error, Result};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{self, DecidedBy, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{
+    self, DecidedBy, DepthAnswer, DepthCache, DepthConfig, DepthEnding, PairAnswer, PairCache, PairConfig,
+};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models;
 use testkit::random::Random;
 
-const USAGE: &str =
-    "usage: cargo bench --bench worst_case -- [--n N]... [--body NAME]... [--queries COUNT] [--csv PATH]";
+const USAGE: &str = "usage: cargo bench --bench worst_case -- [--n N]... [--body NAME]... [--motion NAME]... [--queries COUNT] [--csv PATH]";
 
 const BODIES: [&str; 11] = [
     "sphere",
@@ -48,10 +49,17 @@ enum Motion {
     Close,
     /// A contact of two bodies whose centres are less than 1 apart, a cold cache.
     Deep,
+    /// How deep such bodies are in each other, a cold cache: expansions of the proof, and no times.
+    Depth,
 }
 
-const MOTIONS: [(Motion, &str); 4] =
-    [(Motion::Cold, "cold"), (Motion::Teleport, "teleport"), (Motion::Close, "close"), (Motion::Deep, "deep")];
+const MOTIONS: [(Motion, &str); 5] = [
+    (Motion::Cold, "cold"),
+    (Motion::Teleport, "teleport"),
+    (Motion::Close, "close"),
+    (Motion::Deep, "deep"),
+    (Motion::Depth, "depth"),
+];
 
 /// What a run over one body and motion came to.
 #[derive(Default)]
@@ -84,6 +92,8 @@ const HEAD: &str = "body,n,build_ms,motion,queries,mean_steps,worst_steps,fallba
 struct Options {
     sizes: Vec<usize>,
     bodies: Vec<String>,
+    /// Names of motions; none for all.
+    motions: Vec<String>,
     queries: u32,
     csv: Option<String>,
 }
@@ -105,7 +115,7 @@ fn main() -> ExitCode {
 }
 
 fn options() -> std::result::Result<Options, String> {
-    let mut options = Options { sizes: Vec::new(), bodies: Vec::new(), queries: 100, csv: None };
+    let mut options = Options { sizes: Vec::new(), bodies: Vec::new(), motions: Vec::new(), queries: 100, csv: None };
     let mut arguments = std::env::args().skip(1);
     while let Some(name) = arguments.next() {
         // What cargo adds.
@@ -117,6 +127,7 @@ fn options() -> std::result::Result<Options, String> {
         match name.as_str() {
             "--n" => options.sizes.push(number()?),
             "--body" => options.bodies.push(value),
+            "--motion" => options.motions.push(value),
             "--queries" => options.queries = number()? as u32,
             "--csv" => options.csv = Some(value),
             _ => return Err(USAGE.into()),
@@ -141,7 +152,9 @@ fn run(options: &Options) -> Result<String> {
             let start = Instant::now();
             let shape = Shape::from_mesh(&mesh, &ShapeOptions::default())?;
             let build = start.elapsed().as_secs_f64() * 1e3;
-            for (motion, name) in MOTIONS {
+            let is_wanted =
+                |name: &str| options.motions.is_empty() || options.motions.iter().any(|wanted| wanted == name);
+            for (motion, name) in MOTIONS.into_iter().filter(|(_, name)| is_wanted(name)) {
                 let row = measure(&shape, motion, options.queries)?;
                 let line = format!("{body},{n},{build:.3},{name},{row}");
                 println!("{line}");
@@ -186,7 +199,11 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
     for _ in 0..queries {
         let pose1 = Pose::new(&random.rotation(), &Vector::zeros());
         let rotation2 = random.rotation();
-        let apart = if motion == Motion::Deep { random.uniform(0.0, 1.0) } else { random.uniform(3.0, 5.0) };
+        let apart = if matches!(motion, Motion::Deep | Motion::Depth) {
+            random.uniform(0.0, 1.0)
+        } else {
+            random.uniform(3.0, 5.0)
+        };
         let mut translation2 = random.direction() * apart;
         if motion == Motion::Close {
             let pose2 = Pose::new(&rotation2, &translation2);
@@ -195,6 +212,13 @@ fn measure(shape: &Shape, motion: Motion, queries: u32) -> Result<Row> {
             translation2 += Vector::from(answer.normal) * (answer.distance - gap);
         }
         let pose2 = Pose::new(&rotation2, &translation2);
+        if motion == Motion::Depth {
+            let mut answer = DepthAnswer::default();
+            let placed = [shape.at(&pose1), shape.at(&pose2)];
+            pair::depth(placed, &mut DepthCache::default(), &DepthConfig::default(), &mut answer)?;
+            row.add_depth(&answer);
+            continue;
+        }
         if motion != Motion::Teleport {
             cache = PairCache::default();
         }
@@ -224,5 +248,14 @@ impl Row {
         self.worst_exact_iterations = self.worst_exact_iterations.max(statistics.exact_iterations);
         self.nanoseconds += nanoseconds;
         self.worst_nanoseconds = self.worst_nanoseconds.max(nanoseconds);
+    }
+
+    fn add_depth(&mut self, answer: &DepthAnswer) {
+        let statistics = answer.statistics;
+        self.exact += u32::from(answer.ending == DepthEnding::Integers);
+        self.steps += u64::from(statistics.steps);
+        self.worst_steps = self.worst_steps.max(statistics.steps);
+        self.worst_exact_iterations = self.worst_exact_iterations.max(statistics.exact_iterations);
+        (self.nanoseconds, self.worst_nanoseconds) = (f64::NAN, f64::NAN);
     }
 }

@@ -266,12 +266,41 @@ static void ask(const swiftprox_shape *shape1, const double *pose1, const swiftp
     }
 }
 
+/* What a pair remembers of its depth and of its manifold. */
+typedef struct contact_caches {
+    swiftprox_depth_cache depth;
+    swiftprox_manifold_cache manifold;
+} contact_caches;
+
+enum { MOST_POINTS = 64 };
+
+/* How deep the two are in each other, and where they meet. */
+static void ask_contact(const swiftprox_shape *shape1, const double *pose1, const swiftprox_shape *shape2, const double *pose2,
+                        contact_caches *caches)
+{
+    swiftprox_depth_answer depth;
+    swiftprox_manifold_config config;
+    swiftprox_manifold manifold;
+    swiftprox_manifold_point points[MOST_POINTS];
+    CALL_OK(swiftprox_pair_depth(shape1, pose1, shape2, pose2, &caches->depth, NULL, &depth));
+    tell(&depth, sizeof depth);
+    CALL(swiftprox_pair_depth_verify(shape1, pose1, shape2, pose2, &caches->depth, &depth));
+    swiftprox_manifold_config_init(&config);
+    config.margin = 0.25;
+    CALL_OK(swiftprox_pair_manifold(shape1, pose1, shape2, pose2, &caches->manifold, &config, points, MOST_POINTS, &manifold));
+    tell(&manifold, sizeof manifold);
+    tell(points, manifold.point_count * sizeof points[0]);
+    tell(caches, sizeof *caches);
+}
+
 static void ask_once(const swiftprox_shape *shape1, const swiftprox_shape *shape2, double x)
 {
     swiftprox_pair_cache caches[QUERY_COUNT];
     const double here[12] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    contact_caches contact = {{{0}}, {{0}}};
     memset(caches, 0, sizeof caches);
     ask(shape1, here, shape2, there, caches, NULL);
+    ask_contact(shape1, here, shape2, there, &contact);
 }
 
 /* All that can be told of a shape. */
@@ -327,6 +356,7 @@ static void build_and_ask(void)
     for (size_t k = 0; k < sizeof hierarchies / sizeof hierarchies[0]; ++k) {
         const swiftprox_shape *shape, *loaded = NULL;
         swiftprox_pair_cache caches[QUERY_COUNT];
+        contact_caches contact = {{{0}}, {{0}}};
         making.hierarchy = hierarchies[k];
         shape = shape_of(sphere, POINTS, &options);
         CALL_OK(swiftprox_shape_prepare(shape, progress, NULL));
@@ -334,8 +364,10 @@ static void build_and_ask(void)
         CALL_OK(swiftprox_shape_load(shape_path, progress, NULL, &loaded));
         tell_shape(loaded);
         memset(caches, 0, sizeof caches);
-        for (int i = 0; i < POSES; ++i)
+        for (int i = 0; i < POSES; ++i) {
             ask(shape, poses[0], loaded, poses[i], caches, k == 0 ? NULL : &config);
+            ask_contact(shape, poses[0], loaded, poses[i], &contact);
+        }
         swiftprox_shape_release(shape);
         swiftprox_shape_release(loaded);
     }
@@ -402,6 +434,18 @@ static void tell_pairs(const swiftprox_scene_answer *answer)
     }
 }
 
+/* What the last query said beside its answers. */
+static void tell_contacts(const swiftprox_scene *scene)
+{
+    swiftprox_scene_contacts contacts;
+    CALL_OK(swiftprox_scene_get_contacts(scene, &contacts));
+    tell(&contacts.count, sizeof contacts.count);
+    if (contacts.count > 0)
+        tell(contacts.contacts, contacts.count * sizeof *contacts.contacts);
+    if (contacts.point_count > 0)
+        tell(contacts.points, contacts.point_count * sizeof *contacts.points);
+}
+
 static void ask_a_scene(void)
 {
     scene_query *const queries[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_tolerance,
@@ -416,6 +460,7 @@ static void ask_a_scene(void)
     swiftprox_scene_query_init(&query);
     query.distance_tolerance = 2;
     query.relative_error = 0.05;
+    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     for (int i = 0; i < 4; ++i) {
         const swiftprox_shape *const piece = shapes[i % 2];
         swiftprox_object_options options;
@@ -431,6 +476,7 @@ static void ask_a_scene(void)
             swiftprox_scene_answer answer;
             CALL_OK(queries[k](scene, &query, &answer));
             tell_pairs(&answer);
+            tell_contacts(scene);
         }
     }
     memset(&statistics, 0, sizeof statistics);

@@ -1,34 +1,95 @@
-//! Notes the compiler, and compiles the shims of those peers in C and C++ that pkg-config finds (Debian: libfcl-dev,
-//! libccd-dev); without them the comparison leaves them out.
+//! Notes the compiler, and compiles the shims of those peers in C and C++ that are there: what pkg-config finds (Debian:
+//! libfcl-dev, libccd-dev, libbullet-dev), and of the environment of Python that `PEERS_PYTHON` names, coal and mujoco. The
+//! comparison leaves out what is not there.
 
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 fn main() {
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
     // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    let fcl = ["src/fcl.cpp", "src/crowd/fcl.cpp"];
-    link_shim("fcl", "libfcl-dev", &fcl, cc::Build::new().cpp(true).std("c++14"));
-    link_shim("ccd", "libccd-dev", &["src/ccd.c"], cc::Build::new().std("c99"));
+    let fcl = ["src/fcl.cpp", "src/crowd/fcl.cpp", "src/depth/fcl.cpp"];
+    Shim { peer: "fcl", sources: &fcl, flags: pkg_config("fcl", "libfcl-dev") }
+        .link(cc::Build::new().cpp(true).std("c++14"));
+    let ccd = pkg_config("ccd", "libccd-dev");
+    Shim { peer: "ccd", sources: &["src/ccd.c"], flags: ccd }.link(cc::Build::new().std("c99"));
+    // Of the header alone, which is of any precision.
+    let bullet = pkg_config("bullet", "libbullet-dev").map(|flags| Flags { link: Vec::new(), ..flags });
+    Shim { peer: "bullet", sources: &["src/depth/bullet.cpp"], flags: bullet }
+        .link(cc::Build::new().cpp(true).std("c++14"));
+    let packages = python_packages();
+    let coal = packages.as_deref().and_then(coal);
+    Shim { peer: "coal", sources: &["src/depth/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
+    let mujoco = packages.as_deref().and_then(mujoco);
+    Shim { peer: "mujoco", sources: &["src/depth/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
+    for header in ["src/hull.h", "src/depth/peer.h"] {
+        println!("cargo:rerun-if-changed={header}");
+    }
 }
 
-/// Sets the condition `package` where there is such a library.
-fn link_shim(package: &str, debian: &str, sources: &[&str], build: &mut cc::Build) {
-    sources.iter().for_each(|source| println!("cargo:rerun-if-changed={source}"));
-    println!("cargo:rustc-check-cfg=cfg({package})");
-    let Some(flags) = pkg_config("--cflags", package) else {
-        println!("cargo:warning=pkg-config finds no {package} (Debian: {debian}): compared without it");
-        return;
-    };
-    build.opt_level(3).define("NDEBUG", None).warnings(false).files(sources);
-    for flag in flags.split_whitespace() {
-        build.flag(flag);
+/// What the compiler and the linker are to be told.
+struct Flags {
+    compile: Vec<String>,
+    link: Vec<String>,
+}
+
+struct Shim<'a> {
+    peer: &'a str,
+    sources: &'a [&'a str],
+    /// None where the library is not there.
+    flags: Option<Flags>,
+}
+
+impl Shim<'_> {
+    /// Sets the condition that is named as the peer where there is such a library.
+    fn link(self, build: &mut cc::Build) {
+        let Shim { peer, sources, flags } = self;
+        sources.iter().for_each(|source| println!("cargo:rerun-if-changed={source}"));
+        println!("cargo:rustc-check-cfg=cfg({peer})");
+        let Some(Flags { compile, link }) = flags else { return };
+        build.opt_level(3).define("NDEBUG", None).warnings(false).files(sources);
+        for flag in compile {
+            build.flag(flag);
+        }
+        build.compile(&format!("{peer}_shim"));
+        link.iter().for_each(|flag| println!("cargo:rustc-link-arg={flag}"));
+        println!("cargo:rustc-cfg={peer}");
     }
-    build.compile(&format!("{package}_shim"));
-    for flag in pkg_config("--libs", package).unwrap_or_default().split_whitespace() {
-        println!("cargo:rustc-link-arg={flag}");
+}
+
+/// Where the environment of Python has its packages.
+fn python_packages() -> Option<PathBuf> {
+    println!("cargo:rerun-if-env-changed=PEERS_PYTHON");
+    let python = std::env::var("PEERS_PYTHON").ok().filter(|python| !python.is_empty())?;
+    let output = Command::new(python).args(["-c", "import sysconfig; print(sysconfig.get_path('purelib'))"]).output();
+    Some(String::from_utf8_lossy(&output.ok()?.stdout).trim().into())
+}
+
+/// coal's wheel has its headers and library, and needs Eigen's headers.
+fn coal(packages: &Path) -> Option<Flags> {
+    let prefix = packages.join("cmeel.prefix");
+    let [include, library] = [prefix.join("include"), prefix.join("lib")].map(|path| path.display().to_string());
+    if !prefix.join("include/coal/distance.h").exists() {
+        return None;
     }
-    println!("cargo:rustc-cfg={package}");
+    let mut flags = pkg_config("eigen3", "libeigen3-dev")?;
+    flags.compile.push(format!("-I{include}"));
+    flags.link = vec![format!("-L{library}"), "-lcoal".into(), format!("-Wl,-rpath,{library}")];
+    Some(flags)
+}
+
+/// MuJoCo's wheel has its headers and library; the name of the library ends with its version.
+fn mujoco(packages: &Path) -> Option<Flags> {
+    let folder = packages.join("mujoco");
+    let is_library = |name: &str| name.starts_with("libmujoco.so");
+    let names = std::fs::read_dir(&folder).ok()?.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let library = names.into_iter().find(|name| is_library(name))?;
+    let folder = folder.display();
+    Some(Flags {
+        compile: vec![format!("-I{folder}/include")],
+        link: vec![format!("{folder}/{library}"), format!("-Wl,-rpath,{folder}")],
+    })
 }
 
 /// The version of parry that Cargo.toml pins.
@@ -48,7 +109,16 @@ fn compiler() -> String {
     if flags.is_empty() { version } else { format!("{version}, {flags}") }
 }
 
-fn pkg_config(what: &str, package: &str) -> Option<String> {
-    let output = Command::new("pkg-config").args([what, package]).output().ok()?;
-    output.status.success().then(|| String::from_utf8_lossy(&output.stdout).into_owned())
+/// What pkg-config says of a package; a warning that names Debian's where it finds none.
+fn pkg_config(package: &str, debian: &str) -> Option<Flags> {
+    let ask = |what: &str| {
+        let output = Command::new("pkg-config").args([what, package]).output().ok()?;
+        let flags = String::from_utf8_lossy(&output.stdout).split_whitespace().map(str::to_string).collect();
+        output.status.success().then_some(flags)
+    };
+    let flags = ask("--cflags").zip(ask("--libs")).map(|(compile, link)| Flags { compile, link });
+    if flags.is_none() {
+        println!("cargo:warning=pkg-config finds no {package} (Debian: {debian}): compared without it");
+    }
+    flags
 }

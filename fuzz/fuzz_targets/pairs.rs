@@ -1,7 +1,8 @@
 //! Pair queries about any two bodies, with any levels of detail and look-up tables, along any sequence of poses, the cache carried
 //! on or corrupted: every answer is checked by `verify`, against all that answers promise, against the other queries and the
 //! swapped pair from caches of every origin, and for small bodies against exact rationals. In the floating-point environment
-//! that the last byte chooses bodies and answers are bit for bit the same.
+//! that the last byte chooses bodies and answers are bit for bit the same. Depths and manifolds likewise, by `verify_depth` and
+//! what holds of every manifold.
 #![no_main]
 
 use std::sync::Mutex;
@@ -16,6 +17,7 @@ use swiftprox::pair::{
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
+use swiftprox_fuzz::contacts;
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
 use testkit::bodies::Body;
 use testkit::cases::{Case, Random};
@@ -38,6 +40,7 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     let most = if u.ratio(1, 4)? { 64 } else { FEW_POINTS };
     let bodies = [body(u, most, environment)?, body(u, most, environment)?];
     let mut session = Session::new(0);
+    let mut memory = contacts::Memory::default();
     for _ in 0..MOST_STEPS {
         let poses = poses(u, [&bodies[0].points, &bodies[1].points])?;
         let placed = Placed { bodies: [&bodies[0], &bodies[1]], poses };
@@ -45,7 +48,10 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
         if u.ratio(1, 4)? {
             session.own = any_cache(u)?;
         }
-        check(u, &placed, &mut session)?;
+        if let Some(cold) = check(u, &placed, &mut session)? {
+            let bodies = [0, 1].map(|i| bodies[i].shape.at(&poses[i]));
+            contacts::check(u, bodies, &cold, !is_wild(&placed), environment, &mut memory)?;
+        }
         check_environment(environment, &placed, session.own);
         if u.is_empty() {
             break;
@@ -70,7 +76,8 @@ fn body(u: &mut Unstructured, most: usize, environment: Environment) -> Result<B
     Ok(body)
 }
 
-fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result<()> {
+/// The exact answer of poses that are accepted.
+fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result<Option<PairAnswer>> {
     let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
     let mut answer = PairAnswer::default();
     if placed.poses.iter().any(|pose| pose.check(ROTATION_LIMIT).is_err()) {
@@ -78,7 +85,7 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
         let refused = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
         assert!(matches!(refused, Err(Error::Pose(_))), "{refused:?}");
         assert!(cache == session.own && answer.outcome == Outcome::None);
-        return Ok(());
+        return Ok(None);
     }
     let cold = session.check(placed);
     print_most_work(session.tally.most);
@@ -91,13 +98,13 @@ fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result
         eprintln!("{}: {}\n", violation.property, violation.detail);
     }
     assert!(session.violations.is_empty(), "see above");
-    let Some(cold) = cold else { return Ok(()) };
+    let Some(cold) = cold else { return Ok(None) };
     check_tolerance(u, placed, session.own, &cold)?;
     check_levels(u, placed, session.own, &cold)?;
     if placed.bodies.iter().all(|body| body.points.len() <= FEW_POINTS) {
         check_truth(placed, &cold);
     }
-    Ok(())
+    Ok(Some(cold))
 }
 
 /// Each query, from the same cache, in the default environment and in another one.

@@ -2,4 +2,5 @@
 //! tests.
 
 pub mod c_program;
+pub mod contacts;
 pub mod geometry;

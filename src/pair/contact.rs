@@ -132,13 +132,15 @@ pub fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Fea
 }
 
 /// The features that hold the given points (centred) of a simplex of vertex pairs: one vertex, the edge of two, else the face that
-/// holds the point; of several the one that looks most towards the other body.
+/// holds the point; of several the one that looks most towards the other body. A point may be as far as `within` inside its body,
+/// seen along the direction.
 pub fn features_of_pairs(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     pairs: &[VertexPair],
     points: &[Vector; 2],
     direction: &Vector,
+    within: f64,
 ) -> [FeatureId; 2] {
     std::array::from_fn(|i| {
         let towards = poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
@@ -150,11 +152,17 @@ pub fn features_of_pairs(
                 count += 1;
             }
         }
-        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards)
+        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards, within)
     })
 }
 
-fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector, towards: &Vector) -> FeatureId {
+fn feature_of_vertices(
+    polyhedron: &Polyhedron,
+    vertices: &[u32],
+    point: &Vector,
+    towards: &Vector,
+    within: f64,
+) -> FeatureId {
     let &[first, ref others @ ..] = vertices else { return FeatureId::Vertex(0) };
     if others.is_empty() {
         return FeatureId::Vertex(first);
@@ -171,12 +179,71 @@ fn feature_of_vertices(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector
             return FeatureId::Edge(edge);
         }
     }
+    if let Some(face) = face_beside(polyhedron, vertices, point) {
+        return FeatureId::Face(face);
+    }
     // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
     // The face that holds a convex combination holds all its vertices, so those with many faces around them can be left out.
     let has_few = |v: &&u32| polyhedron.neighbour_capacity(**v) <= MOST_NEIGHBOURS;
     let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));
-    let face = face_holding(polyhedron, around, point, towards).or_else(|| nearest_face(polyhedron, point, towards));
+    let face = face_holding(polyhedron, around, point, towards)
+        .or_else(|| face_ahead(polyhedron, first, point, towards, within))
+        .or_else(|| nearest_face(polyhedron, point, towards));
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
+}
+
+/// The face that alone holds a point, where it is at an edge between two of the vertices: so it is mostly.
+fn face_beside(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector) -> Option<u32> {
+    if polyhedron.dimension < 3 || polyhedron.neighbour_capacity(vertices[0]) > MOST_NEIGHBOURS {
+        return None;
+    }
+    let between = edges_at(polyhedron, vertices[0]).map(|edge| &polyhedron.edges[edge as usize]);
+    let mut between = between.filter(|edge| vertices.contains(&edge.tail()) && vertices.contains(&edge.head()));
+    between.find_map(|edge| [edge.left(), edge.right()].into_iter().find(|&face| is_inside(polyhedron, face, point)))
+}
+
+/// Whether a point on the plane of a face is so far inside its sides that no other face holds it.
+fn is_inside(polyhedron: &Polyhedron, face: u32, point: &Vector) -> bool {
+    let record = &polyhedron.faces[face as usize];
+    record.planes.value(0, point).abs() <= rounding(polyhedron)
+        && side_values(polyhedron, record, point).all(|value| value > 2.0 * rounding(polyhedron))
+}
+
+/// A point that is farther inside than so many times the rounding is not on the boundary.
+const WELL_INSIDE: f64 = 64.0;
+
+/// Faces walked over before all are looked at.
+const LONGEST_WALK: usize = 64;
+
+/// The face through which a point inside the body, rounding apart, leaves it along a direction, if that is no farther than `within`:
+/// a walk from the faces at a vertex over neighbours whose planes the ray meets sooner. As the least of linear functions the
+/// way to the boundary has no other minima than the least.
+fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Vector, within: f64) -> Option<u32> {
+    // A point on the boundary, rounding included, is left to the planes and sides.
+    if within <= WELL_INSIDE * rounding(polyhedron) {
+        return None;
+    }
+    let way = |face: u32| {
+        let record = &polyhedron.faces[face as usize];
+        let slope = record.normal.dot(towards);
+        if slope > 0.0 { -record.planes.value(0, point) / slope } else { f64::INFINITY }
+    };
+    let nearer = |best: (u32, f64), face: u32| {
+        let way = way(face);
+        if way < best.1 { (face, way) } else { best }
+    };
+    let mut best = faces_at(polyhedron, vertex).take(MOST_NEIGHBOURS).fold((NONE, f64::INFINITY), nearer);
+    for _ in 0..LONGEST_WALK {
+        let (face, _) = best;
+        let record = polyhedron.faces.get(face as usize)?;
+        let range = record.first_side as usize..(record.first_side + record.side_count) as usize;
+        let edges = polyhedron.sides[range].iter().map(|&side| &polyhedron.edges[side as usize]);
+        best = edges.flat_map(|edge| [edge.left(), edge.right()]).fold(best, nearer);
+        if best.0 == face {
+            return (misses_face(polyhedron, face, point) <= within).then_some(face);
+        }
+    }
+    None
 }
 
 /// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
@@ -237,10 +304,7 @@ pub fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u3
 /// violate the sides by next to nothing and still be far away, so that the sides only tell whether it is inside.
 fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
     let record = &polyhedron.faces[face as usize];
-    let first = (1..4).map(|lane| record.planes.value(lane, point));
-    let further = polyhedron.further_sides(record).iter();
-    let mut sides = first.chain(further.flat_map(|block| (0..4).map(|lane| block.value(lane, point))));
-    let misses = if sides.all(|value| value >= 0.0) {
+    let misses = if side_values(polyhedron, record, point).all(|value| value >= 0.0) {
         record.planes.value(0, point).abs()
     } else {
         let range = record.first_side as usize..(record.first_side + record.side_count) as usize;
@@ -248,6 +312,13 @@ fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
         edges.map(|edge| distance_to_edge(polyhedron, edge, point)).fold(f64::INFINITY, f64::min)
     };
     if misses <= rounding(polyhedron) { 0.0 } else { misses }
+}
+
+/// How far inside each side of a face a point is.
+fn side_values<'a>(polyhedron: &'a Polyhedron, record: &'a Face, point: &'a Vector) -> impl Iterator<Item = f64> + 'a {
+    let first = (1..4).map(|lane| record.planes.value(lane, point));
+    let further = polyhedron.further_sides(record).iter();
+    first.chain(further.flat_map(|block| (0..4).map(|lane| block.value(lane, point))))
 }
 
 fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64 {

@@ -119,7 +119,8 @@ impl PairQuery<'_> {
                     // The points need not be nearest, so no feature need hold them, and to search all takes long.
                     cache.remember_features(vertices);
                 } else {
-                    let features = contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction);
+                    let features =
+                        contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction, 0.0);
                     cache.remember_features(State::of_features(features).unwrap_or(vertices));
                     if answer.outcome == Outcome::Separated {
                         contact::fill_placed(answer, polyhedra, poses, points, features);

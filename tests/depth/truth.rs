@@ -136,7 +136,7 @@ fn pose(random: &mut Random, kind: usize, reach: f64) -> Pose {
 fn depths_of_small_pairs_hold_the_exact_ones() {
     let mut random = Random::new(31);
     let (mut overlapping, mut touching, mut separated, mut widest) = (0, 0, 0, 0.0_f64);
-    for round in 0..12_000 {
+    for round in 0..13_000 {
         let bodies = [0, 1].map(|_| {
             let kind = random.below(60);
             points(&mut random, kind)
@@ -183,5 +183,5 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
         assert!(off <= 1e-13 * (size + apart), "{off:e} {}", told());
     }
     println!("{overlapping} overlapping, {touching} touching, {separated} separated, widest {widest:e}");
-    assert!(overlapping > 4500 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
+    assert!(overlapping > 5_000 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
 }

@@ -7,23 +7,23 @@ use crate::method::{Method, Reply};
 use testkit::PosePair;
 
 #[repr(C)]
-struct Body {
+struct Hull {
     _opaque: [u8; 0],
 }
 
 unsafe extern "C" {
-    fn ccd_shim_body(
+    fn ccd_shim_hull(
         coordinates: *const f64,
         vertex_count: usize,
         corners: *const u32,
         triangle_count: usize,
-    ) -> *mut Body;
-    fn ccd_shim_free(body: *mut Body);
-    fn ccd_shim_mpr(body: *const Body, poses: *const f64, last: *mut u32) -> i32;
+    ) -> *mut Hull;
+    fn ccd_shim_free(hull: *mut Hull);
+    fn ccd_shim_mpr(hull: *const Hull, poses: *const f64, last: *mut u32) -> i32;
 }
 
 pub struct Mpr {
-    body: *mut Body,
+    hull: *mut Hull,
     poses: Vec<PosePair>,
     last: [u32; 2],
     intersecting: bool,
@@ -35,18 +35,18 @@ impl Mpr {
         let coordinates: Vec<f64> = mesh.vertices.iter().flat_map(|v| [v.x, v.y, v.z]).collect();
         assert_eq!(mesh.indices.len(), 3 * mesh.face_count(), "libccd's support function is given triangles only");
         // SAFETY: the pointers are to arrays of the lengths that are passed; the shim copies them.
-        let body = unsafe {
-            ccd_shim_body(coordinates.as_ptr(), mesh.vertices.len(), mesh.indices.as_ptr(), mesh.face_count())
+        let hull = unsafe {
+            ccd_shim_hull(coordinates.as_ptr(), mesh.vertices.len(), mesh.indices.as_ptr(), mesh.face_count())
         };
-        assert!(!body.is_null(), "there is memory");
-        Mpr { body, poses: Vec::new(), last: [0; 2], intersecting: false }
+        assert!(!hull.is_null(), "there is memory");
+        Mpr { hull, poses: Vec::new(), last: [0; 2], intersecting: false }
     }
 }
 
 impl Drop for Mpr {
     fn drop(&mut self) {
-        // SAFETY: made by ccd_shim_body and freed once.
-        unsafe { ccd_shim_free(self.body) }
+        // SAFETY: made by ccd_shim_hull and freed once.
+        unsafe { ccd_shim_free(self.hull) }
     }
 }
 
@@ -65,8 +65,8 @@ impl Method for Mpr {
 
     #[inline]
     fn ask(&mut self, i: usize) {
-        // SAFETY: `body` lives as long as self, the poses are 24 numbers, `last` holds two vertices of the body.
-        self.intersecting = unsafe { ccd_shim_mpr(self.body, self.poses[i].as_ptr(), self.last.as_mut_ptr()) } != 0;
+        // SAFETY: `hull` lives as long as self, the poses are 24 numbers, `last` holds two vertices of it.
+        self.intersecting = unsafe { ccd_shim_mpr(self.hull, self.poses[i].as_ptr(), self.last.as_mut_ptr()) } != 0;
     }
 
     fn reply(&self) -> Reply {

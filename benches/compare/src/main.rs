@@ -6,6 +6,7 @@ mod build_time;
 #[cfg(ccd)]
 mod ccd;
 mod crowd;
+mod depth;
 mod distance;
 #[cfg(fcl)]
 mod fcl;
@@ -37,12 +38,17 @@ fn main() -> ExitCode {
         if let Some(arguments) = &options.answers {
             return answers::run(arguments);
         }
+        if let Some(arguments) = &options.depths {
+            return depth::answers::run(arguments);
+        }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {
             crowd::run(&options, counts)
         } else if options.build {
             build_time::run(&options)
+        } else if options.depth {
+            depth::run(&options)
         } else {
             distance::run(&options)
         }

@@ -14,10 +14,13 @@ usage: compare [options]
   --models LIST     of fat, plate, long (all)
   --orbits LIST     of small, large, deep (all)
   --steps LIST      degrees a query, or random (0.1,1,5,10,20,45,90,random)
-  --query QUERY     distance, or intersection, the verdict alone (distance)
+  --query QUERY     distance; intersection, the verdict alone; or depth, on the intersecting poses, and of resting boxes unless
+                    --without-boxes (distance)
   --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
   --methods LIST    of swiftprox, parry-hc, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
-                    of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them
+                    of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them;
+                    of depth, of swiftprox, which may be asked for an error (swiftprox-1e-3), coal, mujoco, parry-hc, libccd-epa,
+                    libccd-mpr, bullet, fcl, most of them with a tolerance (coal-1e-10)
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
@@ -30,6 +33,8 @@ usage: compare [options]
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
                     benches/stability reads; METHOD is parry, parry-hull or parry-hc
+  --depths METHOD A B POSES
+                    the same of depths, in the form that benches/stability/depths.py reads; METHOD is one of --query depth
   --csv FILE        write the results there, too
 lists are separated by commas
 ";
@@ -40,7 +45,9 @@ pub struct Options {
     pub orbits: Vec<String>,
     pub steps: Vec<Step>,
     pub query: Query,
+    pub depth: bool,
     pub beside_box: bool,
+    pub without_boxes: bool,
     /// Empty: all.
     pub methods: Vec<String>,
     pub count: usize,
@@ -50,6 +57,7 @@ pub struct Options {
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
     pub answers: Option<[String; 4]>,
+    pub depths: Option<[String; 4]>,
     /// Which figures; empty: all.
     pub figures: Option<Vec<String>>,
     pub csv: Option<PathBuf>,
@@ -65,7 +73,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         orbits: ORBITS.iter().map(|orbit| orbit.name.to_string()).collect(),
         steps: STEPS.to_vec(),
         query: Query::Distance,
+        depth: false,
         beside_box: false,
+        without_boxes: false,
         methods: Vec::new(),
         count: 3600,
         passes: 9,
@@ -73,6 +83,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         build: false,
         crowd: None,
         answers: None,
+        depths: None,
         figures: None,
         csv: None,
         help: false,
@@ -87,13 +98,16 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--orbits" => options.orbits = list(&value()?).map(str::to_string).collect(),
             "--steps" => options.steps = list(&value()?).map(str::parse).collect::<Result<_, _>>()?,
             "--query" => {
-                options.query = match value()?.as_str() {
-                    "distance" => Query::Distance,
+                let query = value()?;
+                options.depth = query == "depth";
+                options.query = match query.as_str() {
+                    "distance" | "depth" => Query::Distance,
                     "intersection" => Query::Intersection,
-                    other => return Err(format!("--query: {other} is neither distance nor intersection")),
+                    other => return Err(format!("--query: {other} is neither distance, intersection nor depth")),
                 }
             }
             "--beside-box" => options.beside_box = true,
+            "--without-boxes" => options.without_boxes = true,
             "--methods" => options.methods = list(&value()?).map(str::to_string).collect(),
             "--count" => options.count = number(&value()?)?.max(1),
             "--passes" => options.passes = number(&value()?)?.max(1),
@@ -101,6 +115,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
+            "--depths" => options.depths = Some([value()?, value()?, value()?, value()?]),
             "--figures" => {
                 options.figures = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
@@ -109,7 +124,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             _ => return Err(format!("{name}: no such option (see --help)")),
         }
     }
-    if options.beside_box && options.query != Query::Distance {
+    if options.beside_box && (options.depth || options.query != Query::Distance) {
         return Err("--beside-box: only for distance".into());
     }
     Ok(options)

@@ -5,7 +5,7 @@ use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
-use crate::solve::shell::{Shell, Start, half_edge, triangle_of};
+use crate::solve::shell::{NO_TWIN, Shell, Start, triangle_of};
 
 /// Vertices of a shell that is kept.
 pub const MOST_VERTICES: usize = 64;
@@ -43,9 +43,9 @@ impl Default for DepthCache {
 
 impl DepthCache {
     /// Puts the kept shell into an empty one, its positions computed for the pair's poses, and says where to begin. The shell stays
-    /// empty where none is kept, or what is kept is no closed surface over vertices that the bodies have.
+    /// empty where none is kept, or what is kept has vertices that the bodies have not; it need not be [closed](Shell::is_closed).
     #[inline(always)]
-    pub fn unpack<L: Lanes>(&self, frame: &Frame<L>, shell: &mut Shell) -> Start {
+    pub fn unpack<L: Lanes, const V: usize, const T: usize>(&self, frame: &Frame<L>, shell: &mut Shell<V, T>) -> Start {
         let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
         let mut start = Start { triangle: None, direction: self.direction(frame), first_triangles };
         let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
@@ -57,10 +57,6 @@ impl DepthCache {
         }
         shell.vertex_count = vertices;
         shell.triangle_count = triangles;
-        if !shell.is_closed() {
-            shell.clear();
-            return start;
-        }
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
         for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
             let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
@@ -83,25 +79,27 @@ impl DepthCache {
     #[inline(always)]
     fn are_vertices(&self, polyhedra: [&Polyhedron; 2], vertices: usize) -> bool {
         let [count1, count2] = polyhedra.map(|polyhedron| polyhedron.vertices.len());
-        let pairs = self.pairs[..vertices].iter();
-        pairs.fold(true, |all, &[v, w]| all & ((v as usize) < count1) & ((w as usize) < count2))
+        let largest = self.pairs[..vertices].iter().fold([0; 2], |[v, w], pair| [v.max(pair[0]), w.max(pair[1])]);
+        (largest[0] as usize) < count1 && (largest[1] as usize) < count2
     }
 
     /// Whether all corners are vertices.
     #[inline(always)]
-    fn unpack_triangles(&self, shell: &mut Shell, vertices: usize, triangles: usize) -> bool {
-        let mut largest = 0;
+    fn unpack_triangles<const V: usize, const T: usize>(
+        &self,
+        shell: &mut Shell<V, T>,
+        vertices: usize,
+        triangles: usize,
+    ) -> bool {
         let packed = self.triangles[..triangles].iter();
-        for ((corners, twins), &[a, b, c, x, y, z, sides]) in
-            shell.corners.iter_mut().zip(&mut *shell.twins).zip(packed)
-        {
-            *corners = [a, b, c, 0];
-            largest = largest.max(a).max(b).max(c);
-            let side = |place: u32| usize::from(sides >> (2 * place) & 3);
-            let [first, second, third] = [(x, side(0)), (y, side(1)), (z, side(2))];
-            let twin = |(triangle, k): (u8, usize)| half_edge(usize::from(triangle), k);
-            *twins = [twin(first), twin(second), twin(third), 0];
+        for (&[a, b, c, ..], corners) in packed.clone().zip(&mut shell.corners) {
+            *corners = [a, b, c, a];
         }
+        for (&[.., x, y, z, sides], twins) in packed.zip(&mut shell.twins) {
+            let [x, y, z, sides] = [x, y, z, sides].map(u16::from);
+            *twins = [x << 2 | sides & 3, y << 2 | sides >> 2 & 3, z << 2 | sides >> 4 & 3, NO_TWIN];
+        }
+        let largest = shell.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
         usize::from(largest) < vertices
     }
 
@@ -120,10 +118,10 @@ impl DepthCache {
 
     /// Keeps a shell, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
     #[inline(always)]
-    pub fn pack<L: Lanes>(
+    pub fn pack<L: Lanes, const V: usize, const T: usize>(
         &mut self,
         frame: &Frame<L>,
-        shell: &Shell,
+        shell: &Shell<V, T>,
         triangle: usize,
         direction: &Vector,
         first_triangles: usize,
@@ -138,7 +136,7 @@ impl DepthCache {
         let byte = |count: usize| count.min(255) as u8;
         self.counts = [byte(vertices), byte(triangles), byte(triangle), byte(first_triangles)];
         self.pairs[..vertices].copy_from_slice(&shell.pairs[..vertices]);
-        let surface = shell.corners.iter().zip(&*shell.twins);
+        let surface = shell.corners.iter().zip(&shell.twins);
         for (packed, (corners, twins)) in self.triangles[..triangles].iter_mut().zip(surface) {
             let [x, y, z, _] = *twins;
             let sides = (x & 3) | (y & 3) << 2 | (z & 3) << 4;

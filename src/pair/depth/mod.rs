@@ -17,7 +17,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::frame::Frame;
-use crate::solve::shell::{self, Ending, Expansion, Start, Storage, Wanted, Witness};
+use crate::solve::shell::{self, Ending, Expansion, Shell, Start, Wanted, Witness};
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
@@ -87,8 +87,7 @@ impl Kernel for DepthQuery<'_> {
         if !frame.in_range {
             return None;
         }
-        let mut storage = Storage::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
-        let mut shell = storage.shell();
+        let mut shell = Shell::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
         let start = self.cache.unpack(&frame, &mut shell);
         let found = self.search(&frame, &mut shell, &start);
         if found.expansion.ending == Ending::Stuck {
@@ -101,7 +100,12 @@ impl Kernel for DepthQuery<'_> {
 
 impl DepthQuery<'_> {
     #[inline(always)]
-    fn search<L: Lanes>(&mut self, frame: &Frame<L>, shell: &mut shell::Shell, start: &Start) -> Found {
+    fn search<L: Lanes, const V: usize, const T: usize>(
+        &mut self,
+        frame: &Frame<L>,
+        shell: &mut Shell<V, T>,
+        start: &Start,
+    ) -> Found {
         let DepthConfig { absolute_error, relative_error, step_budget, .. } = *self.config;
         let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget, lower: 0.0 };
         let expansion = shell::expand(frame, shell, start, &wanted);
@@ -132,8 +136,7 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Found {
-        let mut storage = Storage::<255, 508>::empty();
-        self.search.search(self.frame, &mut storage.shell(), &self.start)
+        self.search.search(self.frame, &mut Shell::<255, 508>::empty(), &self.start)
     }
 }
 
@@ -161,7 +164,8 @@ fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses
     answer.outcome = Outcome::Intersecting;
     (answer.lower, answer.upper) = (*lower, *upper);
     answer.depth = clamp(witness.depth, *lower, *upper);
-    fill_points(answer, polyhedra, poses, &witness.pairs[..witness.count], &witness.weights, &-direction);
+    let combination = Combination { pairs: &witness.pairs[..witness.count], weights: &witness.weights };
+    fill_points(answer, polyhedra, poses, combination, &-direction, upper - lower);
 }
 
 /// Decides in integers, with what the search has found.
@@ -185,7 +189,7 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
             match known {
                 // The bounds have met, next to 0.
-                Some(found) if found.expansion.ending == Ending::Narrow && found.triangles > 0 => {
+                Some(found) if found.expansion.ending == Ending::Narrow && has_witness(found, polyhedra, poses) => {
                     fill_overlapping(answer, polyhedra, poses, found);
                     answer.statistics.exact_iterations = common.iterations;
                 }
@@ -202,6 +206,17 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             }
         }
     }
+}
+
+/// Whether the shell's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is
+/// thin beside bodies of very different sizes may be anything.
+fn has_witness(found: &Found, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Found { expansion: Expansion { upper, direction, .. }, witness, triangles } = found;
+    let points = combinations(polyhedra, &witness.pairs[..witness.count], &witness.weights);
+    let [world1, world2] = contact::placed_points(polyhedra, poses, &points).world.map(Vector::from);
+    let along = Vector::from(contact::normalised(direction)) * clamp(witness.depth, 0.0, *upper);
+    // False for a NaN.
+    *triangles > 0 && (world2 - world1 + along).norm() <= *upper
 }
 
 /// Of objects that are apart only a normal is said.
@@ -232,19 +247,27 @@ fn fill_common(
     for (weight, exact) in weights.iter_mut().zip(&common.weights) {
         *weight = *exact;
     }
-    fill_points(answer, polyhedra, poses, &common.pairs, &weights, normal);
+    fill_points(answer, polyhedra, poses, Combination { pairs: &common.pairs, weights: &weights }, normal, 0.0);
 }
 
+/// Points of both bodies.
+struct Combination<'a> {
+    pairs: &'a [VertexPair],
+    weights: &'a [f64; 4],
+}
+
+/// Of the points the features are said; seen along the normal they are as far as `within` inside the bodies.
 fn fill_points(
     answer: &mut DepthAnswer,
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
-    pairs: &[VertexPair],
-    weights: &[f64; 4],
+    combination: Combination,
     normal: &Vector,
+    within: f64,
 ) {
+    let Combination { pairs, weights } = combination;
     let points = combinations(polyhedra, pairs, weights);
-    let features = contact::features_of_pairs(polyhedra, poses, pairs, &points, normal);
+    let features = contact::features_of_pairs(polyhedra, poses, pairs, &points, normal, within);
     let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
     [answer.local1, answer.local2] = local;
     [answer.world1, answer.world2] = world;
@@ -280,8 +303,7 @@ impl Kernel for Proof<'_> {
         if !frame.in_range {
             return Vec::new();
         }
-        let mut storage = Storage::<255, 508>::empty();
-        let mut shell = storage.shell();
+        let mut shell = Shell::<255, 508>::empty();
         match self.from {
             ProofFrom::Cache(cache) => {
                 cache.unpack(&frame, &mut shell);

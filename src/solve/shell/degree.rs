@@ -11,13 +11,13 @@ use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 /// All planes of the shell are known to be at a positive distance. If all determinants are positive the solid angles sum up to more
 /// than 0. Otherwise a ray through a certainly positive triangle does, if it certainly misses the uncertain ones.
 #[inline(always)]
-pub fn is_positive(shell: &Shell, rounding: &Rounding) -> bool {
+pub fn is_positive<const V: usize, const T: usize>(shell: &Shell<V, T>, rounding: &Rounding) -> bool {
     let certain = &shell.certain[..shell.triangle_count];
     certain.iter().fold(1, |all, certain| all & certain) == 1 || ray_proves(shell, rounding)
 }
 
 #[cold]
-fn ray_proves(shell: &Shell, rounding: &Rounding) -> bool {
+fn ray_proves<const V: usize, const T: usize>(shell: &Shell<V, T>, rounding: &Rounding) -> bool {
     let triangles = 0..shell.triangle_count;
     let certain = triangles.clone().filter(|&t| shell.certain[t] == 1);
     // A large one that is far away.

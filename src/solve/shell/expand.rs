@@ -90,9 +90,14 @@ pub struct Expansion {
     pub supports: u32,
 }
 
-/// The search in a shell that is closed, with its positions computed, or empty.
+/// The search in a shell that is closed, or is not but is [as told](Shell::is_closed), with its positions computed; or empty.
 #[inline(always)]
-pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, wanted: &Wanted) -> Expansion {
+pub fn expand<L: Lanes, const V: usize, const T: usize>(
+    frame: &Frame<L>,
+    shell: &mut Shell<V, T>,
+    start: &Start,
+    wanted: &Wanted,
+) -> Expansion {
     let rounding = Rounding::of(frame);
     let mut search = Expander {
         frame,
@@ -109,7 +114,7 @@ pub fn expand<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, start: &Start, want
     };
     let ending = search.run(shell, start, wanted.steps.min(MOST_STEPS));
     let is_sure = ending != Ending::Separated && shell.triangle_count > 0;
-    let lower = if is_sure { nearest::<L>(shell).1 } else { 0.0 };
+    let lower = if is_sure { nearest::<L, V, T>(shell).1 } else { 0.0 };
     let lower = if lower > 0.0 && degree::is_positive(shell, &rounding) { lower } else { 0.0 };
     Expansion {
         ending,
@@ -162,7 +167,12 @@ enum Step {
 
 impl<L: Lanes> Expander<'_, L> {
     #[inline(always)]
-    fn run(&mut self, shell: &mut Shell, start: &Start, most_steps: u32) -> Ending {
+    fn run<const V: usize, const T: usize>(
+        &mut self,
+        shell: &mut Shell<V, T>,
+        start: &Start,
+        most_steps: u32,
+    ) -> Ending {
         let mut is_warm = self.takes_over(shell, start);
         self.is_as_kept = is_warm;
         if self.best.upper < 0.0 {
@@ -192,9 +202,9 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Upper bounds of differences too flat for a search: across what there is of a shell, and along the axes of the world.
     #[cold]
-    fn measure_flat(&mut self, shell: &Shell) -> Ending {
+    fn measure_flat<const V: usize, const T: usize>(&mut self, shell: &Shell<V, T>) -> Ending {
         if shell.triangle_count > 0 {
-            let (triangle, distance) = nearest::<L>(shell);
+            let (triangle, distance) = nearest::<L, V, T>(shell);
             if distance > NO_PLANE {
                 self.ask(&shell.normal(triangle), None);
             }
@@ -208,10 +218,10 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Whether the shell of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
     #[inline(always)]
-    fn takes_over(&mut self, shell: &mut Shell, start: &Start) -> bool {
+    fn takes_over<const V: usize, const T: usize>(&mut self, shell: &mut Shell<V, T>, start: &Start) -> bool {
         let count = shell.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
-        let least = evaluate::<L>(shell, &self.rounding, &self.demand.centre, 0, count);
+        let least = evaluate::<L, V, T>(shell, &self.rounding, &self.demand.centre, 0, count);
         if shell.distances[triangle] > NO_PLANE {
             let [pair, ..] = shell.pairs_of(triangle);
             self.ask(&shell.normal(triangle), Some(pair));
@@ -227,7 +237,8 @@ impl<L: Lanes> Expander<'_, L> {
         }
         let target = self.target();
         let stale = shell.distances[..count].iter().filter(|distance| **distance < target).count();
-        stale <= MOST_STALE && count <= MOST_KEPT.max(2 * self.first_triangles)
+        // Whether it is closed is asked last: for poses far from the last ones it is not needed.
+        stale <= MOST_STALE && count <= MOST_KEPT.max(2 * self.first_triangles) && shell.is_closed()
     }
 
     /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where
@@ -263,10 +274,15 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Expands until the interval is narrow enough.
     #[inline(always)]
-    fn grow(&mut self, shell: &mut Shell, most_steps: u32, is_warm: bool) -> Ending {
+    fn grow<const V: usize, const T: usize>(
+        &mut self,
+        shell: &mut Shell<V, T>,
+        most_steps: u32,
+        is_warm: bool,
+    ) -> Ending {
         let mut straightened = None;
         loop {
-            let (triangle, distance) = nearest::<L>(shell);
+            let (triangle, distance) = nearest::<L, V, T>(shell);
             if distance >= self.target() && self.best.upper < f64::INFINITY {
                 return Ending::Narrow;
             }
@@ -289,7 +305,13 @@ impl<L: Lanes> Expander<'_, L> {
     /// Expands beyond the nearest triangle; where that fails it gives it a better plane. `straightened` is the triangle that got
     /// one last.
     #[inline(always)]
-    fn step(&mut self, shell: &mut Shell, triangle: usize, is_warm: bool, straightened: &mut Option<usize>) -> Step {
+    fn step<const V: usize, const T: usize>(
+        &mut self,
+        shell: &mut Shell<V, T>,
+        triangle: usize,
+        is_warm: bool,
+        straightened: &mut Option<usize>,
+    ) -> Step {
         if shell.distances[triangle] > NO_PLANE {
             let normal = shell.normal(triangle);
             let height = |corner: &u8| normal.dot(&shell.position(*corner));
@@ -323,7 +345,12 @@ impl<L: Lanes> Expander<'_, L> {
     /// Inserts a support vertex beyond a triangle; a vertex that the shell has already by a flip, or by taking a corner of the
     /// triangle out. Flips have to raise the least distance, so that they cannot go round in circles.
     #[inline(always)]
-    fn insert(&mut self, shell: &mut Shell, triangle: usize, found: &Support) -> bool {
+    fn insert<const V: usize, const T: usize>(
+        &mut self,
+        shell: &mut Shell<V, T>,
+        triangle: usize,
+        found: &Support,
+    ) -> bool {
         let known = shell.find(found.pair);
         let Some(apex) = known.or_else(|| shell.add_vertex(found.pair, found.position)) else { return false };
         let before = shell.distances[triangle];
@@ -336,7 +363,7 @@ impl<L: Lanes> Expander<'_, L> {
         if !shell.flood(&mut region, apex, &self.rounding) {
             return false;
         }
-        if replace::<L>(shell, region, apex, &self.rounding, &self.demand) {
+        if replace::<L, V, T>(shell, region, apex, &self.rounding, &self.demand) {
             return true;
         }
         is_flip && shell.corners_of(triangle).into_iter().any(|corner| self.take_out(shell, corner))
@@ -344,7 +371,7 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Takes a vertex of few triangles out: the hole is filled by a fan from one of its neighbours, the nearest first.
     #[inline(always)]
-    fn take_out(&mut self, shell: &mut Shell, vertex: u8) -> bool {
+    fn take_out<const V: usize, const T: usize>(&mut self, shell: &mut Shell<V, T>, vertex: u8) -> bool {
         let Some(ring) = Ring::around(shell, vertex) else { return false };
         let from = shell.position(vertex);
         let mut by_distance: [(f64, u8); MOST_AROUND] = [(f64::INFINITY, 0); MOST_AROUND];
@@ -358,7 +385,7 @@ impl<L: Lanes> Expander<'_, L> {
             for &triangle in &ring.triangles[..ring.count] {
                 shell.add_to_region(&mut region, usize::from(triangle));
             }
-            replace::<L>(shell, region, *neighbour, &self.rounding, &self.demand)
+            replace::<L, V, T>(shell, region, *neighbour, &self.rounding, &self.demand)
         })
     }
 }
@@ -374,7 +401,7 @@ struct Ring {
 }
 
 impl Ring {
-    fn around(shell: &Shell, vertex: u8) -> Option<Ring> {
+    fn around<const V: usize, const T: usize>(shell: &Shell<V, T>, vertex: u8) -> Option<Ring> {
         let triangles = 0..shell.triangle_count;
         let corner =
             |t: usize| shell.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));

@@ -17,9 +17,9 @@ const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 /// Makes the first shell. Returns the point inside from which to look at it; `None` where the differences are flat as far as
 /// rounding lets one see.
 #[inline(always)]
-pub fn make<L: Lanes>(
+pub fn make<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell,
+    shell: &mut Shell<V, T>,
     rounding: &Rounding,
     direction: Option<&Vector>,
     supports: &mut u32,
@@ -39,7 +39,7 @@ pub fn make<L: Lanes>(
 }
 
 /// Adds a vertex; whether it is a new one.
-fn add(shell: &mut Shell, found: &Support) -> bool {
+fn add<const V: usize, const T: usize>(shell: &mut Shell<V, T>, found: &Support) -> bool {
     if shell.pairs[..shell.vertex_count].contains(&found.pair) {
         return false;
     }
@@ -51,9 +51,9 @@ fn add(shell: &mut Shell, found: &Support) -> bool {
 
 /// Two tips and three vertices around the line between them. No if two of them are one, or the centre is not inside.
 #[inline(always)]
-fn bipyramid<L: Lanes>(
+fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell,
+    shell: &mut Shell<V, T>,
     rounding: &Rounding,
     centre: &Vector,
     tip: &Vector,
@@ -83,14 +83,14 @@ fn bipyramid<L: Lanes>(
     }
     shell.triangle_count = 6;
     shell.count_uses();
-    evaluate::<L>(shell, rounding, centre, 0, 6).height > rounding.plane
+    evaluate::<L, V, T>(shell, rounding, centre, 0, 6).height > rounding.plane
 }
 
 /// Four differences far from each other, and their mean.
 #[inline(always)]
-fn tetrahedron<L: Lanes>(
+fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell,
+    shell: &mut Shell<V, T>,
     rounding: &Rounding,
     tip: &Vector,
     supports: &mut u32,
@@ -153,5 +153,5 @@ fn tetrahedron<L: Lanes>(
     shell.triangle_count = 4;
     shell.count_uses();
     let centre = (0..4).map(|vertex| shell.position(vertex)).sum::<Vector>() * 0.25;
-    (evaluate::<L>(shell, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
+    (evaluate::<L, V, T>(shell, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
 }

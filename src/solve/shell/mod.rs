@@ -29,7 +29,7 @@ use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 pub use expand::{Ending, Expansion, Start, Wanted, expand};
-pub use storage::{Shell, Storage, half_edge, triangle_of};
+pub use storage::{NO_TWIN, Shell, triangle_of};
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.

@@ -10,13 +10,19 @@ use crate::base::simd::Lanes;
 pub struct Least {
     /// Of [`Shell::distances`].
     pub distance: f64,
-    /// Of [`Shell::heights`].
+    /// How high the centre is below its plane, as computed.
     pub height: f64,
 }
 
 /// Computes the planes of triangles `from..to`, which are not none, as seen from the `centre`.
 #[inline(always)]
-pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vector, from: usize, to: usize) -> Least {
+pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
+    shell: &mut Shell<V, T>,
+    rounding: &Rounding,
+    centre: &Vector,
+    from: usize,
+    to: usize,
+) -> Least {
     let [plane_error, determinant_error] = [L::splat(rounding.plane), L::splat(rounding.determinant)];
     let [centre_x, centre_y, centre_z] = [L::splat(centre.x), L::splat(centre.y), L::splat(centre.z)];
     let (shortest, none, one) = (L::splat(SHORTEST_NORMAL), L::splat(NO_PLANE), L::splat(1.0));
@@ -30,9 +36,9 @@ pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vecto
             &shell.corners[(first + 2).min(last)],
             &shell.corners[(first + 3).min(last)],
         ];
-        let p: [L; 3] = components(shell.positions, &four, 0);
-        let q: [L; 3] = components(shell.positions, &four, 1);
-        let r: [L; 3] = components(shell.positions, &four, 2);
+        let p: [L; 3] = components(&shell.positions, &four, 0);
+        let q: [L; 3] = components(&shell.positions, &four, 1);
+        let r: [L; 3] = components(&shell.positions, &four, 2);
         let [ex, ey, ez] = [q[0].sub(p[0]), q[1].sub(p[1]), q[2].sub(p[2])];
         let [gx, gy, gz] = [r[0].sub(p[0]), r[1].sub(p[1]), r[2].sub(p[2])];
         let nx = ez.negated_mul_add(gy, ey.mul(gz));
@@ -57,7 +63,6 @@ pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vecto
         shell.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
         shell.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
         shell.distances[first..first + 4].copy_from_slice(&distance.to_array());
-        shell.heights[first..first + 4].copy_from_slice(&height.to_array());
         let bit = |lane: u32| (certain >> lane & 1) as u8;
         shell.certain[first..first + 4].copy_from_slice(&[bit(0), bit(1), bit(2), bit(3)]);
         first += 4;
@@ -68,7 +73,11 @@ pub fn evaluate<L: Lanes>(shell: &mut Shell, rounding: &Rounding, centre: &Vecto
 /// The coordinates of a corner of four triangles. (Mapping an array would call a closure that is compiled without the lanes'
 /// instructions.)
 #[inline(always)]
-fn components<L: Lanes>(positions: &[[f64; 4]], [a, b, c, d]: &[&[u8; 4]; 4], corner: usize) -> [L; 3] {
+fn components<L: Lanes, const V: usize>(
+    positions: &[[f64; 4]; V],
+    [a, b, c, d]: &[&[u8; 4]; 4],
+    corner: usize,
+) -> [L; 3] {
     L::components(&[
         L::load(&positions[usize::from(a[corner])]),
         L::load(&positions[usize::from(b[corner])]),
@@ -79,7 +88,7 @@ fn components<L: Lanes>(positions: &[[f64; 4]], [a, b, c, d]: &[&[u8; 4]; 4], co
 
 /// The triangle of the least distance, and that; of several the first.
 #[inline(always)]
-pub fn nearest<L: Lanes>(shell: &Shell) -> (usize, f64) {
+pub fn nearest<L: Lanes, const V: usize, const T: usize>(shell: &Shell<V, T>) -> (usize, f64) {
     let distances = &shell.distances[..shell.triangle_count];
     let mut least = L::splat(f64::INFINITY);
     let (fours, rest) = distances.as_chunks::<4>();

@@ -15,7 +15,12 @@ const GILBERT_STEPS: u32 = 12;
 /// Gives a triangle the plane whose normal is the cross product of its edges in double-double arithmetic, these from the bodies'
 /// own edges: of nearly parallel ones a rounded product is noise, and differences of vertices cancel. Whether the plane is another
 /// one.
-pub fn straighten<L: Lanes>(frame: &Frame<L>, shell: &mut Shell, rounding: &Rounding, triangle: usize) -> bool {
+pub fn straighten<L: Lanes, const V: usize, const T: usize>(
+    frame: &Frame<L>,
+    shell: &mut Shell<V, T>,
+    rounding: &Rounding,
+    triangle: usize,
+) -> bool {
     let pairs = shell.pairs_of(triangle);
     let columns =
         [0, 1].map(|i| [Vector::x(), Vector::y(), Vector::z()].map(|axis| frame.bodies[i].rotate(&axis).to_vector()));
@@ -39,7 +44,12 @@ fn rotate([x, y, z]: &[Vector; 3], p: &WideVector) -> WideVector {
 
 /// Gives a triangle the plane that proves most of its distance from the origin, of a few: along the direction of the best upper
 /// bound, towards its nearest point, towards those of its sides. Whether that is more than before.
-pub fn sharpen(shell: &mut Shell, rounding: &Rounding, triangle: usize, direction: Option<&Vector>) -> bool {
+pub fn sharpen<const V: usize, const T: usize>(
+    shell: &mut Shell<V, T>,
+    rounding: &Rounding,
+    triangle: usize,
+    direction: Option<&Vector>,
+) -> bool {
     let corners = shell.positions_of(triangle);
     let mut best = (shell.distances[triangle], None);
     let mut consider = |normal: Vector| {
@@ -79,14 +89,19 @@ fn nearest_between(from: &Vector, to: &Vector) -> Option<Vector> {
     (t > 0.0).then(|| from + along * t.min(1.0))
 }
 
-fn give_plane(shell: &mut Shell, rounding: &Rounding, triangle: usize, normal: &Vector) -> bool {
+fn give_plane<const V: usize, const T: usize>(
+    shell: &mut Shell<V, T>,
+    rounding: &Rounding,
+    triangle: usize,
+    normal: &Vector,
+) -> bool {
     let Some((normal, distance)) = plane(rounding, &shell.positions_of(triangle), normal) else { return false };
     shell.distances[triangle] = distance;
     set_normal(shell, triangle, &normal);
     true
 }
 
-fn set_normal(shell: &mut Shell, triangle: usize, normal: &Vector) {
+fn set_normal<const V: usize, const T: usize>(shell: &mut Shell<V, T>, triangle: usize, normal: &Vector) {
     for k in 0..3 {
         shell.normals[k][triangle] = normal[k];
     }

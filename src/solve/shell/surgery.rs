@@ -2,7 +2,7 @@
 
 use super::Rounding;
 use super::planes::evaluate;
-use super::storage::{HalfEdge, NO_TRIANGLE, RimEdge, Shell, half_edge, next, triangle_of};
+use super::storage::{HalfEdge, NO_PLANE, NO_TRIANGLE, RimEdge, Shell, half_edge, next, triangle_of};
 use crate::base::math::Vector;
 use crate::base::simd::{Lanes, Work};
 use std::marker::PhantomData;
@@ -28,7 +28,7 @@ const LARGEST_REGION: usize = 200;
 /// Triangles of a region beyond which it does not grow for triangles that are not as demanded.
 const LARGEST_GROWN: usize = 60;
 
-impl Shell<'_> {
+impl<const V: usize, const T: usize> Shell<V, T> {
     /// Begins a region.
     #[inline(always)]
     pub fn begin_region(&mut self) -> Region {
@@ -58,7 +58,7 @@ impl Shell<'_> {
             let triangle = usize::from(self.region[done]);
             done += 1;
             for k in 0..3 {
-                let other = triangle_of(self.twins[triangle][k]);
+                let other = triangle_of(self.twin(half_edge(triangle, k)));
                 if self.is_in_region(other) {
                     continue;
                 }
@@ -99,14 +99,14 @@ impl Shell<'_> {
                             return Rim::Grow(triangle_of(outer));
                         }
                         let new = self.triangle_count + triangles;
-                        if new >= self.triangle_room() {
+                        if new >= Self::TRIANGLE_ROOM {
                             return Rim::Refused;
                         }
                         self.corners[new] = [tail, head, apex, 0];
                         triangle = new as u16;
                         triangles += 1;
                     }
-                    if edges == self.rim.len() {
+                    if edges == T {
                         return Rim::Refused;
                     }
                     self.rim[edges] = RimEdge { tail, head, ends_loop: false, outer, triangle };
@@ -150,15 +150,17 @@ impl Shell<'_> {
     #[inline(always)]
     fn judge<L: Lanes>(&mut self, edges: usize, triangles: usize, rounding: &Rounding, demand: &Demand) -> Verdict {
         let count = self.triangle_count;
-        let least = evaluate::<L>(self, rounding, &demand.centre, count, count + triangles);
+        let least = evaluate::<L, V, T>(self, rounding, &demand.centre, count, count + triangles);
         let side = if demand.about_origin { least.distance } else { least.height };
         if side > 0.0 && least.distance + rounding.plane > demand.least {
             return Verdict::AsDemanded;
         }
         for edge in self.rim[..edges].iter().filter(|edge| edge.triangle != NO_TRIANGLE) {
             let triangle = usize::from(edge.triangle);
-            let side = if demand.about_origin { self.distances[triangle] } else { self.heights[triangle] };
-            if !(side > 0.0) {
+            let corner = self.position(self.corners[triangle][2]);
+            let height = || self.normal(triangle).dot(&(corner - demand.centre));
+            let side = if demand.about_origin { self.distances[triangle] } else { height() };
+            if self.distances[triangle] == NO_PLANE || !(side > 0.0) {
                 return Verdict::Grow(triangle_of(edge.outer));
             }
             if !(self.distances[triangle] + rounding.plane > demand.least) {
@@ -221,7 +223,6 @@ impl Shell<'_> {
         self.triangle_count = last;
         self.corners[hole] = self.corners[last];
         self.distances[hole] = self.distances[last];
-        self.heights[hole] = self.heights[last];
         self.certain[hole] = self.certain[last];
         for axis in &mut self.normals {
             axis[hole] = axis[last];
@@ -239,13 +240,19 @@ impl Shell<'_> {
 /// Puts the cone from a vertex over the region's rim in the place of the region. Unless all new triangles are as demanded nothing
 /// is changed, but for the vertex itself, and the answer is no.
 #[inline(always)]
-pub fn replace<L: Lanes>(shell: &mut Shell, region: Region, apex: u8, rounding: &Rounding, demand: &Demand) -> bool {
+pub fn replace<L: Lanes, const V: usize, const T: usize>(
+    shell: &mut Shell<V, T>,
+    region: Region,
+    apex: u8,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> bool {
     L::out_of_line(&mut Replacement { shell, region, apex, rounding, demand, lanes: PhantomData::<L> })
 }
 
 /// Out of line, since it is much and asked for in two places.
-struct Replacement<'a, 'b, L> {
-    shell: &'a mut Shell<'b>,
+struct Replacement<'a, L, const V: usize, const T: usize> {
+    shell: &'a mut Shell<V, T>,
     region: Region,
     apex: u8,
     rounding: &'a Rounding,
@@ -253,7 +260,7 @@ struct Replacement<'a, 'b, L> {
     lanes: PhantomData<L>,
 }
 
-impl<L: Lanes> Work for Replacement<'_, '_, L> {
+impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T> {
     type Output = bool;
 
     #[inline(always)]

@@ -22,7 +22,11 @@ pub struct Witness {
 
 /// Where the ray from the origin along the direction of least overlap leaves the shell, and the triangle there.
 #[inline(always)]
-pub fn witness<L: Lanes>(frame: &Frame<L>, shell: &Shell, found: &Expansion) -> (Witness, usize) {
+pub fn witness<L: Lanes, const V: usize, const T: usize>(
+    frame: &Frame<L>,
+    shell: &Shell<V, T>,
+    found: &Expansion,
+) -> (Witness, usize) {
     let rounding = Rounding::of(frame);
     let direction = &found.direction;
     let mut best = (f64::NEG_INFINITY, 0);
@@ -65,7 +69,7 @@ fn least_side([p, q, r]: &[Vector; 3], ray: &Vector) -> f64 {
 const REFINEMENTS: usize = 3;
 
 /// Where the ray meets a triangle, and by how much it misses it: p + w₁(q − p) + w₂(r − p) = s·ray.
-fn on_triangle(shell: &Shell, triangle: usize, ray: &Vector) -> (Witness, f64) {
+fn on_triangle<const V: usize, const T: usize>(shell: &Shell<V, T>, triangle: usize, ray: &Vector) -> (Witness, f64) {
     let pairs = shell.pairs_of(triangle);
     let corners @ [p, q, r] = shell.positions_of(triangle);
     let (e, g) = (q - p, r - p);

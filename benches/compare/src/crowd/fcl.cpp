@@ -35,6 +35,19 @@ bool collide(Object *a, Object *b, void *data)
     return false;
 }
 
+bool contact(Object *a, Object *b, void *data)
+{
+    Found *found = static_cast<Found *>(data);
+    fcl::CollisionRequest<double> request(1, true);
+    fcl::CollisionResult<double> result;
+    fcl::collide(a, b, request, result);
+    if (result.numContacts() > 0) {
+        ++found->pairs;
+        found->sum += result.getContact(0).penetration_depth;
+    }
+    return false;
+}
+
 bool distance(Object *a, Object *b, void *data, double &nearest)
 {
     Found *found = static_cast<Found *>(data);
@@ -47,6 +60,14 @@ bool distance(Object *a, Object *b, void *data, double &nearest)
     }
     nearest = found->tolerance;
     return false;
+}
+
+void update(Crowd *crowd)
+{
+    if (!crowd->is_set_up)
+        crowd->manager.setup();
+    crowd->is_set_up = true;
+    crowd->manager.update();
 }
 
 } // namespace
@@ -97,16 +118,28 @@ void fcl_crowd_move(Crowd *crowd, size_t body, const double *m)
 int fcl_crowd_ask(Crowd *crowd, double tolerance, size_t *pairs, double *sum)
 {
     try {
-        if (!crowd->is_set_up)
-            crowd->manager.setup();
-        crowd->is_set_up = true;
-        crowd->manager.update();
+        update(crowd);
         Found found = {tolerance, 0, 0};
         if (tolerance < 0) {
             crowd->manager.collide(&found, collide);
         } else {
             crowd->manager.distance(&found, distance);
         }
+        *pairs = found.pairs;
+        *sum = found.sum;
+        return 0;
+    } catch (...) {
+        return 1;
+    }
+}
+
+// The intersecting pairs, and the sum of their depths. Not 0 after an exception.
+int fcl_crowd_ask_contacts(Crowd *crowd, size_t *pairs, double *sum)
+{
+    try {
+        update(crowd);
+        Found found = {0, 0, 0};
+        crowd->manager.collide(&found, contact);
         *pairs = found.pairs;
         *sum = found.sum;
         return 0;

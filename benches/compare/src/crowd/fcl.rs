@@ -20,6 +20,7 @@ unsafe extern "C" {
     fn fcl_crowd_add_body(crowd: *mut FclCrowd, mesh: usize);
     fn fcl_crowd_move(crowd: *mut FclCrowd, body: usize, pose: *const f64);
     fn fcl_crowd_ask(crowd: *mut FclCrowd, tolerance: f64, pairs: *mut usize, sum: *mut f64) -> i32;
+    fn fcl_crowd_ask_contacts(crowd: *mut FclCrowd, pairs: *mut usize, sum: *mut f64) -> i32;
     fn fcl_crowd_destroy(crowd: *mut FclCrowd);
 }
 
@@ -78,7 +79,12 @@ impl Crowd for Fcl {
         let mut found = Found::default();
         let tolerance = if self.question == Question::Intersection { -1.0 } else { TOLERANCE };
         // SAFETY: two numbers to write to.
-        let status = unsafe { fcl_crowd_ask(self.crowd, tolerance, &mut found.pairs, &mut found.sum) };
+        let status = unsafe {
+            match self.question {
+                Question::Contact => fcl_crowd_ask_contacts(self.crowd, &mut found.pairs, &mut found.sum),
+                _ => fcl_crowd_ask(self.crowd, tolerance, &mut found.pairs, &mut found.sum),
+            }
+        };
         if status != 0 {
             found.sum = f64::NAN;
         }

@@ -25,6 +25,8 @@ enum Question {
     Intersection,
     /// Which are at most [`TOLERANCE`] apart, and how far.
     Distance,
+    /// How deep those are in each other that intersect; this library says their manifolds, too.
+    Contact,
 }
 
 const TOLERANCE: f64 = 0.25;
@@ -34,11 +36,12 @@ impl Question {
         match self {
             Question::Intersection => "intersection",
             Question::Distance => "distance",
+            Question::Contact => "contact",
         }
     }
 }
 
-/// What a method found in a step: pairs, and the sum of their distances.
+/// What a method found in a step: pairs, and the sum of their distances, or of their depths.
 #[derive(Debug, Clone, Copy, Default)]
 struct Found {
     pairs: usize,
@@ -66,7 +69,7 @@ pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
         let steps = (options.count * 1_000 / count.max(1)).clamp(2 * BLOCK, options.count.max(2 * BLOCK));
         for (word, bodies) in [("fat 102", Bodies::Alike("fat")), ("mixed 8-1002", Bodies::Mixed)] {
             for motion in MOTIONS {
-                for question in [Question::Intersection, Question::Distance] {
+                for question in [Question::Intersection, Question::Distance, Question::Contact] {
                     let mut world = World::new(bodies, motion, count)?;
                     let mut methods = methods(&world, question, options)?;
                     let scene = format!("{word},{count},{},{}", motion.name(), question.name());
@@ -95,7 +98,7 @@ fn methods(world: &World, question: Question, options: &Options) -> Result<Vec<B
         Box::new(parry::Parry::new(world, question, parry::Upkeep::Rebuild)),
     ];
     // Where more bodies jump it sorts for minutes.
-    if world.mesh_of.len() <= 10_000 {
+    if world.mesh_of.len() <= 10_000 && question != Question::Contact {
         all.push(Box::new(sweep::Sweep::new(world, question)?));
     }
     #[cfg(fcl)]

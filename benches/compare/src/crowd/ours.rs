@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ContactDetail, PairResult, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use super::world::{Step, World};
@@ -43,11 +43,22 @@ impl Crowd for Ours {
             self.scene.set_pose(*id, pose).expect("a rigid pose");
         }
         let query = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
-        let answer = match self.question {
-            Question::Intersection => self.scene.query_intersection(&query),
-            Question::Distance => self.scene.query_exact_distance(&query),
-        };
-        let pairs = answer.expect("a sound query").pairs;
-        Found { pairs: pairs.len(), sum: pairs.iter().map(|pair| pair.answer.distance).sum() }
+        let distances = |pairs: &[PairResult]| pairs.iter().map(|pair| pair.answer.distance).sum();
+        match self.question {
+            Question::Intersection => {
+                let pairs = self.scene.query_intersection(&query).expect("a sound query").pairs;
+                Found { pairs: pairs.len(), sum: distances(pairs) }
+            }
+            Question::Distance => {
+                let pairs = self.scene.query_exact_distance(&query).expect("a sound query").pairs;
+                Found { pairs: pairs.len(), sum: distances(pairs) }
+            }
+            Question::Contact => {
+                let query =
+                    SceneQuery { detail: ContactDetail::Manifold, distance_tolerance: 0.0, ..SceneQuery::default() };
+                let contacts = self.scene.query_contacts(&query).expect("a sound query").contacts.contacts;
+                Found { pairs: contacts.len(), sum: contacts.iter().map(|contact| contact.depth.depth).sum() }
+            }
+        }
     }
 }

@@ -9,6 +9,7 @@ use parry3d_f64::math::Pose;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhWorkspace};
 use parry3d_f64::query::details::{
     closest_points_support_map_support_map_with_params as closest_points,
+    contact_support_map_support_map_with_params as contact,
     intersection_test_support_map_support_map_with_params as intersection_test,
 };
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
@@ -61,7 +62,7 @@ impl Parry {
         let rings = &self.rings[self.ring_of[i as usize] as usize];
         let tight = point_cloud_aabb_ref(&self.poses[i as usize], rings.vertices());
         match self.question {
-            Question::Intersection => tight,
+            Question::Intersection | Question::Contact => tight,
             Question::Distance => tight.loosened(0.5 * TOLERANCE),
         }
     }
@@ -119,8 +120,15 @@ impl Crowd for Parry {
                     GJKResult::ClosestPoints(point1, point2, _) => Some((point1 - point2).length()),
                     GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
                 },
+                Question::Contact => match contact(&pose12, &first.1, &second.1, 0.0, simplex, None) {
+                    GJKResult::ClosestPoints(point1, point2, normal) => {
+                        Some((point1 - point2).dot(normal)).filter(|depth| *depth >= 0.0)
+                    }
+                    _ => None,
+                },
             };
-            if let Some(distance) = distance.filter(|distance| *distance <= TOLERANCE) {
+            if let Some(distance) = distance.filter(|distance| question == Question::Contact || *distance <= TOLERANCE)
+            {
                 found.pairs += 1;
                 found.sum += distance;
             }

@@ -155,11 +155,11 @@ impl Crowd for Sweep {
                 [a, b].map(|i| self.shapes[self.shape_of[i as usize] as usize].at(&self.poses[i as usize]));
             let ask = match self.question {
                 Question::Intersection => pair::intersection,
-                Question::Distance => pair::distance,
+                Question::Distance | Question::Contact => pair::distance,
             };
             ask([first, second], cache, &config, &mut answer).expect("rigid poses");
             let is_listed = match self.question {
-                Question::Intersection => answer.outcome == Outcome::Intersecting,
+                Question::Intersection | Question::Contact => answer.outcome == Outcome::Intersecting,
                 Question::Distance => answer.outcome != Outcome::Beyond,
             };
             if is_listed {

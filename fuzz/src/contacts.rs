@@ -1,0 +1,168 @@
+//! What holds of depths and manifolds, whatever their caches hold.
+
+use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use swiftprox::base::simd::environment::Environment;
+use swiftprox::error::Error;
+use swiftprox::math::Vector;
+use swiftprox::pair::{
+    DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
+    Placed, depth, manifold,
+};
+use swiftprox::verify::verify_depth;
+use testkit::random::Random;
+
+use crate::geometry::inside;
+
+/// A manifold of bodies of a few thousand vertices may have more; then the first are looked at.
+const MOST_POINTS: usize = 256;
+
+/// What two bodies remember of their contact.
+#[derive(Default)]
+pub struct Memory {
+    depth: DepthCache,
+    manifold: ManifoldCache,
+}
+
+/// Checks depths and manifolds of two bodies whose exact answer is `known`. Numbers are `measured` in doubles where the bodies leave
+/// room for that.
+pub fn check(
+    u: &mut Unstructured,
+    bodies: [Placed; 2],
+    known: &PairAnswer,
+    measured: bool,
+    environment: Environment,
+    memory: &mut Memory,
+) -> Result<()> {
+    if u.ratio(1, 3)? {
+        let mut random = Random::new(u.arbitrary::<u32>()?.into());
+        memory.depth = damaged(&memory.depth, &mut random);
+        memory.manifold = damaged(&memory.manifold, &mut random);
+    }
+    check_depth(bodies, known, environment, &mut memory.depth);
+    let reduces = u.arbitrary()?;
+    let margin = if u.arbitrary()? { 0.0 } else { known.distance.abs() * *u.choose(&[0.5, 1.0, 2.0])? };
+    if margin.is_finite() {
+        let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
+        check_manifold(bodies, known, measured, environment, &config, &mut memory.manifold);
+    }
+    Ok(())
+}
+
+fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment, cache: &mut DepthCache) {
+    let ask = |mut cache: DepthCache| {
+        let mut answer = DepthAnswer::default();
+        depth(bodies, &mut cache, &DepthConfig::default(), &mut answer).expect("accepted poses");
+        (answer, cache)
+    };
+    let before = *cache;
+    let (answer, after) = ask(before);
+    let told = inside(environment, || ask(before));
+    assert_eq!(format!("{told:?}"), format!("{:?}", (answer, after)), "{environment:?}");
+    let (cold, _) = ask(DepthCache::default());
+    for answer in [&answer, &cold] {
+        assert_eq!(answer.outcome, known.outcome, "{answer:?}\n{known:?}");
+        assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{answer:?}");
+        for proof in [&after, &DepthCache::default()] {
+            match verify_depth(bodies, proof, answer) {
+                // What is too large or too far apart.
+                Ok(()) | Err(Error::Argument(_)) => {}
+                Err(error) => panic!("{error}: {answer:?} {}", description(bodies)),
+            }
+        }
+    }
+    assert!(answer.lower <= cold.upper && cold.lower <= answer.upper, "{answer:?}\n{cold:?}");
+    *cache = after;
+}
+
+fn check_manifold(
+    bodies: [Placed; 2],
+    known: &PairAnswer,
+    measured: bool,
+    environment: Environment,
+    config: &ManifoldConfig,
+    cache: &mut ManifoldCache,
+) {
+    let ask = |mut cache: ManifoldCache| {
+        let mut points = vec![ManifoldPoint::default(); MOST_POINTS];
+        let found = manifold(bodies, &mut cache, config, &mut points).expect("accepted poses");
+        points.truncate(found.point_count as usize);
+        (found, points, cache)
+    };
+    let before = *cache;
+    let (found, points, after) = ask(before);
+    let told = inside(environment, || ask(before));
+    assert_eq!(format!("{told:?}"), format!("{:?}", (found, &points, after)), "{environment:?}");
+    *cache = after;
+    if found.outcome == Outcome::Beyond {
+        assert!(points.is_empty() && known.upper > config.margin, "{found:?} {known:?}");
+        return;
+    }
+    assert_eq!(found.outcome, known.outcome, "{found:?}\n{known:?}");
+    assert!(found.lower <= found.upper && found.found_count >= found.point_count, "{found:?}");
+    assert!(!points.is_empty() && (!config.reduces || points.len() <= 4), "{found:?}");
+    for point in &points {
+        assert!(point.gap_lower <= point.gap_upper && point.gap_lower <= config.margin, "{point:?} {found:?}");
+    }
+    // Asked again and again, with what is remembered since: where nothing else is said, the points keep their ids. The first time
+    // damage may have chosen between faces that are as parallel.
+    let (second, points2, after) = ask(after);
+    let (third, points3, _) = ask(after);
+    if (third.normal, third.reference) == (second.normal, second.reference) {
+        assert_eq!(ids(&points3), ids(&points2), "{second:?} {third:?}");
+    }
+    if measured {
+        measure(bodies, &found, &points);
+    }
+}
+
+/// The vertices and poses of bodies.
+fn description(bodies: [Placed; 2]) -> String {
+    let of = |body: Placed| {
+        let polyhedron = body.shape.polyhedron();
+        let vertices: Vec<_> = (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v)).collect();
+        format!("{vertices:?} at {:?}", body.pose)
+    };
+    bodies.map(of).join(" and ")
+}
+
+fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
+    let mut ids: Vec<u64> = points.iter().map(|point| point.id).collect();
+    ids.sort_unstable();
+    ids
+}
+
+/// Gaps are those between the points, along the normal, as far as rounding and the intervals go.
+fn measure(bodies: [Placed; 2], found: &Manifold, points: &[ManifoldPoint]) {
+    let normal = Vector::from(found.normal);
+    assert!((normal.norm() - 1.0).abs() < 1e-14, "{found:?}");
+    let size: f64 = bodies.iter().map(|body| body.shape.polyhedron().radius).sum();
+    let world = bodies.iter().map(|body| {
+        let polyhedron = body.shape.polyhedron();
+        polyhedron.centre.norm() + body.pose.translation().norm()
+    });
+    let rounding = 1e-13 * (size + world.sum::<f64>());
+    for point in points {
+        let apart = Vector::from(point.world1) - Vector::from(point.world2);
+        let gap = normal.dot(&apart);
+        let holds = point.gap_lower - rounding <= gap && gap <= point.gap_upper + rounding;
+        assert!(holds, "{gap:e} {rounding:e} {point:?} {found:?}");
+        let off = (apart - normal * gap).norm();
+        assert!(
+            off <= 1e4 * rounding + (point.gap_upper - point.gap_lower),
+            "{off:e} {rounding:e} {point:?} {found:?}"
+        );
+    }
+}
+
+/// Some of the bytes of a cache are others.
+fn damaged<T: Copy>(cache: &T, random: &mut Random) -> T {
+    let mut damaged = *cache;
+    let most = 1 << random.below(10);
+    for _ in 0..random.below(most) {
+        let (at, byte) = (random.below(size_of::<T>()), random.below(256) as u8);
+        let byte = if random.below(2) == 0 { byte } else { byte % 8 };
+        // SAFETY: within the value; caches are of integers alone, without padding, so that any bytes are valid.
+        unsafe { (&raw mut damaged).cast::<u8>().add(at).write(byte) };
+    }
+    damaged
+}
