@@ -18,8 +18,8 @@ const MOST_POINTS: usize = 8;
 /// What records of each kind hold: n a number, N a list of them, p a pose, P a list of those, f a flag, u 64 bits, r a real, D a list
 /// of pairs, F one of pairs with flags, q a query and what it is about, S a shape.
 const LAYOUTS: [&str; 24] = [
-    "", "rf", "S", "Npfunn", "n", "n", "nf", "nnn", "nu", "np", "NP", "P", "nnp", "nnf", "nf", "f", "f", "", "fD", "", "q",
-    "F", "ffuurru", "",
+    "", "rf", "S", "Npfunn", "n", "n", "nf", "nnn", "nu", "np", "NP", "P", "nnp", "nnf", "nf", "f", "f", "", "fD", "",
+    "q", "F", "ffuurru", "",
 ];
 
 fuzz_target!(|bytes: &[u8]| {
@@ -28,7 +28,12 @@ fuzz_target!(|bytes: &[u8]| {
     if let Err(error) = play(file) {
         let is_refusal = matches!(
             error,
-            Error::File(_) | Error::Argument(_) | Error::Handle(_) | Error::Pose(_) | Error::Memory(_) | Error::Limit(_)
+            Error::File(_)
+                | Error::Argument(_)
+                | Error::Handle(_)
+                | Error::Pose(_)
+                | Error::Memory(_)
+                | Error::Limit(_)
         );
         assert!(is_refusal, "{error:?}");
     }
