@@ -42,6 +42,7 @@ METHODS = {
 }
 CROWDS = {
     "swiftprox": Style("swiftprox", charts.BLUE),
+    "swiftprox-2": Style("swiftprox, two threads", charts.SKY, DASHED, "D"),
     "parry": Style("parry3d-f64, refitted", charts.RED, marker="s"),
     "parry-rebuilt": Style("parry3d-f64, rebuilt", charts.ORANGE, DASHED, "v"),
     "fcl": Style("FCL, dynamic tree", charts.FOREST, marker="P"),
@@ -280,8 +281,8 @@ def crowds(machine, bodies, rows):
         worst = [Curve(method, [(n, mean), (n, most)], Kind.LINE) for n, (mean, most) in here.items()]
         return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
 
-    names = {"all": "all move a little", "5%": "one in 20 moves", "rest": "a pile at rest", "teleport": "all jump anywhere"}
-    asked = {"intersection": "intersection", "distance": "distance within 0.25", "contact": "depth and manifold"}
+    names = {"all": "all move a little", "5%": "5 % move", "rest": "a pile at rest", "teleport": "all jump"}
+    asked = {"intersection": "intersecting", "distance": "within 0.25", "contact": "depth, manifold"}
 
     def row(question):
         values = [t for key, times in found.items() if key[0] == question for t in times]
@@ -291,7 +292,7 @@ def crowds(machine, bodies, rows):
 
     return Panels(f"Scenes of many bodies ({bodies} vertices): time a step, poses set and query answered", machine, x, legend,
                   [row(question) for question in questions],
-                  "Points: means over the steps. Lines up from them: to the worst step. One thread.")
+                  "Points: means over the steps. Lines up from them: to the worst step. One thread but where two are said.")
 
 
 def made_of(path):

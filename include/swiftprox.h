@@ -315,6 +315,27 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
                                                   const struct swiftprox_shape **shape);
 
 /**
+ * Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
+ * swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
+ * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
+ * takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
+ * is handed to it.
+ *
+ * A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
+ * scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
+ * mirrored is made from other vertices. On failure `*shape` is null.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *source,
+                                               double scale,
+                                               swiftprox_progress_callback progress,
+                                               void *progress_user,
+                                               const struct swiftprox_shape **shape);
+
+/**
  * Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
  * from any thread. Of null it returns null.
  */
@@ -352,10 +373,17 @@ typedef struct swiftprox_shape_info {
   double upper_corner[3];
   /** Memory that the shape holds, in bytes, levels included, however many share it. */
   size_t bytes;
+  /**
+   * Inertia tensor of a body of mass 1 and of uniform density about the centre of mass, in the axes of the local frame:
+   * row-major, symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body.
+   * Of a body without interior the mass is spread over its area or length.
+   */
+  double inertia[9];
 } swiftprox_shape_info;
 
 /**
  * Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
+ * The inertia takes time in proportion to the triangles.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
  */
@@ -999,12 +1027,15 @@ typedef struct swiftprox_scene_options {
   double rotation_limit;
   /**
    * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
-   * those without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+   * those without a tolerance over many objects and those over few pairs stay in the caller's thread. More than 256 count as
+   * 256. Default: 0, which means 1.
    */
   uint32_t worker_count;
   /**
-   * Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads
-   * for each query that is worth it.
+   * Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
+   * own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
+   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+   * thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
    */
   swiftprox_enqueue_task_callback enqueue_task;
   /** Waits for what enqueue_task has shared out. Default: null. */

@@ -676,7 +676,8 @@ fn what_a_failed_call_does_not_say_is_nan() {
         assert_eq!(swiftprox_shape_get_info(null(), shape_info.as_mut_ptr()), StatusCode::ErrorNullPointer);
         let info = shape_info.assume_init();
         let vectors = [info.centre_of_mass, info.lower_corner, info.upper_corner];
-        assert!(vectors.iter().flatten().chain(&[info.volume, info.radius]).all(|x| x.is_nan()), "{info:?}");
+        let mut numbers = vectors.into_iter().flatten().chain(info.inertia).chain([info.volume, info.radius]);
+        assert!(numbers.all(|x| x.is_nan()), "{info:?}");
 
         for (of, level) in [(null(), 0), (shape, 1), (shape, usize::MAX)] {
             level_info.as_mut_ptr().write_bytes(0, 1);

@@ -17,7 +17,7 @@ use swiftprox::mesh_io::{parse_mesh, read_mesh};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{ContactDetail, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ContactDetail, PairResult, Scene, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
 use testkit::random::Random;
@@ -444,6 +444,49 @@ fn scenes() {
         }
     }
     assert!(refusals.iter().all(|count| *count > 1), "{refusals:?}");
+}
+
+/// A query that is shared out, every part in this thread: whatever block is refused, it says so, and the next one says what a scene
+/// without workers says.
+#[test]
+fn shared_queries() {
+    const SIDE: usize = 8;
+    let shape = Arc::new(testkit::shapes::cuboid([0.5; 3]));
+    let lattice = |workers: Option<Workers>| {
+        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        scene.set_workers(workers);
+        for k in 0..SIDE * SIDE * SIDE {
+            let [x, y, z] = [k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE)].map(|i| 1.1 * i as f64);
+            let pose = Pose::new(&Matrix::identity(), &Vector::new(x, y, z));
+            let options = ObjectOptions { pose, user_data: k as u64, ..ObjectOptions::default() };
+            scene.add_object(vec![shape.clone()], &options).unwrap();
+        }
+        scene
+    };
+    let in_turn = |parts: usize, work: &(dyn Fn(usize) + Sync)| (0..parts).for_each(work);
+    let query = SceneQuery { distance_tolerance: 0.15, ..SceneQuery::default() };
+    let listed = |scene: &mut Scene| {
+        let said = scene.query_exact_distance(&query).unwrap();
+        let of = |pair: &PairResult| (pair.user_data1, pair.user_data2, pair.answer.distance.to_bits());
+        said.pairs.iter().map(of).collect::<Vec<_>>()
+    };
+    let expected = listed(&mut lattice(None));
+    assert!(expected.len() > 2_048, "it is worth sharing");
+    let mut refusals = 0;
+    for number in numbers() {
+        // Memory that the scene keeps it need not ask for again.
+        let mut scene = lattice(Some(Workers::new(3, in_turn)));
+        let (said, came_to_that) =
+            without(number, false, || scene.query_exact_distance(&query).map(|said| said.pairs.len()));
+        assert_eq!(listed(&mut scene), expected, "after block {number} was refused");
+        if !came_to_that {
+            assert_eq!(said, Ok(expected.len()));
+            break;
+        }
+        refusals += 1;
+        assert!(matches!(said, Err(Error::Memory(_))), "block {number}: {said:?}");
+    }
+    assert!(refusals > 20, "{refusals}");
 }
 
 /// Depths, their memory and the points of manifolds: each block is refused once, and the next query says all of it.

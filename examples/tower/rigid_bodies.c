@@ -118,43 +118,6 @@ static void invert(const double m[9], double inverse[9])
     }
 }
 
-/* The inertia of density 1 about the origin, where the centre of mass is: tetrahedra from there to each triangle. */
-static void inertia_of(const swiftprox_shape *shape, const swiftprox_shape_info *info, double inertia[9])
-{
-    double *const vertices = malloc(3 * info->vertex_count * sizeof(double));
-    uint32_t *const triangles = malloc(3 * info->triangle_count * sizeof(uint32_t));
-    if (!vertices || !triangles) {
-        fputs("no memory for a body\n", stderr);
-        exit(EXIT_FAILURE);
-    }
-    demand(swiftprox_shape_copy_vertices(shape, vertices, NULL, info->vertex_count));
-    demand(swiftprox_shape_copy_triangles(shape, triangles, info->triangle_count));
-    double second[9] = {0}; /* integrals of x_i·x_j */
-    for (size_t t = 0; t < info->triangle_count; t++) {
-        const double *const corners[3] = {&vertices[3 * triangles[3 * t]], &vertices[3 * triangles[3 * t + 1]],
-                                          &vertices[3 * triangles[3 * t + 2]]};
-        double normal[3];
-        cross(corners[1], corners[2], normal);
-        const double sixfold = dot(corners[0], normal);
-        for (int ij = 0; ij < 9; ij++) {
-            const int i = ij / 3, j = ij % 3;
-            double sums[2] = {0, 0}, products = 0;
-            for (int c = 0; c < 3; c++) {
-                sums[0] += corners[c][i];
-                sums[1] += corners[c][j];
-                products += corners[c][i] * corners[c][j];
-            }
-            second[ij] += sixfold / 120 * (sums[0] * sums[1] + products);
-        }
-    }
-    const double trace = second[0] + second[4] + second[8];
-    for (int ij = 0; ij < 9; ij++) {
-        inertia[ij] = (ij % 4 == 0 ? trace : 0) - second[ij];
-    }
-    free(vertices);
-    free(triangles);
-}
-
 void world_add(struct world *world, const swiftprox_shape *shape, const double place[3], bool fixed)
 {
     swiftprox_shape_info info;
@@ -170,8 +133,11 @@ void world_add(struct world *world, const swiftprox_shape *shape, const double p
     place_body(body);
     if (!fixed) {
         body->inverse_mass = 1 / info.volume;
+        /* Of density 1: the volume is the mass. */
         double inertia[9];
-        inertia_of(shape, &info, inertia);
+        for (int i = 0; i < 9; i++) {
+            inertia[i] = info.volume * info.inertia[i];
+        }
         invert(inertia, body->inverse_inertia);
     }
     swiftprox_object_options options;

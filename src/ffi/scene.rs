@@ -102,10 +102,13 @@ pub struct CSceneOptions {
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
-    /// those without a tolerance over many objects and those over few pairs stay in the caller's thread. Default: 0, which means 1.
+    /// those without a tolerance over many objects and those over few pairs stay in the caller's thread. More than 256 count as
+    /// 256. Default: 0, which means 1.
     pub worker_count: u32,
-    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the library starts threads
-    /// for each query that is worth it.
+    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
+    /// own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
+    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+    /// thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
     pub enqueue_task: EnqueueTaskCallback,
     /// Waits for what enqueue_task has shared out. Default: null.
     pub finish_task: FinishTaskCallback,

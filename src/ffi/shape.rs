@@ -37,6 +37,10 @@ pub struct ShapeInfo {
     pub upper_corner: [f64; 3],
     /// Memory that the shape holds, in bytes, levels included, however many share it.
     pub bytes: usize,
+    /// Inertia tensor of a body of mass 1 and of uniform density about the centre of mass, in the axes of the local frame:
+    /// row-major, symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body.
+    /// Of a body without interior the mass is spread over its area or length.
+    pub inertia: [f64; 9],
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -59,6 +63,7 @@ impl ShapeInfo {
         lower_corner: [f64::NAN; 3],
         upper_corner: [f64::NAN; 3],
         bytes: 0,
+        inertia: [f64::NAN; 9],
     };
 }
 
@@ -144,6 +149,33 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_file(
         let making = read_options(options)?;
         let path = read_path(path)?;
         Ok(making.run(|options, progress| Shape::from_file_in_steps(path, options, progress))?)
+    })
+}
+
+/// Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
+/// swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
+/// are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
+/// takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
+/// is handed to it.
+///
+/// A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
+/// scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
+/// mirrored is made from other vertices. On failure `*shape` is null.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
+/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_scaled(
+    source: *const Shape,
+    scale: f64,
+    progress: ProgressCallback,
+    progress_user: *mut c_void,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let source = input(source, "source")?;
+        Ok(in_steps(progress, progress_user, |progress| source.scaled(scale, progress))?)
     })
 }
 
@@ -237,6 +269,7 @@ pub unsafe extern "C" fn swiftprox_shape_prepare(
 }
 
 /// Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
+/// The inertia takes time in proportion to the triangles.
 ///
 /// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
 #[unsafe(no_mangle)]
@@ -246,7 +279,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
         unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
         let shape = unsafe { input(shape, "shape") }?;
-        let polyhedron = shape.polyhedron();
+        let (polyhedron, inertia) = (shape.polyhedron(), shape.inertia());
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),
             dimension: i32::from(polyhedron.dimension),
@@ -260,6 +293,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
             lower_corner: polyhedron.mass.lower.into(),
             upper_corner: polyhedron.mass.upper.into(),
             bytes: shape.bytes(),
+            inertia: std::array::from_fn(|k| inertia[(k / 3, k % 3)]),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }

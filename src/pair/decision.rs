@@ -7,7 +7,7 @@ use super::query::{Attempt, PairQuery, Query, Rungs, set_interval};
 use super::start::policy;
 use super::{DecidedBy, Outcome, Start, Statistics};
 use crate::base::math::ROTATION_LIMIT;
-use crate::base::simd::{self, Portable};
+use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::solve::decide::{self, Decision, Pairs, Wanted};
 use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
@@ -34,7 +34,7 @@ impl PairQuery<'_> {
                 return None;
             }
             Attempt::Open(open) => (open.at, open.steps),
-            Attempt::Untried => (State::vertex_vertex([0, 0]), 0),
+            Attempt::Untried | Attempt::NotEnclosed => (State::vertex_vertex([0, 0]), 0),
         };
         Some(Hint { pairs: Pairs::new(&[at.vertices(self.polyhedra())]), steps })
     }
@@ -60,14 +60,32 @@ impl PairQuery<'_> {
         accepted
     }
 
+    /// Whether the vertex pairs of the last intersection may hold the origin, be they any that the bodies have or not.
+    #[inline(always)]
+    pub(super) fn holds_enclosure(&self) -> bool {
+        self.cache.holds_enclosure()
+    }
+
+    /// Whether the tetrahedron of the last query still encloses the origin, of bodies that are [simple](PairQuery::is_simple).
+    #[inline(always)]
+    pub(super) fn look_at_last_enclosure(&mut self) -> Attempt {
+        simd::dispatch_to_avx2(&mut LastEnclosure { pair: self })
+    }
+
     /// Whether the tetrahedron of the last query, or what else the hint holds, encloses the origin: that is a proof.
     pub(super) fn is_enclosed(&mut self, frame: &Frame<Portable>, hint: &Hint) -> bool {
         let Some(weights) = encloses_origin(frame, hint.pairs.as_slice()) else { return false };
+        self.fill_enclosed(frame, hint, weights);
+        true
+    }
+
+    /// Answer and cache from a hint that holds the origin.
+    #[inline(always)]
+    fn fill_enclosed<L: Lanes>(&mut self, frame: &Frame<L>, hint: &Hint, weights: [f64; 4]) {
         self.answer.statistics = Statistics { marching_steps: hint.steps, ..Statistics::default() };
         self.answer.decided_by = DecidedBy::Coherence;
         self.fill(&Decision::Intersecting { pairs: hint.pairs, weights });
         frame.mark(&mut self.cache.marker);
-        true
     }
 
     /// Whether the bodies intersected the last time and have jumped so that they are for marching.
@@ -153,5 +171,27 @@ impl PairQuery<'_> {
                 }
             }
         }
+    }
+}
+
+/// The common case of bodies that intersect: what proved it the last time still does.
+struct LastEnclosure<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for LastEnclosure<'_, '_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let polyhedra = self.pair.polyhedra();
+        let Some(pairs) = self.pair.cache.enclosure(polyhedra) else { return Attempt::Untried };
+        let frame = Frame::<L>::of_rigid(polyhedra, self.pair.poses());
+        if !frame.in_range {
+            return Attempt::Untried;
+        }
+        let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return Attempt::NotEnclosed };
+        self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights);
+        Attempt::Answered
     }
 }

@@ -49,7 +49,9 @@ fn climb_bodies(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
         if rungs.last_axis && pair.last_axis_separates() {
             return Ok(());
         }
-        if rungs.marching {
+        if rungs.last_enclosure && pair.holds_enclosure() {
+            attempt = pair.look_at_last_enclosure();
+        } else if rungs.marching {
             attempt = pair.march_from_last_features();
         }
     }
@@ -67,8 +69,9 @@ fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<
     if rungs.marching && matches!(attempt, Attempt::Untried) && enclosure.is_none() {
         attempt = pair.march(None);
     }
+    let is_known_open = matches!(attempt, Attempt::NotEnclosed);
     let mut hint = match (attempt, enclosure) {
-        (Attempt::Untried, Some(pairs)) => Hint { pairs, steps: 0 },
+        (Attempt::Untried | Attempt::NotEnclosed, Some(pairs)) => Hint { pairs, steps: 0 },
         (attempt, _) => match pair.look_closer(attempt, rungs) {
             None => return Ok(()),
             Some(hint) => hint,
@@ -81,7 +84,7 @@ fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<
         pair.decide(None, &hint, rungs.fallback);
         return Ok(());
     }
-    if rungs.last_enclosure && pair.is_enclosed(&frame, &hint) {
+    if rungs.last_enclosure && !is_known_open && pair.is_enclosed(&frame, &hint) {
         return Ok(());
     }
     if rungs.marching && pair.may_have_come_apart(&frame) {

@@ -133,6 +133,8 @@ pub(super) enum Attempt {
     Open(Open),
     /// Nothing was tried: there are no features to begin at, or poses that are not rigid or not within range.
     Untried,
+    /// The enclosure of the last intersection no longer holds the origin.
+    NotEnclosed,
 }
 
 /// What marching left open.

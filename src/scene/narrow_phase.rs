@@ -27,7 +27,7 @@ pub(crate) const BLOCK: usize = 256;
 /// So many tests ahead the memory is asked for poses and caches: one test takes about as long as memory does.
 const TEST_AHEAD: usize = 3;
 
-/// So many looks ahead it is asked for spheres.
+/// So many looks ahead it is asked for spheres and odometers.
 const LOOK_AHEAD: usize = 16;
 
 /// The answer of balls that overlap.
@@ -215,6 +215,7 @@ impl Pass<'_> {
             for k in 0..pairs.len() {
                 if let Some(ahead) = pairs.get(k + LOOK_AHEAD) {
                     prefetch(&self.proxies.spheres[ahead.proxies[1] as usize]);
+                    prefetch(&self.proxies.motions[ahead.proxies[1] as usize]);
                 }
                 match self.look(&mut pairs[k], &mut findings.statistics) {
                     Look::Settled => pairs[k].result = UNLISTED,
@@ -223,11 +224,14 @@ impl Pass<'_> {
             }
             findings.reserve(findings.left.len())?;
             for k in 0..findings.left.len() {
-                if let Some((ahead, Look::Test)) = findings.left.get(k + TEST_AHEAD) {
+                if let Some((ahead, look)) = findings.left.get(k + TEST_AHEAD) {
                     let ahead = &pairs[*ahead];
-                    prefetch(caches.peek(ahead.cache));
-                    for proxy in ahead.proxies {
-                        prefetch(&self.proxies.poses[proxy as usize]);
+                    prefetch(&self.proxies.labels[ahead.proxies[1] as usize]);
+                    if let Look::Test = look {
+                        prefetch(caches.peek(ahead.cache));
+                        for proxy in ahead.proxies {
+                            prefetch(&self.proxies.poses[proxy as usize]);
+                        }
                     }
                 }
                 let (at, look) = findings.left[k];

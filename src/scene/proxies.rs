@@ -17,8 +17,10 @@ const RIGID: f64 = 16.0 * U;
 
 /// So many steps of motion a box leaves room for …
 const STEPS_OF_ROOM: f32 = 4.0;
-/// … but no more than this part of the radius.
+/// … but no more than this part of the radius …
 const MOST_ROOM: f32 = 0.5;
+/// … and this part of it before the first step, which would else leave the box.
+const FIRST_ROOM: f32 = 0.04;
 
 /// Below this lengths are taken for nothing: their squares may underflow.
 const TINY: f64 = 1e-150;
@@ -201,7 +203,12 @@ impl Proxies {
         let motion = &mut self.motions[proxy];
         let Spheres { centre, outer } = self.spheres[proxy];
         let most = MOST_ROOM * outer as f32;
-        let room = if motion.rate > most { 0.0 } else { (STEPS_OF_ROOM * motion.rate).min(most) };
+        let can_move = !self.labels[proxy].fixed;
+        let room = match motion.rate {
+            0.0 if can_move => FIRST_ROOM * outer as f32,
+            rate if rate > most => 0.0,
+            rate => (STEPS_OF_ROOM * rate).min(most),
+        };
         let limit = motion.odometer + f64::from(room);
         // The limit is rounded: it, not the room, says how far the piece may go. ∞ − ∞ is no room, and every move is then too far.
         let room = (limit - motion.odometer).next_up();

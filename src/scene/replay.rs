@@ -86,7 +86,7 @@ enum Recorded {
     Answer(Digest),
 }
 
-/// What the recorded filter has said.
+/// What the recorded filter has said since it was set or asked anew.
 #[derive(Debug, Default)]
 struct Decisions {
     known: HashMap<[ObjectId; 2], bool>,
@@ -304,12 +304,14 @@ impl Replay {
                 Ok(())
             }
             Record::Filter(is_set) => {
+                lock(&self.decisions).known.clear();
                 let decisions = self.decisions.clone();
                 let says = move |object1, object2| lock(&decisions).say([object1, object2]);
                 scene.set_pair_filter(is_set.then(|| PairFilter::new(says)));
                 Ok(())
             }
             Record::FilterAgain => {
+                lock(&self.decisions).known.clear();
                 scene.filter_again();
                 Ok(())
             }

@@ -2,9 +2,7 @@
 //! on its poses and its own memory alone, so results, their order and what pairs remember are bit for bit those of one thread.
 
 use std::fmt;
-use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Mutex, PoisonError};
-use std::thread::{Builder, scope};
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, push, reserve};
@@ -14,7 +12,7 @@ use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
 use crate::scene::contacts::ContactMemory;
 use crate::scene::narrow_phase::{BLOCK, Caches, Findings, Pass};
 
-/// Fewer pairs are left to one thread: starting another takes as long as some hundred tests.
+/// Fewer pairs are left to one thread: waking another takes as long as some dozen tests, and its first ones miss the memory.
 pub(crate) const FEWEST_SHARED: usize = 2048;
 
 /// So many parts for each thread, as some take longer than others.
@@ -30,11 +28,6 @@ pub struct Workers {
 type RunParts = dyn Fn(usize, &(dyn Fn(usize) + Sync)) + Send + Sync;
 
 impl Workers {
-    /// Threads of the standard library, started for each query that is worth it; the caller's is one of the `count`.
-    pub fn threads(count: usize) -> Workers {
-        Workers { count, run: Box::new(move |parts, work| run_on_threads(count, parts, work)) }
-    }
-
     /// The program's own `count` threads: `run` is to call the function that it gets once for each number below the one that it
     /// gets, in any threads, several at once, and to return when all calls have returned.
     pub fn new(count: usize, run: impl Fn(usize, &(dyn Fn(usize) + Sync)) + Send + Sync + 'static) -> Workers {
@@ -51,26 +44,6 @@ impl fmt::Debug for Workers {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(f, "Workers({})", self.count)
     }
-}
-
-fn run_on_threads(count: usize, parts: usize, work: &(dyn Fn(usize) + Sync)) {
-    let next = AtomicUsize::new(0);
-    let take_parts = || {
-        loop {
-            let part = next.fetch_add(1, Ordering::Relaxed);
-            if part >= parts {
-                break;
-            }
-            work(part);
-        }
-    };
-    scope(|threads| {
-        for _ in 1..count.min(parts) {
-            // A thread that cannot be started is done without.
-            let _ = Builder::new().spawn_scoped(threads, take_parts);
-        }
-        take_parts();
-    });
 }
 
 /// What a part found, kept from pass to pass.

@@ -71,11 +71,25 @@ pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
 /// # Errors
 /// [`Error::Memory`].
 pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
+    // Automatic levels are made anew, whether they are made here or not.
+    write(shape, 1.0, shape.hierarchy().kind != HierarchyKind::Automatic)
+}
+
+/// A shape with every length multiplied by a power of two, as if it had been saved and loaded: proved and measured anew, levels,
+/// too, those that are automatic if they are made.
+///
+/// # Errors
+/// What is wrong with what came of it; [`Error::Memory`], [`Error::Cancelled`].
+pub(super) fn scaled(shape: &Shape, power_of_two: f64, progress: &mut Progress) -> Result<Shape> {
+    read(&write(shape, power_of_two, true)?, true, progress)
+}
+
+fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     let mut writer = Writer::default();
     writer.raw(MAGIC)?;
     writer.number(VERSION)?;
     let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
-    writer.polyhedron(polyhedron)?;
+    writer.polyhedron(polyhedron, scale)?;
     let (kind, resolution, factor) = match polyhedron.lookup.plan {
         Plan::None => (LookupKind::None, 0, LookupOptions::DEFAULT.radius_factor),
         Plan::AllVertices { .. } => (LookupKind::Automatic, 0, LookupOptions::DEFAULT.radius_factor),
@@ -86,11 +100,10 @@ pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
     writer.number(resolution as u32)?;
     writer.real(factor)?;
     writer.number(hierarchy.kind as u32)?;
-    // Automatic levels are made anew, whether they are made here or not.
-    let levels = if hierarchy.kind == HierarchyKind::Automatic { &[] } else { &hierarchy.levels[..] };
+    let levels = if with_levels { &hierarchy.levels[..] } else { &[] };
     writer.number(levels.len() as u32)?;
     for level in levels {
-        writer.polyhedron(&level.polyhedron)?;
+        writer.polyhedron(&level.polyhedron, scale)?;
         writer.links(&level.children)?;
         writer.links(&level.parents)?;
     }
@@ -112,10 +125,10 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
 /// # Errors
 /// As [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
-    with_default(|| read(bytes, progress))
+    with_default(|| read(bytes, false, progress))
 }
 
-fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
+fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) -> Result<Shape> {
     /// What reading and proving the bodies takes of the time: 0.95 without levels, 0.65 with 32, and this with five.
     const SHARE_OF_BODIES: f64 = 0.8;
     progress.report(0.0)?;
@@ -147,7 +160,12 @@ fn read(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
         return damaged("an unknown kind of levels");
     };
     let count = reader.number()?;
-    if matches!(kind, HierarchyKind::Automatic | HierarchyKind::None) && count > 0 {
+    let may_have_levels = match kind {
+        HierarchyKind::None => false,
+        HierarchyKind::Automatic => admits_automatic_levels,
+        _ => true,
+    };
+    if count > 0 && !may_have_levels {
         return damaged("levels where none are saved");
     }
     let mut levels = Vec::new();
@@ -178,23 +196,32 @@ fn sound<T>(result: Result<T>) -> Result<T> {
     })
 }
 
+/// A length at another scale, exactly.
+fn at_scale(length: f64, scale: f64) -> Result<f64> {
+    let scaled = length * scale;
+    if scaled / scale == length {
+        return Ok(scaled);
+    }
+    Err(Error::Argument(format!("at scale {scale:e} the coordinate {length:e} leaves the range of doubles")))
+}
+
 impl Writer {
-    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>) -> Result<()> {
+    fn vectors(&mut self, mut list: impl ExactSizeIterator<Item = Vector>, scale: f64) -> Result<()> {
         self.number(list.len() as u32)?;
-        list.try_for_each(|v| v.iter().try_for_each(|x| self.real(*x)))
+        list.try_for_each(|v| v.iter().try_for_each(|x| self.real(at_scale(*x, scale)?)))
     }
 
     /// Centre and centred coordinates, so that a level, whose sums are not exact, comes back as it was.
-    fn polyhedron(&mut self, polyhedron: &Polyhedron) -> Result<()> {
+    fn polyhedron(&mut self, polyhedron: &Polyhedron, scale: f64) -> Result<()> {
         self.number(u32::from(polyhedron.dimension))?;
-        polyhedron.centre.iter().try_for_each(|x| self.real(*x))?;
-        self.vectors(polyhedron.vertices.iter().map(|v| v.position))?;
+        polyhedron.centre.iter().try_for_each(|x| self.real(at_scale(*x, scale)?))?;
+        self.vectors(polyhedron.vertices.iter().map(|v| v.position), scale)?;
         self.numbers(polyhedron.triangles.as_flattened())?;
         // The labels, as `Labels` has them.
         self.numbers(&polyhedron.vertex_labels)?;
         self.numbers(&polyhedron.face_labels)?;
         self.numbers(&polyhedron.face_label_starts)?;
-        self.vectors(polyhedron.polygon_corners.iter().copied())?;
+        self.vectors(polyhedron.polygon_corners.iter().copied(), scale)?;
         self.numbers(&polyhedron.polygon_starts)
     }
 

@@ -15,6 +15,7 @@ use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
 use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
 use crate::build::hull::{check_points, convex_hull_in_steps};
+use crate::build::mass::inertia;
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use crate::mesh::io::read_mesh;
 use crate::mesh::{Numbers, PolygonMesh, check_vertex};
@@ -284,12 +285,13 @@ impl Shape {
         Shape::from_parts(polyhedron, hierarchy)
     }
 
-    /// From parts that belong together; automatic levels are left to be made.
+    /// From parts that belong together; automatic levels that are not there are left to be made.
     ///
     /// # Errors
     /// [`Error::Memory`].
     pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Result<Shape> {
-        let made = if hierarchy.kind == HierarchyKind::Automatic { None } else { Some(hierarchy) };
+        let is_to_be_made = hierarchy.kind == HierarchyKind::Automatic && hierarchy.levels.is_empty();
+        let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;
         Ok(Shape { polyhedron, extent, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) })
     }
@@ -311,10 +313,39 @@ impl Shape {
         Shape::from_parts(polyhedron, hierarchy)
     }
 
+    /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are exactly
+    /// those multiplied, and labels are the same. Levels are not built anew, automatic ones are taken over if they are made. What
+    /// answers rest on is proved and measured again, as by [`file::load`]; that takes up to half as long as making the shape did.
+    ///
+    /// A shape that is turned or moved needs no copy: it is a pose, of an object or of a piece of it. At any other scale vertices
+    /// would be rounded, faces with them, and levels might no longer contain the body: such a shape is to be made anew
+    /// ([`ShapeOptions::scale`]), one that is stretched or mirrored from other vertices.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a scale that is not a positive power of two, or at which a length leaves the doubles;
+    /// [`Error::Memory`]; [`Error::Cancelled`] when the caller does not want to go on.
+    pub fn scaled(&self, scale: f64, progress: &mut Progress) -> Result<Shape> {
+        const FRACTION: u64 = (1 << 52) - 1;
+        if !(scale.is_normal() && scale > 0.0 && scale.to_bits() & FRACTION == 0) {
+            return Err(Error::Argument(format!(
+                "scale {scale:e} is no power of two, so vertices would be rounded: make the shape anew with that scale in its options"
+            )));
+        }
+        with_default(|| file::scaled(self, scale, progress))
+    }
+
     /// The polyhedron that queries run on: P₀ of the levels of detail.
     #[inline]
     pub fn polyhedron(&self) -> &Polyhedron {
         &self.polyhedron
+    }
+
+    /// The inertia tensor of a body of mass 1 and of uniform density about its centre of mass, in the axes of the local frame:
+    /// symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body. Of a shape
+    /// without interior the mass is spread over its area or length. Each entry is within 1e-13 of the largest, unless the body is
+    /// thinner than 1e-12 of its size. It takes time in proportion to the triangles.
+    pub fn inertia(&self) -> Matrix {
+        with_default(|| inertia(&self.polyhedron))
     }
 
     /// How far it reaches, wherever it is placed.

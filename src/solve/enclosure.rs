@@ -30,12 +30,7 @@ const EXCHANGE_LIMIT: u32 = 12;
 #[inline(always)]
 pub fn encloses_origin<L: Lanes>(frame: &Frame<L>, pairs: &[VertexPair]) -> Option<[f64; 4]> {
     let &[p0, p1, p2, p3] = pairs else { return None };
-    let corners = [
-        gjk::difference(frame, p0),
-        gjk::difference(frame, p1),
-        gjk::difference(frame, p2),
-        gjk::difference(frame, p3),
-    ];
+    let corners = [corner(frame, p0), corner(frame, p1), corner(frame, p2), corner(frame, p3)];
     let sides = sides_of_faces(frame, &corners);
     (sides.certain == 4).then_some(sides.weights)
 }
@@ -45,7 +40,7 @@ pub fn encloses_origin<L: Lanes>(frame: &Frame<L>, pairs: &[VertexPair]) -> Opti
 #[inline(always)]
 pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, simplex: &[VertexPair]) -> Option<Enclosure> {
     let (mut pairs, mut corners) = complete(frame, supports, simplex)?;
-    let mut sides = sides_of_faces(frame, &corners);
+    let mut sides = sides_of_faces(frame, &in_lanes(&corners));
     let mut exchanges = 0;
     while sides.certain < 4 {
         let direction = beyond_uncertain_faces(&corners, &sides);
@@ -77,6 +72,18 @@ pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, simplex: &[V
     Some(Enclosure { pairs, weights: sides.weights })
 }
 
+/// The difference of a vertex pair.
+#[inline(always)]
+fn corner<L: Lanes>(frame: &Frame<L>, [v, w]: VertexPair) -> L {
+    let [a, b] = frame.polyhedra();
+    frame.difference(&a.vertices[v as usize].position, &b.vertices[w as usize].position)
+}
+
+#[inline(always)]
+fn in_lanes<L: Lanes>([a, b, c, d]: &[Vector; 4]) -> [L; 4] {
+    [L::from_vector(a), L::from_vector(b), L::from_vector(c), L::from_vector(d)]
+}
+
 /// Puts a pair in the place of each corner; keeps in `best` the best sides and the exchange that made them.
 #[inline(always)]
 fn best_exchange<L: Lanes>(
@@ -85,9 +92,10 @@ fn best_exchange<L: Lanes>(
     pair: VertexPair,
     best: &mut (Sides, Option<(usize, VertexPair)>),
 ) {
-    let corner = gjk::difference(frame, pair);
+    let corner = L::from_vector(&gjk::difference(frame, pair));
+    let corners = in_lanes(corners);
     for k in 0..4 {
-        let mut exchanged = *corners;
+        let mut exchanged = corners;
         exchanged[k] = corner;
         let sides = sides_of_faces(frame, &exchanged);
         if sides.is_better_than(&best.0) {
@@ -116,45 +124,36 @@ impl Sides {
 
 /// The four determinants that put the origin on the inner side of the faces must have the right signs in spite of all
 /// rounding. A determinant of three columns of length at most W, each off by at most e, is off by at most
-/// 3W²e(1 + e/W)² from its exact value, and its evaluation by 8u times its permanent (Shewchuk 1997, §4.3).
+/// 3W²e(1 + e/W)² from its exact value, and its evaluation by 8u times its permanent (Shewchuk 1997, §4.3). That is at most √2·W³:
+/// two columns b and c have (|bᵢcⱼ| + |bⱼcᵢ|)² ≤ 2(bᵢ²cⱼ² + bⱼ²cᵢ²), whose sum over the three pairs of rows is at most 2|b|²|c|².
 #[inline(always)]
-fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[Vector; 4]) -> Sides {
-    let mut longest_squared = 0.0_f64;
-    for corner in corners {
-        longest_squared = longest_squared.max(corner.norm_squared());
+fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
+    let [x, y, z] = L::components(corners);
+    let mut longest_square = 0.0;
+    for square in z.mul_add(z, y.mul_add(y, x.mul(x))).to_array() {
+        longest_square = if square > longest_square { square } else { longest_square };
     }
-    let longest = longest_squared.sqrt() * (1.0 + 8.0 * U);
-    sides_within(corners, longest, frame.difference_error(longest))
-}
-
-/// [`sides_of_faces`] of corners no longer than `longest`, each off by at most `error`.
-fn sides_within(corners: &[Vector; 4], longest: f64, error: f64) -> Sides {
+    let longest = longest_square.sqrt() * (1.0 + 8.0 * U);
+    let error = frame.difference_error(longest);
     let spread = 1.0 + error / longest;
-    let columns_error = 3.0 * longest * longest * error * spread * spread * (1.0 + 16.0 * U);
-    let (mut values, mut bounds) = ([0.0; 4], [0.0; 4]);
-    for (k, [a, b, c]) in FACES.into_iter().enumerate() {
-        let (value, permanent) = determinant(&corners[a], &corners[b], &corners[c]);
-        values[k] = value;
-        bounds[k] = 8.0 * U * permanent + columns_error;
-    }
-    let volume: f64 = values.iter().sum();
-    let mut sides = Sides { weights: [0.0; 4], inside: [false; 4], certain: 0 };
-    for k in 0..4 {
-        // With the sign of the volume; false for a NaN.
-        sides.inside[k] = values[k] * volume.signum() > bounds[k];
-        sides.certain += u32::from(sides.inside[k]);
-        sides.weights[k] = if volume == 0.0 { f64::NEG_INFINITY } else { values[k] / volume };
-    }
-    sides
-}
-
-/// det(a, b, c) and the sum of the absolute values of its six products.
-fn determinant(a: &Vector, b: &Vector, c: &Vector) -> (f64, f64) {
-    let (x, y, z) = ((b.y * c.z, b.z * c.y), (b.z * c.x, b.x * c.z), (b.x * c.y, b.y * c.x));
-    let value = a.x * (x.0 - x.1) + a.y * (y.0 - y.1) + a.z * (z.0 - z.1);
-    let permanent =
-        a.x.abs() * (x.0.abs() + x.1.abs()) + a.y.abs() * (y.0.abs() + y.1.abs()) + a.z.abs() * (z.0.abs() + z.1.abs());
-    (value, permanent)
+    let bound = (12.0 * U * longest + 3.0 * error * spread * spread) * longest * longest * (1.0 + 16.0 * U);
+    // Written out: what the compiler leaves out of line, a closure say, is not compiled for these lanes.
+    let &[p, q, r, s] = corners;
+    let [ax, ay, az] = L::components(&[q, p, p, p]);
+    let [bx, by, bz] = L::components(&[s, r, s, q]);
+    let [cx, cy, cz] = L::components(&[r, s, q, r]);
+    let normal_x = by.mul(cz).sub(bz.mul(cy));
+    let normal_y = bz.mul(cx).sub(bx.mul(cz));
+    let normal_z = bx.mul(cy).sub(by.mul(cx));
+    let values = az.mul_add(normal_z, ay.mul_add(normal_y, ax.mul(normal_x)));
+    let [first, second, third, fourth] = values.to_array();
+    let volume = first + second + third + fourth;
+    // With the sign of the volume; false for a NaN.
+    let inside = values.mul(L::splat(volume.signum())).greater(L::splat(bound));
+    let weights = if volume == 0.0 { [f64::NEG_INFINITY; 4] } else { values.div(L::splat(volume)).to_array() };
+    let inside = [inside & 1 != 0, inside & 2 != 0, inside & 4 != 0, inside & 8 != 0];
+    let certain = u32::from(inside[0]) + u32::from(inside[1]) + u32::from(inside[2]) + u32::from(inside[3]);
+    Sides { weights, inside, certain }
 }
 
 /// Sum of the unit outward normals of the faces that do not certainly have the origin inside.

@@ -287,6 +287,36 @@ fn a_question_that_ends_the_program_is_the_last_record() {
     assert_eq!(play(&bytes, None).unwrap(), Played { steps: 1, asked: 1, identical: 0, cut_off: true });
 }
 
+#[test]
+fn what_another_filter_said_is_not_remembered() {
+    let (tape, mut recorded) = (Tape::default(), scene());
+    recorded.record_to(tape.clone()).unwrap();
+    let cube = cuboid([0.5; 3]);
+    let ids = [0.0, 0.5].map(|x| {
+        let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..Default::default() };
+        recorded.add_object(vec![cube.clone()], &options).unwrap()
+    });
+    let touching = SceneQuery { distance_tolerance: 0.0, ..SceneQuery::default() };
+    // The pair is liked while it is near; then it is not, and nobody is asked until it is near again.
+    recorded.set_pair_filter(Some(PairFilter::new(|_, _| true)));
+    for (x, count) in [(0.5, 1), (50.0, 0), (60.0, 0), (0.5, 0)] {
+        recorded.set_pose(ids[1], &at(x, 0.0, 0.0)).unwrap();
+        if x == 60.0 {
+            recorded.set_pair_filter(Some(PairFilter::new(|_, _| false)));
+        }
+        assert_eq!(recorded.query_exact_distance(&touching).unwrap().pairs.len(), count);
+    }
+    recorded.end_recording().unwrap();
+    let mut replay = Replay::from_reader(io::Cursor::new(tape.bytes())).unwrap();
+    let mut scene = scene();
+    while replay.read().unwrap().is_some() {
+        replay.change(&mut scene).unwrap();
+        replay.ask(&mut scene, None).unwrap().check.unwrap();
+        // Here all pairs are near.
+        scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    }
+}
+
 /// Takes so many bytes.
 struct Full(usize);
 

@@ -1,6 +1,6 @@
 //! A long life of a scene: mixed calls drawn from a seeded generator, each query compared with all pairs of the pair layer.
 //!
-//! `SWIFTPROX_SOAK=1000000 cargo test --release --test scene_soak` makes a million calls.
+//! `SWIFTPROX_SOAK=1000000 cargo test --release --test scene soak` makes a million calls.
 
 use std::sync::Arc;
 

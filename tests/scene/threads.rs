@@ -70,12 +70,11 @@ fn threads_share_shapes_and_a_scene() {
     assert!(all.iter().all(|distances| *distances == all[0]), "threads disturb each other");
 }
 
-/// A flight of many objects: what each query lists, every bit, and what the queries did.
-fn flight(workers: Option<Workers>) -> Vec<String> {
+/// A flight of many objects: what each query lists, every bit, and what the queries did. `workers` says who works from a step on.
+fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
     let mut random = Random::new(0x7f11);
     let shape = Arc::new(Shape::from_mesh(&ellipsoid([0.8, 0.7, 0.5], 60).unwrap(), &ShapeOptions::default()).unwrap());
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
-    scene.set_workers(workers);
     let mut poses: Vec<Pose> = (0..700).map(|_| random_pose(&mut random, 5.0)).collect();
     let add = |(k, pose): (usize, &Pose)| {
         let options = ObjectOptions { pose: *pose, user_data: k as u64, ..ObjectOptions::default() };
@@ -90,6 +89,7 @@ fn flight(workers: Option<Workers>) -> Vec<String> {
     };
     let mut seen = Vec::new();
     for step in 0..if cfg!(miri) { 1 } else { 6 } {
+        workers(step, &mut scene);
         for (pose, id) in poses.iter_mut().zip(&ids).skip(step % 2 * 300) {
             *pose = Pose::new(&pose.rotation(), &(pose.translation() + random.vector() * 0.05));
             scene.set_pose(*id, pose).unwrap();
@@ -109,7 +109,7 @@ fn flight(workers: Option<Workers>) -> Vec<String> {
 
 #[test]
 fn workers_change_no_bit() {
-    let expected = flight(None);
+    let expected = flight(|_, _| {});
     // Backwards, one part twice, one never.
     let careless = |parts: usize, work: &(dyn Fn(usize) + Sync)| {
         for part in (1..parts).rev().chain([1]) {
@@ -117,6 +117,18 @@ fn workers_change_no_bit() {
         }
     };
     for workers in [Workers::threads(2), Workers::threads(5), Workers::new(3, careless)] {
-        assert_eq!(flight(Some(workers)), expected);
+        let mut workers = Some(workers);
+        let from_the_first_step_on = |_, scene: &mut Scene| {
+            if let Some(workers) = workers.take() {
+                scene.set_workers(Some(workers));
+            }
+        };
+        assert_eq!(flight(from_the_first_step_on), expected);
     }
+    // Others in each step, and none; more than there are parts.
+    let others = |step: usize, scene: &mut Scene| {
+        let count = [2, 0, 9, 1, usize::MAX, 3][step];
+        scene.set_workers((count > 0).then(|| Workers::threads(count)));
+    };
+    assert_eq!(flight(others), expected);
 }

@@ -1,6 +1,8 @@
 //! Mesh files, shapes, saved shapes, and the bodies that tests share.
 
 mod mesh_io;
+mod scaled;
 mod shape_file;
+mod inertia;
 mod shapes;
 mod shared_scenes;

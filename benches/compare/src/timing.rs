@@ -56,6 +56,13 @@ pub fn measure(work: impl FnOnce()) -> f64 {
     thread_time() - start
 }
 
+/// Nanoseconds on the wall's clock: of work that other threads share.
+pub fn measure_on_the_wall(work: &mut dyn FnMut()) -> f64 {
+    let start = std::time::Instant::now();
+    work();
+    start.elapsed().as_nanos() as f64
+}
+
 /// The CPU time of this thread in nanoseconds.
 fn thread_time() -> f64 {
     let mut time = libc::timespec { tv_sec: 0, tv_nsec: 0 };

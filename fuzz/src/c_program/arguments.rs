@@ -86,6 +86,8 @@ pub fn options<T: Copy>(u: &mut Unstructured, value: &T, changes: &[(usize, &[u8
                 1 => size + u.int_in_range(0..=64)?,
                 _ => u.int_in_range(0..=size)?,
             };
+            // An older header has fewer members, not a part of one: a pointer cut in two would be a wild one.
+            let claimed = if claimed < size { claimed & !7 } else { claimed };
             // No more is looked at than the size of a struct that no version has.
             let block = Block::new(if claimed <= 4096 { claimed.max(8) } else { 8 });
             // SAFETY: both are as large.

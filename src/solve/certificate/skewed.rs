@@ -1,5 +1,6 @@
 //! Minima of pairs whose rotations are not orthonormal: marching measures in a body's own frame, where the transpose stands for the
-//! inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes.
+//! inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes. All is in line:
+//! so it is compiled for the vector units of whoever asks; out of line every operation on lanes would be a call.
 
 use super::{Minimum, edge_rounding, reciprocal_length};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -11,6 +12,7 @@ use crate::solve::voronoi::edge_direction;
 impl<L: Lanes> Minimum<L> {
     /// The same minimum with the points of its edges and faces that are nearest in the world. `None` where they are not nearer, as
     /// for two vertices, or leave their edges; whether they leave their faces is for the certificate.
+    #[inline(always)]
     pub(super) fn unskewed(&self, frame: &Frame<L>, state: State) -> Option<Minimum<L>> {
         match state.features() {
             [FeatureId::Edge(edge1), FeatureId::Edge(edge2)] => {
@@ -33,12 +35,14 @@ impl<L: Lanes> Minimum<L> {
     }
 
     /// R·ê of an edge of body `i`.
+    #[inline(always)]
     fn along(&self, frame: &Frame<L>, i: usize, edge: u32) -> L {
         let body = &frame.bodies[i];
         body.rotate(&edge_direction(&body.polyhedron.edges[edge as usize].planes))
     }
 
     /// The point of body `i` moved along its edge, if it stays within.
+    #[inline(always)]
     fn slid(&self, frame: &Frame<L>, i: usize, edge: u32, shift: f64) -> Option<Minimum<L>> {
         let polyhedron = frame.bodies[i].polyhedron;
         let record = &polyhedron.edges[edge as usize];
@@ -58,6 +62,7 @@ impl<L: Lanes> Minimum<L> {
     }
 
     /// The point on an edge moved to where the difference is perpendicular to it.
+    #[inline(always)]
     fn across(&self, frame: &Frame<L>, i: usize, edge: u32) -> Option<Minimum<L>> {
         let world = self.along(frame, i, edge);
         let part = |v: L| v.dot(world) / world.dot(world);
@@ -70,6 +75,7 @@ impl<L: Lanes> Minimum<L> {
 
     /// The point in a face of body `i` moved to where the difference is along the direction, which is the face's normal in the
     /// world.
+    #[inline(always)]
     fn over(&self, frame: &Frame<L>, i: usize, face: u32) -> Minimum<L> {
         let (body, other) = (&frame.bodies[i], &frame.bodies[1 - i]);
         let normal = L::from_vector(&body.polyhedron.faces[face as usize].normal);
@@ -90,6 +96,7 @@ impl<L: Lanes> Minimum<L> {
     }
 
     /// With what follows from a difference and a direction.
+    #[inline(always)]
     fn measured(&self, direction: L) -> Minimum<L> {
         let inverse = reciprocal_length(direction.dot(direction));
         let distance = self.difference.dot(self.difference).sqrt();
@@ -99,6 +106,7 @@ impl<L: Lanes> Minimum<L> {
 }
 
 /// R⁻¹·d, nearly: each round leaves that part of the rest that R is off by.
+#[inline(always)]
 fn inverse<L: Lanes>(body: &Body<L>, d: L) -> L {
     let mut found = L::from_vector(&Vector::zeros());
     for _ in 0..4 {

@@ -40,8 +40,12 @@ bool contact(Object *a, Object *b, void *data)
     Found *found = static_cast<Found *>(data);
     fcl::CollisionRequest<double> request(1, true);
     fcl::CollisionResult<double> result;
-    fcl::collide(a, b, request, result);
-    if (result.numContacts() > 0) {
+    try {
+        fcl::collide(a, b, request, result);
+    } catch (const std::exception &) {
+        return false; // its expanding polytope gave up: the pair is missing in the count
+    }
+    if (result.isCollision()) {
         ++found->pairs;
         found->sum += result.getContact(0).penetration_depth;
     }
@@ -60,14 +64,6 @@ bool distance(Object *a, Object *b, void *data, double &nearest)
     }
     nearest = found->tolerance;
     return false;
-}
-
-void update(Crowd *crowd)
-{
-    if (!crowd->is_set_up)
-        crowd->manager.setup();
-    crowd->is_set_up = true;
-    crowd->manager.update();
 }
 
 } // namespace
@@ -102,7 +98,6 @@ void fcl_crowd_add_mesh(Crowd *crowd, const double *coordinates, size_t vertex_c
 void fcl_crowd_add_body(Crowd *crowd, size_t mesh)
 {
     crowd->bodies.push_back(std::unique_ptr<Object>(new Object(crowd->meshes[mesh])));
-    crowd->manager.registerObject(crowd->bodies.back().get());
 }
 
 void fcl_crowd_move(Crowd *crowd, size_t body, const double *m)
@@ -114,32 +109,26 @@ void fcl_crowd_move(Crowd *crowd, size_t body, const double *m)
     crowd->bodies[body]->computeAABB();
 }
 
-// Pairs at most the tolerance apart, or those that intersect if it is negative. Not 0 after an exception.
-int fcl_crowd_ask(Crowd *crowd, double tolerance, size_t *pairs, double *sum)
+// Pairs that intersect (question 0), are at most the tolerance apart (1), or intersect, and how deep (2). Not 0 after an exception.
+int fcl_crowd_ask(Crowd *crowd, int question, double tolerance, size_t *pairs, double *sum)
 {
     try {
-        update(crowd);
-        Found found = {tolerance, 0, 0};
-        if (tolerance < 0) {
-            crowd->manager.collide(&found, collide);
-        } else {
-            crowd->manager.distance(&found, distance);
+        if (!crowd->is_set_up) {
+            // All at once, where they are: one by one at one place they make a list, not a tree.
+            std::vector<Object *> bodies;
+            for (const auto &body : crowd->bodies)
+                bodies.push_back(body.get());
+            crowd->manager.registerObjects(bodies);
+            crowd->manager.setup();
         }
-        *pairs = found.pairs;
-        *sum = found.sum;
-        return 0;
-    } catch (...) {
-        return 1;
-    }
-}
-
-// The intersecting pairs, and the sum of their depths. Not 0 after an exception.
-int fcl_crowd_ask_contacts(Crowd *crowd, size_t *pairs, double *sum)
-{
-    try {
-        update(crowd);
-        Found found = {0, 0, 0};
-        crowd->manager.collide(&found, contact);
+        crowd->is_set_up = true;
+        crowd->manager.update();
+        Found found = {tolerance, 0, 0};
+        if (question == 1) {
+            crowd->manager.distance(&found, distance);
+        } else {
+            crowd->manager.collide(&found, question == 0 ? collide : contact);
+        }
         *pairs = found.pairs;
         *sum = found.sum;
         return 0;

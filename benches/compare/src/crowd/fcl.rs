@@ -19,8 +19,7 @@ unsafe extern "C" {
     );
     fn fcl_crowd_add_body(crowd: *mut FclCrowd, mesh: usize);
     fn fcl_crowd_move(crowd: *mut FclCrowd, body: usize, pose: *const f64);
-    fn fcl_crowd_ask(crowd: *mut FclCrowd, tolerance: f64, pairs: *mut usize, sum: *mut f64) -> i32;
-    fn fcl_crowd_ask_contacts(crowd: *mut FclCrowd, pairs: *mut usize, sum: *mut f64) -> i32;
+    fn fcl_crowd_ask(crowd: *mut FclCrowd, question: i32, tolerance: f64, pairs: *mut usize, sum: *mut f64) -> i32;
     fn fcl_crowd_destroy(crowd: *mut FclCrowd);
 }
 
@@ -77,14 +76,13 @@ impl Crowd for Fcl {
             unsafe { fcl_crowd_move(self.crowd, *body, pose.as_ptr()) };
         }
         let mut found = Found::default();
-        let tolerance = if self.question == Question::Intersection { -1.0 } else { TOLERANCE };
-        // SAFETY: two numbers to write to.
-        let status = unsafe {
-            match self.question {
-                Question::Contact => fcl_crowd_ask_contacts(self.crowd, &mut found.pairs, &mut found.sum),
-                _ => fcl_crowd_ask(self.crowd, tolerance, &mut found.pairs, &mut found.sum),
-            }
+        let question = match self.question {
+            Question::Intersection => 0,
+            Question::Distance => 1,
+            Question::Contact => 2,
         };
+        // SAFETY: two numbers to write to.
+        let status = unsafe { fcl_crowd_ask(self.crowd, question, TOLERANCE, &mut found.pairs, &mut found.sum) };
         if status != 0 {
             found.sum = f64::NAN;
         }

@@ -1,8 +1,9 @@
 //! Scenes of many bodies: what a step costs, poses set and query answered, beside parry's bounding volume hierarchy with hill
 //! climbing, FCL's dynamic tree, and a three-axis sweep and prune.
 //!
-//! The methods take turns block by block over the same steps; the clock is the thread's CPU time. The first step of a scene is not
-//! counted: it is there that everything is built.
+//! The methods take turns block by block over the same steps; the clock is the thread's CPU time, of a method with several threads
+//! that on the wall. The first step of a scene is not counted: it is there that everything is built. A method that has used up its
+//! time on a scene makes no more steps of it.
 
 #[cfg(fcl)]
 mod fcl;
@@ -15,7 +16,7 @@ use std::fmt::Write;
 
 use crate::options::Options;
 use crate::report;
-use crate::timing::{measure, median};
+use crate::timing::{measure, measure_on_the_wall, median};
 use world::{Bodies, MOTIONS, Step, World};
 
 /// What is asked of all pairs.
@@ -41,7 +42,7 @@ impl Question {
     }
 }
 
-/// What a method found in a step: pairs, and the sum of their distances, or of their depths.
+/// What a method found in a step: pairs, and the sum of their distances or depths.
 #[derive(Debug, Clone, Copy, Default)]
 struct Found {
     pairs: usize,
@@ -51,6 +52,11 @@ struct Found {
 /// A scene of one method.
 trait Crowd {
     fn name(&self) -> &'static str;
+
+    /// Whether it has threads beside the caller's.
+    fn has_threads(&self) -> bool {
+        false
+    }
 
     /// Takes over the next steps in whatever form the method wants them. Not timed.
     fn load(&mut self, steps: &[Step]);
@@ -62,11 +68,18 @@ trait Crowd {
 /// Steps that a method makes in its turn.
 const BLOCK: usize = 8;
 
+/// Nobody makes fewer in a scene …
+const FEWEST_STEPS: usize = 3;
+
+/// … or begins another after so many nanoseconds.
+const MOST_NS: f64 = 2e9;
+
 pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
-    let mut csv = "bodies,count,motion,query,method,mean_ms,median_ms,worst_ms,pairs,sum,differing_steps\n".to_string();
+    let mut csv =
+        "bodies,count,motion,query,method,steps,mean_ms,median_ms,worst_ms,pairs,sum,differing_steps\n".to_string();
     for &count in counts {
-        // Few steps of many bodies are as much work as many of few.
-        let steps = (options.count * 1_000 / count.max(1)).clamp(2 * BLOCK, options.count.max(2 * BLOCK));
+        // Few steps of many bodies are as much work as many of few; in too few nothing would settle.
+        let steps = (options.count * 1_000 / count.max(1)).clamp(8 * BLOCK, options.count.max(8 * BLOCK));
         for (word, bodies) in [("fat 102", Bodies::Alike("fat")), ("mixed 8-1002", Bodies::Mixed)] {
             for motion in MOTIONS {
                 for question in [Question::Intersection, Question::Distance, Question::Contact] {
@@ -92,19 +105,25 @@ pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
 }
 
 fn methods(world: &World, question: Question, options: &Options) -> Result<Vec<Box<dyn Crowd>>, String> {
-    let mut all: Vec<Box<dyn Crowd>> = vec![
-        Box::new(ours::Ours::new(world, question)?),
-        Box::new(parry::Parry::new(world, question, parry::Upkeep::Refit)),
-        Box::new(parry::Parry::new(world, question, parry::Upkeep::Rebuild)),
-    ];
+    let is_wanted = |name: &str| options.methods.is_empty() || options.methods.iter().any(|wanted| wanted == name);
+    let mut all: Vec<Box<dyn Crowd>> = Vec::new();
+    for workers in [1, 2] {
+        if is_wanted(ours::name(workers)) {
+            all.push(Box::new(ours::Ours::new(world, question, workers)?));
+        }
+    }
+    for upkeep in [parry::Upkeep::Refit, parry::Upkeep::Rebuild] {
+        if is_wanted(upkeep.name()) {
+            all.push(Box::new(parry::Parry::new(world, question, upkeep)));
+        }
+    }
     // Where more bodies jump it sorts for minutes.
-    if world.mesh_of.len() <= 10_000 && question != Question::Contact {
+    if is_wanted("sweep-and-prune") && world.mesh_of.len() <= 10_000 {
         all.push(Box::new(sweep::Sweep::new(world, question)?));
     }
     #[cfg(fcl)]
-    all.push(Box::new(fcl::Fcl::new(world, question)?));
-    if !options.methods.is_empty() {
-        all.retain(|method| options.methods.iter().any(|wanted| wanted == method.name()));
+    if is_wanted("fcl") {
+        all.push(Box::new(fcl::Fcl::new(world, question)?));
     }
     Ok(all)
 }
@@ -124,7 +143,15 @@ impl Times {
         let mean = ms.iter().sum::<f64>() / ms.len() as f64;
         let worst = ms.iter().copied().fold(0.0, f64::max);
         let median = median(&mut ms);
-        format!("{mean:.4},{median:.4},{worst:.4},{},{:.6},{}", self.last.pairs, self.last.sum, self.differing)
+        let Found { pairs, sum } = self.last;
+        format!("{},{mean:.4},{median:.4},{worst:.4},{pairs},{sum:.6},{}", self.ms.len(), self.differing)
+    }
+}
+
+impl Times {
+    /// Whether the method has made its steps, this one's number from 0 on.
+    fn are_enough(&self, step: usize) -> bool {
+        step >= FEWEST_STEPS && self.ms.iter().sum::<f64>() * 1e6 > MOST_NS
     }
 }
 
@@ -132,17 +159,21 @@ fn time(methods: &mut [Box<dyn Crowd>], world: &mut World, steps: usize) -> Vec<
     let mut all: Vec<Times> = methods.iter().map(|_| Times::default()).collect();
     for block in 0..steps.div_ceil(BLOCK) {
         let steps = world.steps(BLOCK);
-        let mut counts = [0; BLOCK];
-        for (m, method) in methods.iter_mut().enumerate() {
+        let mut counts = [None; BLOCK];
+        for (method, times) in methods.iter_mut().zip(&mut all) {
+            if times.are_enough(block * BLOCK) {
+                continue;
+            }
             method.load(&steps);
             for k in 0..BLOCK {
-                let mut found = Found::default();
-                let ns = measure(|| found = method.step(k));
-                if m == 0 {
-                    counts[k] = found.pairs;
+                if times.are_enough(block * BLOCK + k) {
+                    break;
                 }
-                let times = &mut all[m];
-                times.differing += usize::from(found.pairs != counts[k]);
+                let mut found = Found::default();
+                let has_threads = method.has_threads();
+                let mut step = || found = method.step(k);
+                let ns = if has_threads { measure_on_the_wall(&mut step) } else { measure(step) };
+                times.differing += usize::from(found.pairs != *counts[k].get_or_insert(found.pairs));
                 times.last = found;
                 if block > 0 || k > 0 {
                     times.ms.push(1e-6 * ns);

@@ -4,33 +4,44 @@ use std::sync::Arc;
 
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ContactDetail, PairResult, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{ContactDetail, Scene, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use super::world::{Step, World};
 use super::{Crowd, Found, Question, TOLERANCE};
 
+/// A scene with so many workers.
+pub fn name(workers: usize) -> &'static str {
+    if workers == 1 { "swiftprox" } else { "swiftprox-2" }
+}
+
 pub struct Ours {
     question: Question,
+    workers: usize,
     scene: Scene,
     ids: Vec<ObjectId>,
     steps: Vec<Vec<(ObjectId, Pose)>>,
 }
 
 impl Ours {
-    pub fn new(world: &World, question: Question) -> Result<Ours, String> {
+    pub fn new(world: &World, question: Question, workers: usize) -> Result<Ours, String> {
         let shapes = world.meshes.iter().map(|mesh| Shape::from_mesh(mesh, &ShapeOptions::default()).map(Arc::new));
         let shapes: Vec<_> = shapes.collect::<Result<_, _>>().map_err(|e| e.to_string())?;
         let mut scene = Scene::new(&SceneOptions::default()).map_err(|e| e.to_string())?;
+        scene.set_workers((workers > 1).then(|| Workers::threads(workers)));
         let mut add = |mesh: &u32| scene.add_object(vec![shapes[*mesh as usize].clone()], &ObjectOptions::default());
         let ids = world.mesh_of.iter().map(&mut add).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
-        Ok(Ours { question, scene, ids, steps: Vec::new() })
+        Ok(Ours { question, workers, scene, ids, steps: Vec::new() })
     }
 }
 
 impl Crowd for Ours {
     fn name(&self) -> &'static str {
-        "swiftprox"
+        name(self.workers)
+    }
+
+    fn has_threads(&self) -> bool {
+        self.workers > 1
     }
 
     fn load(&mut self, steps: &[Step]) {
@@ -42,23 +53,18 @@ impl Crowd for Ours {
         for (id, pose) in &self.steps[k] {
             self.scene.set_pose(*id, pose).expect("a rigid pose");
         }
-        let query = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
-        let distances = |pairs: &[PairResult]| pairs.iter().map(|pair| pair.answer.distance).sum();
-        match self.question {
-            Question::Intersection => {
-                let pairs = self.scene.query_intersection(&query).expect("a sound query").pairs;
-                Found { pairs: pairs.len(), sum: distances(pairs) }
-            }
-            Question::Distance => {
-                let pairs = self.scene.query_exact_distance(&query).expect("a sound query").pairs;
-                Found { pairs: pairs.len(), sum: distances(pairs) }
-            }
-            Question::Contact => {
-                let query =
-                    SceneQuery { detail: ContactDetail::Manifold, distance_tolerance: 0.0, ..SceneQuery::default() };
-                let contacts = self.scene.query_contacts(&query).expect("a sound query").contacts.contacts;
-                Found { pairs: contacts.len(), sum: contacts.iter().map(|contact| contact.depth.depth).sum() }
-            }
-        }
+        let near = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
+        let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
+        let answer = match self.question {
+            Question::Intersection => self.scene.query_intersection(&near),
+            Question::Distance => self.scene.query_exact_distance(&near),
+            Question::Contact => self.scene.query_contacts(&touching),
+        };
+        let answer = answer.expect("a sound query");
+        let sum = match self.question {
+            Question::Contact => answer.contacts.contacts.iter().map(|contact| contact.depth.depth).sum(),
+            _ => answer.pairs.iter().map(|pair| pair.answer.distance).sum(),
+        };
+        Found { pairs: answer.pairs.len(), sum }
     }
 }

@@ -27,6 +27,15 @@ pub enum Upkeep {
     Rebuild,
 }
 
+impl Upkeep {
+    pub fn name(self) -> &'static str {
+        match self {
+            Upkeep::Refit => "parry",
+            Upkeep::Rebuild => "parry-rebuilt",
+        }
+    }
+}
+
 pub struct Parry {
     question: Question,
     upkeep: Upkeep,
@@ -80,10 +89,7 @@ impl Loosened for Aabb {
 
 impl Crowd for Parry {
     fn name(&self) -> &'static str {
-        match self.upkeep {
-            Upkeep::Refit => "parry",
-            Upkeep::Rebuild => "parry-rebuilt",
-        }
+        self.upkeep.name()
     }
 
     fn load(&mut self, steps: &[Step]) {
@@ -121,14 +127,15 @@ impl Crowd for Parry {
                     GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
                 },
                 Question::Contact => match contact(&pose12, &first.1, &second.1, 0.0, simplex, None) {
-                    GJKResult::ClosestPoints(point1, point2, normal) => {
-                        Some((point1 - point2).dot(normal)).filter(|depth| *depth >= 0.0)
-                    }
-                    _ => None,
+                    GJKResult::ClosestPoints(point1, point2, normal) => Some(-(point2 - point1).dot(normal)),
+                    GJKResult::Intersection | GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
                 },
             };
-            if let Some(distance) = distance.filter(|distance| question == Question::Contact || *distance <= TOLERANCE)
-            {
+            let is_listed = |distance: &f64| match question {
+                Question::Intersection | Question::Distance => *distance <= TOLERANCE,
+                Question::Contact => *distance >= 0.0,
+            };
+            if let Some(distance) = distance.filter(is_listed) {
                 found.pairs += 1;
                 found.sum += distance;
             }

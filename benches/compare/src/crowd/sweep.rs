@@ -155,7 +155,8 @@ impl Crowd for Sweep {
                 [a, b].map(|i| self.shapes[self.shape_of[i as usize] as usize].at(&self.poses[i as usize]));
             let ask = match self.question {
                 Question::Intersection => pair::intersection,
-                Question::Distance | Question::Contact => pair::distance,
+                Question::Distance => pair::distance,
+                Question::Contact => pair::contact,
             };
             ask([first, second], cache, &config, &mut answer).expect("rigid poses");
             let is_listed = match self.question {

@@ -139,7 +139,9 @@ impl Body {
                 self.velocity[k] = if self.at[k] < 0.0 { self.velocity[k].abs() } else { -self.velocity[k].abs() };
             }
         }
-        self.turn = self.spin * self.turn;
+        // Products drift off rotations; one step of Newton's method towards the nearest one undoes that, as simulators do.
+        let turn = self.spin * self.turn;
+        self.turn = turn * (1.5 * Matrix::identity() - 0.5 * turn.transpose() * turn);
     }
 
     fn pose(&self) -> [f64; 12] {
