@@ -9,8 +9,9 @@
 namespace {
 
 /*
- * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles there, which
- * are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i. As files of SWIFT++'s decomposer.
+ * The surface of a rod from x = -1 to x = 1, in two cubes that share the square at x = 0: each is closed by two triangles there,
+ * which are no faces. Vertex i is number 10 + i of the mesh that was decomposed, face i number 20 + i. As files of SWIFT++'s
+ * decomposer.
  */
 class Rod {
 public:

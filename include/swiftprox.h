@@ -1421,8 +1421,8 @@ typedef struct swiftprox_scene_query {
   /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
-   * swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one; from
-   * 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+   * swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
+   * from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
    */
   double margin;
   /**
@@ -1548,8 +1548,8 @@ typedef struct swiftprox_contact {
 /** What a query of contacts said beside its answers. */
 typedef struct swiftprox_scene_contacts {
   /**
-   * One for each of the pairs that the query listed, in their order; of a query that stopped that of swiftprox_scene_answer.found
-   * alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+   * One for each of the pairs that the query listed, in their order; of a query that stopped that of
+   * swiftprox_scene_answer.found alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
    */
   const struct swiftprox_contact *contacts;
   /** How many. */
@@ -1887,8 +1887,8 @@ swiftprox_status swiftprox_scene_record(struct swiftprox_scene *scene,
  * Plays back what swiftprox_scene_record has written. Make one with swiftprox_replay_open.
  *
  * A step is what was done up to a query, and the query. For each step call swiftprox_replay_read, which reads it,
- * swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of your
- * own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
+ * swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of
+ * your own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
  */
 typedef struct swiftprox_replay swiftprox_replay;
 

@@ -1,5 +1,5 @@
-//! Recordings of scenes: records of any content, with checksums that are right and in frames that are whole most of the time, and bytes
-//! of any kind. A replay ends, refuses or does what a program could; nothing panics.
+//! Recordings of scenes: records of any content, with checksums that are right and in frames that are whole most of the time, and
+//! bytes of any kind. A replay ends, refuses or does what a program could; nothing panics.
 #![no_main]
 
 use std::io::Cursor;
@@ -15,8 +15,8 @@ use swiftprox_fuzz::geometry::{any_number, hull_options, points, pose};
 const MOST_RECORDS: usize = 48;
 const MOST_POINTS: usize = 8;
 
-/// What records of each kind hold: n a number, N a list of them, p a pose, P a list of those, f a flag, u 64 bits, r a real, D a list
-/// of pairs, F one of pairs with flags, q a query and what it is about, S a shape.
+/// What records of each kind hold: n a number, N a list of them, p a pose, P a list of those, f a flag, u 64 bits, r a real, D a
+/// list of pairs, F one of pairs with flags, q a query and what it is about, S a shape.
 const LAYOUTS: [&str; 24] = [
     "", "rf", "S", "Npfunn", "n", "n", "nf", "nnn", "nu", "np", "NP", "P", "nnp", "nnf", "nf", "f", "f", "", "fD", "",
     "q", "F", "ffuurru", "",

@@ -23,8 +23,8 @@ pub struct Memory {
     manifold: ManifoldCache,
 }
 
-/// Checks depths and manifolds of two bodies whose exact answer is `known`. Numbers are `measured` in doubles where the bodies leave
-/// room for that.
+/// Checks depths and manifolds of two bodies whose exact answer is `known`. Numbers are `measured` in doubles where the bodies
+/// leave room for that.
 pub fn check(
     u: &mut Unstructured,
     bodies: [Placed; 2],

@@ -3,7 +3,8 @@
 use crate::base::error::{Error, Result};
 use crate::base::memory::{extend, with_capacity};
 
-/// FNV-1a, 64 bits, of nothing (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF draft).
+/// FNV-1a, 64 bits, of nothing (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF
+/// draft).
 pub(crate) const EMPTY_CHECKSUM: u64 = 0xcbf2_9ce4_8422_2325;
 
 /// What FNV-1a multiplies by.

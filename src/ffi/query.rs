@@ -39,8 +39,8 @@ pub struct CSceneQuery {
     pub early_exit: i32,
     /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
-    /// swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one; from
-    /// 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+    /// swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
+    /// from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
     pub margin: f64,
     /// swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
     /// are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
@@ -183,8 +183,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_contacts(
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneContacts {
-    /// One for each of the pairs that the query listed, in their order; of a query that stopped that of swiftprox_scene_answer.found
-    /// alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+    /// One for each of the pairs that the query listed, in their order; of a query that stopped that of
+    /// swiftprox_scene_answer.found alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
     pub contacts: *const Contact,
     /// How many.
     pub count: usize,

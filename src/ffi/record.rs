@@ -44,8 +44,8 @@ pub unsafe extern "C" fn swiftprox_scene_record(scene: *mut SceneHandle, path: *
 /// Plays back what swiftprox_scene_record has written. Make one with swiftprox_replay_open.
 ///
 /// A step is what was done up to a query, and the query. For each step call swiftprox_replay_read, which reads it,
-/// swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of your
-/// own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
+/// swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of
+/// your own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
 #[derive(Debug)]
 pub struct ReplayHandle {
     replay: Replay,

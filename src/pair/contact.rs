@@ -215,9 +215,9 @@ const WELL_INSIDE: f64 = 64.0;
 /// Faces walked over before all are looked at.
 const LONGEST_WALK: usize = 64;
 
-/// The face through which a point inside the body, rounding apart, leaves it along a direction, if that is no farther than `within`:
-/// a walk from the faces at a vertex over neighbours whose planes the ray meets sooner. As the least of linear functions the
-/// way to the boundary has no other minima than the least.
+/// The face through which a point inside the body, rounding apart, leaves it along a direction, if that is no farther than
+/// `within`: a walk from the faces at a vertex over neighbours whose planes the ray meets sooner. As the least of linear functions
+/// the way to the boundary has no other minima than the least.
 fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Vector, within: f64) -> Option<u32> {
     // A point on the boundary, rounding included, is left to the planes and sides.
     if within <= WELL_INSIDE * rounding(polyhedron) {

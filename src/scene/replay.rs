@@ -112,8 +112,8 @@ pub struct ReplayAnswer<'a> {
     /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, but for
     /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
     pub check: Result<()>,
-    /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with another
-    /// version of the library, on another processor, or where the recording began in the middle of the scene's life.
+    /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with
+    /// another version of the library, on another processor, or where the recording began in the middle of the scene's life.
     pub is_identical: bool,
 }
 
@@ -180,8 +180,8 @@ impl Replay {
     /// Reads the next step; `None` when there is none. A recording that is cut off ends with its last whole record.
     ///
     /// # Errors
-    /// [`Error::File`] for a recording that is damaged: the steps before stay good, the message says where it is. [`Error::Memory`].
-    /// [`Error::Argument`] if the step before has not been done.
+    /// [`Error::File`] for a recording that is damaged: the steps before stay good, the message says where it is.
+    /// [`Error::Memory`]. [`Error::Argument`] if the step before has not been done.
     pub fn read(&mut self) -> Result<Option<ReplayStep>> {
         if !self.changes.is_empty() || !self.decided.is_empty() {
             return Err(Error::Argument("the step that was read before has not been done".into()));

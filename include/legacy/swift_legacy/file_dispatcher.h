@@ -30,8 +30,8 @@ inline bool open_file(const char* filename, std::ifstream& stream)
 }
 
 /*
- * The first word of a file, as far as a magic token can be long; the stream stands at the beginning again. SWIFT++'s decomposer puts a
- * NUL before its own, which is no part of it.
+ * The first word of a file, as far as a magic token can be long; the stream stands at the beginning again. SWIFT++'s decomposer
+ * puts a NUL before its own, which is no part of it.
  */
 inline std::string first_word(std::ifstream& stream)
 {

@@ -1,6 +1,6 @@
 /*
- * Hierarchies of hulls (Convex_Hierarchy) of SWIFT++'s decomposer. The leaves of the tree are the pieces of a convex decomposition; the
- * hulls of several pieces above them, and what else the file keeps to save time, are read over.
+ * Hierarchies of hulls (Convex_Hierarchy) of SWIFT++'s decomposer. The leaves of the tree are the pieces of a convex decomposition;
+ * the hulls of several pieces above them, and what else the file keeps to save time, are read over.
  */
 #ifndef SWIFT_LEGACY_HULL_TREE_FILES_H
 #define SWIFT_LEGACY_HULL_TREE_FILES_H
@@ -65,8 +65,8 @@ inline bool skip_half_edges(BinaryNumbers& numbers, int count, int face_count)
 
 /*
  * Behind the header: the height of the tree; centre of mass, centre and radius; the coordinates; the number of each vertex and of
- * each face in the mesh that was decomposed, where the maps are there; 3 vertices and some bits of each face; the shared faces; what
- * is across each edge of the surface, of its faces that nodes hold again, and of all faces at each level.
+ * each face in the mesh that was decomposed, where the maps are there; 3 vertices and some bits of each face; the shared faces;
+ * what is across each edge of the surface, of its faces that nodes hold again, and of all faces at each level.
  */
 inline std::string read_hull_tree_arrays(BinaryNumbers& numbers, const HullTreeCounts& header, HullTreeArrays& arrays)
 {
@@ -121,8 +121,8 @@ struct HullNode {
 };
 
 /*
- * Of each node: how many shared faces and from where, how many of its own and from where, the parent, two children, the level; centre
- * of mass and radius; the kind of its look-up table and the half-edges in it.
+ * Of each node: how many shared faces and from where, how many of its own and from where, the parent, two children, the level;
+ * centre of mass and radius; the kind of its look-up table and the half-edges in it.
  */
 inline std::string read_hull_node(BinaryNumbers& numbers, const HullTreeCounts& header, int index, HullNode& node)
 {

@@ -110,8 +110,8 @@ impl Notes<'_> {
 }
 
 impl Scene {
-    /// Writes down what is done to the scene from now on, in a file, replacing what was there, until [`Scene::end_recording`] or the
-    /// scene's end. First comes what the scene holds. A [`Replay`](crate::scene::Replay) does it all again.
+    /// Writes down what is done to the scene from now on, in a file, replacing what was there, until [`Scene::end_recording`] or
+    /// the scene's end. First comes what the scene holds. A [`Replay`](crate::scene::Replay) does it all again.
     ///
     /// All that changes what queries answer is written down, and each query with a digest of its answer; [workers](Workers) and
     /// statistics are not. Of a [pair filter](PairFilter) its decisions are. Shapes are written down once each. The file is
@@ -145,8 +145,8 @@ impl Scene {
     /// Ends the recording, if there is one.
     ///
     /// # Errors
-    /// [`Error::File`], [`Error::Memory`], [`Error::Limit`] for the reason why it ended before or cannot be written to its end: what
-    /// was done up to there can be replayed.
+    /// [`Error::File`], [`Error::Memory`], [`Error::Limit`] for the reason why it ended before or cannot be written to its end:
+    /// what was done up to there can be replayed.
     pub fn end_recording(&mut self) -> Result<()> {
         self.note(|notes| notes.recorder.end());
         self.filter_is_watched(false);
@@ -192,7 +192,7 @@ impl Scene {
         }
     }
 
-    // --- Questions and answers -------------------------------------------------------------------------------------------------------
+    // Questions and answers.
 
     /// A query that is to be answered.
     pub(super) fn note_question(&mut self, subject: &Subject<ObjectId, &Arc<Shape>>, kind: Query, query: &SceneQuery) {
@@ -240,7 +240,7 @@ impl Scene {
         SceneAnswer { intersecting, pairs, found, contacts }
     }
 
-    // --- What there is when a recording begins ---------------------------------------------------------------------------------------
+    // What there is when a recording begins.
 
     fn note_all(&mut self) {
         let (rotation_limit, is_whole) = (self.rotation_limit, self.objects.created() == 0);

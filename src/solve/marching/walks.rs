@@ -9,7 +9,8 @@ use crate::solve::frame::Frame;
 use crate::solve::state::{State, ordered};
 use crate::solve::voronoi::{edge_direction, exit_of_prism, plane_slopes, plane_values};
 
-/// A vertex over a face descends along the edge `leaving` to the neighbour `head`, towards the face: to the edge's end, or to the side of the prism where it leaves.
+/// A vertex over a face descends along the edge `leaving` to the neighbour `head`, towards the face: to the edge's end, or to the
+/// side of the prism where it leaves.
 #[inline(always)]
 pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     frame: &Frame<L>,
