@@ -135,6 +135,8 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     }
     let longest = longest_square.sqrt() * (1.0 + 8.0 * U);
     let error = frame.difference_error(longest);
+    // A bound of their length that is never 0.
+    let longest = if longest > error { longest } else { error };
     let spread = 1.0 + error / longest;
     let bound = (12.0 * U * longest + 3.0 * error * spread * spread) * longest * longest * (1.0 + 16.0 * U);
     // Written out: what the compiler leaves out of line, a closure say, is not compiled for these lanes.
@@ -150,7 +152,10 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     let volume = first + second + third + fourth;
     // With the sign of the volume; false for a NaN.
     let inside = values.mul(L::splat(volume.signum())).greater(L::splat(bound));
-    let weights = if volume == 0.0 { [f64::NEG_INFINITY; 4] } else { values.div(L::splat(volume)).to_array() };
+    // Asked for as the weights below are, the compiler would divide by 0 all the same, and throw 0/0 away.
+    let divisor = if volume.abs() > f64::MIN_POSITIVE { volume } else { f64::MIN_POSITIVE };
+    let shares = values.div(L::splat(divisor)).to_array();
+    let weights = if volume == 0.0 { [f64::NEG_INFINITY; 4] } else { shares };
     let inside = [inside & 1 != 0, inside & 2 != 0, inside & 4 != 0, inside & 8 != 0];
     let certain = u32::from(inside[0]) + u32::from(inside[1]) + u32::from(inside[2]) + u32::from(inside[3]);
     Sides { weights, inside, certain }

@@ -19,6 +19,10 @@ impl<L: Lanes> Minimum<L> {
                 let [world1, world2] = [self.along(frame, 0, edge1), self.along(frame, 1, edge2)];
                 let normal = world1.cross(world2);
                 let (cosine, square) = (world1.dot(world2), normal.dot(normal));
+                // Of parallel edges no two points are nearest, and 0/0 is not computed.
+                if !(square > 0.0) {
+                    return None;
+                }
                 let (a, b) = (self.difference.dot(world1), self.difference.dot(world2));
                 // The difference with both shifts is perpendicular to both edges.
                 let shift1 = (b * cosine - a * world2.dot(world2)) / square;
