@@ -43,7 +43,7 @@ impl Kernel for LastLevels<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let bodies = Leveled::new(self.pair.bodies);
+        let bodies = Leveled::new(*self.pair.bodies);
         let &mut PairQuery { ref cache, config, .. } = self.pair;
         let Some(place) = cache.place(&bodies) else { return false };
         let [level1, level2] = bodies.polyhedra(place.levels);

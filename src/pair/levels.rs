@@ -178,7 +178,7 @@ impl<'a> PairQuery<'a> {
         if self.is_still_enclosed() {
             return Ok(Searched::Answered);
         }
-        let search = LevelSearch { bodies: Leveled::new(self.bodies), has_levels, before: self.cache.spent_before() };
+        let search = LevelSearch { bodies: Leveled::new(*self.bodies), has_levels, before: self.cache.spent_before() };
         Ok(search.run(self))
     }
 

@@ -116,7 +116,7 @@ pub fn query_with(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if !environment::is_default() {
-        return with_default(move || climb(&mut PairQuery { query, bodies, cache, config, answer }, rungs));
+        return with_default(move || climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, rungs));
     }
-    climb(&mut PairQuery { query, bodies, cache, config, answer }, rungs)
+    climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, rungs)
 }

@@ -55,7 +55,8 @@ impl Rungs {
 /// One query.
 pub(super) struct PairQuery<'a> {
     pub query: Query,
-    pub bodies: [Placed<'a>; 2],
+    /// Where the caller has them: a copy would load at once what has just been stored pointer by pointer, and wait for it (10 ns).
+    pub bodies: &'a [Placed<'a>; 2],
     pub cache: &'a mut PairCache,
     pub config: &'a PairConfig,
     pub answer: &'a mut PairAnswer,

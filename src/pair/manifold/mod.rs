@@ -157,8 +157,13 @@ fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &Manifol
         ..PairConfig::default()
     };
     let (pair_cache, answer_of) = (&mut cache.pair, &mut answer);
-    let mut query =
-        PairQuery { query: Query::Distance, bodies, cache: pair_cache, config: &pair_config, answer: answer_of };
+    let mut query = PairQuery {
+        query: Query::Distance,
+        bodies: &bodies,
+        cache: pair_cache,
+        config: &pair_config,
+        answer: answer_of,
+    };
     climb(&mut query, Rungs::ALL)?;
     if answer.outcome == Outcome::Intersecting
         && let Some(contact) = find_depth(bodies, cache, config)?
