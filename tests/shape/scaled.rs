@@ -35,7 +35,7 @@ fn a_copy_is_the_shape_multiplied() {
     let mut random = Random::new(0x5ca1e);
     for shape in shapes() {
         shape.prepare(&mut Progress::new(&mut |_| true)).unwrap();
-        for scale in [0.5, 2.0, 2.0_f64.powi(70), 2.0_f64.powi(-300)] {
+        for (scale, in_range) in [(0.5, true), (2.0, true), (2.0_f64.powi(70), true), (2.0_f64.powi(-300), false)] {
             let copy = scaled(&shape, scale).unwrap();
             let (old, new) = (shape.polyhedron(), copy.polyhedron());
             assert_eq!(new.triangles, old.triangles);
@@ -49,7 +49,10 @@ fn a_copy_is_the_shape_multiplied() {
             for (one, other) in levels[0].iter().zip(levels[1]) {
                 assert_eq!(one.polyhedron.triangles, other.polyhedron.triangles);
                 let ratio = other.deviation / (one.deviation * scale);
-                assert!((0.99..2.0).contains(&ratio), "a level stands off as far; the bound is measured anew: {ratio}");
+                // The walk that measures it takes fourth powers: out of range they underflow, it ends early, and the bound is
+                // that of a point farther than the nearest one.
+                let most = if in_range { 1.0 + 1e-12 } else { 2.0 };
+                assert!((1.0 - 1e-12..=most).contains(&ratio), "a level stands off as far: {ratio} at {scale:e}");
             }
             let back = scaled(&copy, 1.0 / scale).unwrap();
             assert_eq!(back.polyhedron().vertices, old.vertices);
