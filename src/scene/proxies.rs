@@ -22,6 +22,9 @@ const MOST_ROOM: f32 = 0.5;
 /// … and this part of it before the first step, which would else leave the box.
 const FIRST_ROOM: f32 = 0.04;
 
+/// The limit of a piece that has no box yet, or none that leaves room.
+const NO_BOX: f64 = f64::NEG_INFINITY;
+
 /// Below this lengths are taken for nothing: their squares may underflow.
 const TINY: f64 = 1e-150;
 
@@ -42,7 +45,8 @@ pub(crate) struct Motion {
     pub limit: f64,
     /// The number of passes over the pairs before the last move.
     pub moved: u64,
-    /// How far it goes in a step, smoothed; 0 before the first.
+    /// How far it goes in a step, smoothed, but for jumps; 0 before the first. What brings it to where it gets its first box is
+    /// no step.
     rate: f32,
     /// No entry of RᵀR − I is above [`RIGID`].
     rigid: bool,
@@ -119,7 +123,7 @@ impl Proxies {
         self.poses.push(new.pose);
         self.spheres.push(spheres);
         self.inner.push(inner);
-        self.motions.push(Motion { odometer: 0.0, limit: 0.0, moved: 0, rate: 0.0, rigid, has_escaped: false });
+        self.motions.push(Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false });
         self.boxes.push(Aabb::EVERYWHERE);
         self.firsts.push(self.labels.len() as u32 - new.label.piece);
         self.labels.push(new.label);
@@ -188,7 +192,11 @@ impl Proxies {
         motion.moved = passes;
         // Never below the exact sum; infinite sums say that nothing is known.
         motion.odometer = (motion.odometer + way).next_up();
-        motion.rate = if motion.rate == 0.0 { way as f32 } else { 0.75 * motion.rate + 0.25 * way as f32 };
+        motion.rate = match (motion.rate, way as f32) {
+            _ if motion.limit == NO_BOX => 0.0,
+            (rate, way) if rate == 0.0 || rate.max(way) > MOST_ROOM * spheres.outer as f32 => way,
+            (rate, way) => 0.75 * rate + 0.25 * way,
+        };
         self.poses[proxy] = *pose;
         self.spheres[proxy] = spheres;
         self.inner[proxy] = inner;
@@ -217,7 +225,7 @@ impl Proxies {
         motion.limit = match (grown == f64::INFINITY, is_counted) {
             (true, _) => f64::INFINITY,
             (false, true) => limit,
-            (false, false) => f64::NEG_INFINITY,
+            (false, false) => NO_BOX,
         };
         let reach = self.shapes[proxy].extent().reach(&self.poses[proxy], outer);
         let centre_error = centre_error(&self.shapes[proxy], &self.poses[proxy]);
