@@ -11,7 +11,7 @@ pub(crate) mod near_pairs;
 use std::ops::Range;
 
 use crate::base::error::Result;
-use crate::base::memory::{extend, reserve};
+use crate::base::memory::{extend, reserve_sparingly};
 use crate::scene::object::ObjectId;
 use crate::scene::proxies::{Label, Proxies};
 use grid::Grid;
@@ -69,7 +69,7 @@ impl Default for BroadPhase {
 impl BroadPhase {
     /// Room for `count` more pieces.
     pub fn reserve(&mut self, count: usize) -> Result<()> {
-        reserve(&mut self.leaves, count)
+        reserve_sparingly(&mut self.leaves, count)
     }
 
     /// A piece was added.
