@@ -95,7 +95,7 @@ fn objects_and_near_pairs_are_small() {
 }
 
 /// Bytes an object, its share of the trees and the grid included.
-const MOST_OF_OBJECT: usize = 900;
+const MOST_OF_OBJECT: usize = 380;
 
 /// Bytes a near pair, with what it remembers.
 const MOST_OF_PAIR: usize = 230;

@@ -46,6 +46,16 @@ pub(crate) fn reserve<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     if count > list.capacity() - list.len() { grow(list, count) } else { Ok(()) }
 }
 
+/// As [`reserve`], but for an eighth of those there are: for what is large and stays, and seldom grows.
+#[inline]
+pub(crate) fn reserve_sparingly<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
+    if count <= list.capacity() - list.len() {
+        return Ok(());
+    }
+    let count = count.max(list.len() / 8).max(4);
+    list.try_reserve_exact(count).map_err(|e| lacking::<T>(list.len().saturating_add(count), &e))
+}
+
 /// One more at the end.
 #[inline(always)]
 pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<()> {

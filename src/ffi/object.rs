@@ -9,7 +9,8 @@ use super::shape_options::{CShapeOptions, read_options};
 use super::{Checked, Failure, StatusCode, Versioned, array, guard, init_struct, output, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
-use crate::scene::object::{Object, ObjectId, ObjectOptions};
+use crate::scene::Object;
+use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
 /// How an object begins. Fill it with swiftprox_object_options_init, then change what should differ.
@@ -348,7 +349,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece(
         output(shape, "shape", std::ptr::null())?;
         look(scene, |scene| {
             let object = scene.object(id)?;
-            check_piece(object, piece)?;
+            check_piece(&object, piece)?;
             shape.write(Arc::as_ptr(&object.pieces()[piece]));
             Ok(())
         })

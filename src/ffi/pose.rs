@@ -97,7 +97,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece_pose(
         output(pose, "pose", [f64::NAN; 12])?;
         look(scene, |scene| {
             let object = scene.object(id)?;
-            check_piece(object, piece as usize)?;
+            check_piece(&object, piece as usize)?;
             let world = object.piece_pose_in_world(piece as usize);
             pose.write(std::array::from_fn(|i| world.rows[i / 4][i % 4]));
             Ok(())

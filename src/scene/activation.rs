@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, extend, lacking};
-use crate::scene::object::{Object, ObjectId, Stamp};
+use crate::scene::object::{ObjectId, Stamp};
 
 /// So many words on pairs are kept without a look at whether their objects are still there.
 const LEAST_CROWD: usize = 64;
@@ -21,7 +21,7 @@ pub(crate) enum Word {
     Pair([ObjectId; 2]),
 }
 
-/// What was said of all pairs and of single ones; what was said of an object is in the object.
+/// What was said of all pairs and of single ones; what was said of an object is its own stamp.
 #[derive(Debug, Default)]
 pub(crate) struct Activation {
     latest: Stamp,
@@ -50,8 +50,8 @@ impl Activation {
     }
 
     /// Of all pairs of one object that there are. A new object must be set active: its pairs are, whatever was said before.
-    pub(crate) fn set_object(&mut self, object: &mut Object, active: bool) {
-        object.activation = self.say(active);
+    pub(crate) fn set_object(&mut self, stamp: &mut Stamp, active: bool) {
+        *stamp = self.say(active);
     }
 
     /// Of one pair, the earlier created object first. `is_there` tells the objects that have not been removed.
@@ -79,12 +79,12 @@ impl Activation {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub(crate) fn words<'a>(&self, objects: impl Iterator<Item = &'a Object>) -> Result<Vec<(Word, bool)>> {
+    pub(crate) fn words(&self, objects: impl Iterator<Item = (ObjectId, Stamp)>) -> Result<Vec<(Word, bool)>> {
         if !self.says_no {
             return Ok(Vec::new());
         }
         let mut words = collected([(self.all, Word::All)])?;
-        extend(&mut words, objects.map(|object| (object.activation, Word::Object(object.id()))))?;
+        extend(&mut words, objects.map(|(id, stamp)| (stamp, Word::Object(id))))?;
         extend(&mut words, self.pairs.iter().map(|(pair, stamp)| (*stamp, Word::Pair(*pair))))?;
         words.sort_unstable_by_key(|(stamp, _)| *stamp);
         collected(words.iter().map(|(stamp, word)| (*word, stamp.active())))
@@ -96,16 +96,16 @@ impl Activation {
     }
 
     /// Whether a pair is active, the earlier created object first.
-    pub(crate) fn is_active(&self, object1: &Object, object2: &Object) -> bool {
-        let pair = self.pairs.get(&[object1.id(), object2.id()]).copied().unwrap_or_default();
-        self.all.max(object1.activation).max(object2.activation).max(pair).active()
+    pub(crate) fn is_active(&self, pair: [ObjectId; 2], [stamp1, stamp2]: [Stamp; 2]) -> bool {
+        let stamp = self.pairs.get(&pair).copied().unwrap_or_default();
+        self.all.max(stamp1).max(stamp2).max(stamp).active()
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::object::{ObjectOptions, ObjectTable};
+    use crate::scene::object::ObjectTable;
     use swiftprox::random::Random;
 
     /// Against the plain model, one flag for each pair, set by whatever is said: random words, objects that come and go.
@@ -125,8 +125,8 @@ mod tests {
                     model.values_mut().for_each(|flag| *flag = active);
                 }
                 1 | 2 if ids.len() < 12 => {
-                    let id = table.insert(Vec::new(), &ObjectOptions::default(), 0).unwrap();
-                    activation.set_object(table.get_mut(id).unwrap(), true);
+                    let id = table.insert(0..1).unwrap();
+                    activation.set_object(&mut table.get_mut(id).unwrap().activation, true);
                     model.extend(ids.iter().map(|&earlier| ([earlier, id], true)));
                     ids.push(id);
                 }
@@ -137,7 +137,7 @@ mod tests {
                 }
                 4..8 if !ids.is_empty() => {
                     let id = ids[random.below(ids.len())];
-                    activation.set_object(table.get_mut(id).unwrap(), active);
+                    activation.set_object(&mut table.get_mut(id).unwrap().activation, active);
                     model.iter_mut().filter(|(pair, _)| pair.contains(&id)).for_each(|(_, flag)| *flag = active);
                 }
                 8.. if ids.len() > 1 => {
@@ -149,8 +149,8 @@ mod tests {
                 _ => {}
             }
             for (pair, &flag) in &model {
-                let [object1, object2] = pair.map(|id| table.get(id).unwrap());
-                assert_eq!(activation.is_active(object1, object2), flag);
+                let stamps = pair.map(|id| table.get(id).unwrap().activation);
+                assert_eq!(activation.is_active(*pair, stamps), flag);
             }
         }
         assert!(ids.len() > 2);

@@ -69,14 +69,14 @@ impl Aabb {
 ///
 /// Rounding to nearest moves by at most half of the step that follows.
 #[inline(always)]
-fn below(x: f64) -> f32 {
+pub(crate) fn below(x: f64) -> f32 {
     let rounded = (x as f32).next_down();
     if rounded.is_nan() { f32::NEG_INFINITY } else { rounded }
 }
 
 /// The same, greater.
 #[inline(always)]
-fn above(x: f64) -> f32 {
+pub(crate) fn above(x: f64) -> f32 {
     let rounded = (x as f32).next_up();
     if rounded.is_nan() { f32::INFINITY } else { rounded }
 }

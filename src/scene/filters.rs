@@ -7,7 +7,7 @@ use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
 use crate::scene::narrow_phase::{Before, Findings};
-use crate::scene::object::{Object, ObjectId, ObjectTable};
+use crate::scene::object::{Entry, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 use crate::scene::recording::format::Record;
 
@@ -21,14 +21,13 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice,
     /// [`Error::Memory`]; the pair stays as it is.
     pub fn set_pair_active(&mut self, id1: ObjectId, id2: ObjectId, active: bool) -> Result<()> {
-        let (object1, object2) = self.ordered_pair(id1, id2)?;
-        let pair = [object1.id(), object2.id()];
+        let pair = self.ordered_pair(id1, id2)?;
         let objects = &self.objects;
-        let pieces = (object1.proxies(), object2.proxies());
         self.activation.set_pair(pair, active, |id| objects.get(id).is_ok())?;
         let testing = if active { Testing::Active } else { Testing::Inactive };
-        for proxy1 in pieces.0 {
-            for proxy2 in pieces.1.clone() {
+        let [pieces1, pieces2] = [objects.get(pair[0])?.proxies(), objects.get(pair[1])?.proxies()];
+        for proxy1 in pieces1 {
+            for proxy2 in pieces2.clone() {
                 self.broad_phase.near.set_testing(&self.proxies.firsts, [proxy1 as u32, proxy2 as u32], testing);
             }
         }
@@ -41,7 +40,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_object_active(&mut self, id: ObjectId, active: bool) -> Result<()> {
-        self.activation.set_object(self.objects.get_mut(id)?, active);
+        self.activation.set_object(&mut self.objects.get_mut(id)?.activation, active);
         self.news = self.news.max(News::Activation);
         self.note(|notes| notes.write(&Record::ObjectActive(notes.number(id)?, active)));
         Ok(())
@@ -59,25 +58,22 @@ impl Scene {
     /// # Errors
     /// As [`Scene::set_pair_active`].
     pub fn is_pair_active(&self, id1: ObjectId, id2: ObjectId) -> Result<bool> {
-        let (object1, object2) = self.ordered_pair(id1, id2)?;
-        Ok(self.tests(object1, object2))
+        let pair = self.ordered_pair(id1, id2)?;
+        let [object1, object2] = [self.objects.get(pair[0])?, self.objects.get(pair[1])?];
+        Ok(self.proxies.may_meet(object1.first_proxy as usize, object2.first_proxy as usize)
+            && self.activation.is_active(pair, [object1.activation, object2.activation]))
     }
 
     /// Two different objects, the earlier created first.
-    fn ordered_pair(&self, id1: ObjectId, id2: ObjectId) -> Result<(&Object, &Object)> {
-        let (object1, object2) = (self.objects.get(id1)?, self.objects.get(id2)?);
-        match object1.first_proxy.cmp(&object2.first_proxy) {
-            std::cmp::Ordering::Less => Ok((object1, object2)),
+    fn ordered_pair(&self, id1: ObjectId, id2: ObjectId) -> Result<[ObjectId; 2]> {
+        let [first1, first2] = [self.objects.get(id1)?.first_proxy, self.objects.get(id2)?.first_proxy];
+        match first1.cmp(&first2) {
+            std::cmp::Ordering::Less => Ok([id1, id2]),
             std::cmp::Ordering::Equal => {
                 Err(Error::Argument(format!("object {id1} is given twice: an object makes no pair with itself")))
             }
-            std::cmp::Ordering::Greater => Ok((object2, object1)),
+            std::cmp::Ordering::Greater => Ok([id2, id1]),
         }
-    }
-
-    /// Whether queries test the pair, the earlier created object first.
-    fn tests(&self, object1: &Object, object2: &Object) -> bool {
-        object1.may_meet(object2) && self.activation.is_active(object1, object2)
     }
 
     // --- A program's own word ----------------------------------------------------------------------------------------------------
@@ -170,7 +166,7 @@ impl Scene {
                 self.broad_phase.update(&mut self.proxies, tolerance, testing)?;
             }
             Some(given) => {
-                let rows = |id: ObjectId| objects.get(id).map_or(0..0, Object::proxies);
+                let rows = |id: ObjectId| objects.get(id).map_or(0..0, Entry::proxies);
                 let pieces = |&[id1, id2]: &[ObjectId; 2]| (rows(id1), rows(id2));
                 self.broad_phase.take(&mut self.proxies, given.iter().map(pieces), testing)?;
             }
@@ -178,8 +174,7 @@ impl Scene {
         if self.proxies.has_many_gone()
             && let Some(numbers) = self.broad_phase.renumber(&mut self.proxies)
         {
-            let renumber = |object: &mut Object| object.first_proxy = numbers[object.first_proxy as usize];
-            self.objects.for_each_mut(renumber);
+            self.objects.renumber(&numbers);
         }
         Ok(())
     }
@@ -249,8 +244,9 @@ fn is_active(objects: &ObjectTable, activation: &Activation, labels: [&Label; 2]
     if !activation.says_no() {
         return true;
     }
-    match labels.map(|label| objects.get(label.object)) {
-        [Ok(object1), Ok(object2)] => activation.is_active(object1, object2),
+    let pair = labels.map(|label| label.object);
+    match pair.map(|id| objects.get(id)) {
+        [Ok(object1), Ok(object2)] => activation.is_active(pair, [object1.activation, object2.activation]),
         _ => false,
     }
 }

@@ -16,6 +16,7 @@ mod query;
 mod statistics;
 mod boxes;
 mod proxies;
+mod object_view;
 mod contacts;
 mod broad_phase;
 mod narrow_phase;
@@ -30,7 +31,9 @@ mod replay;
 
 use std::sync::Arc;
 
-use crate::base::error::{Error, Result, check_range};
+#[cfg(doc)]
+use crate::base::error::Error;
+use crate::base::error::{Result, check_range};
 #[cfg(doc)]
 use crate::base::math::Pose;
 use crate::base::math::ROTATION_LIMIT;
@@ -44,7 +47,8 @@ use crate::scene::broad_phase::BroadPhase;
 use crate::scene::contacts::Details;
 use crate::scene::events::Events;
 use crate::scene::narrow_phase::{Before, Findings};
-use crate::scene::object::{Object, ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::object::{ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::object_view::Objects;
 use crate::scene::proxies::{Label, NewProxy, Proxies};
 use crate::scene::recording::Recording;
 use crate::scene::recording::format::Record;
@@ -54,6 +58,7 @@ use crate::shape::Shape;
 pub use crate::pair::Query;
 pub use events::{ObjectPair, SceneEvents};
 pub use filters::PairFilter;
+pub use object_view::Object;
 pub use query::{Contact, ContactDetail, PairResult, SceneAnswer, SceneContacts, SceneQuery};
 pub use replay::{Replay, ReplayAnswer, ReplayStep};
 pub use statistics::SceneStatistics;
@@ -171,22 +176,16 @@ impl Scene {
     }
 
     fn insert(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
-        if pieces.is_empty() {
-            return Err(Error::Argument("an object needs at least one piece".into()));
-        }
-        if u32::try_from(pieces.len()).is_err() {
-            return Err(Error::Limit(format!("{} pieces do not fit 32 bits", pieces.len())));
-        }
         with_default(|| options.pose.check(self.rotation_limit))?;
         self.proxies.reserve(pieces.len())?;
         self.broad_phase.reserve(pieces.len())?;
-        let id = self.objects.insert(pieces, options, self.proxies.len() as u32)?;
-        let object = self.objects.get_mut(id)?;
-        self.activation.set_object(object, true);
-        for (piece, shape) in (0..).zip(&object.pieces) {
+        let first = self.proxies.len();
+        let id = self.objects.insert(first..first + pieces.len())?;
+        self.activation.set_object(&mut self.objects.get_mut(id)?.activation, true);
+        for (piece, shape) in (0..).zip(pieces) {
             let ObjectOptions { user_data, fixed, groups, mask, .. } = *options;
             let label = Label { object: id, user_data, piece, fixed, groups, mask };
-            self.proxies.push(NewProxy { shape: shape.clone(), pose: options.pose, label });
+            self.proxies.push(NewProxy { shape, pose: options.pose, label });
             self.broad_phase.push();
         }
         Ok(id)
@@ -199,10 +198,10 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Limit`] when there are no ids left,
     /// [`Error::Memory`]. Nothing is added then.
     pub fn copy_object(&mut self, id: ObjectId) -> Result<ObjectId> {
-        let original = self.objects.get(id)?;
+        let original = self.object(id)?;
         let options = original.options();
-        let piece_poses = copied(&original.piece_poses)?;
-        let copy = self.insert(copied(&original.pieces)?, &options)?;
+        let piece_poses = copied(original.piece_poses())?;
+        let copy = self.insert(copied(original.pieces())?, &options)?;
         self.put_pieces(copy, piece_poses)?;
         self.note(|notes| notes.write(&Record::Copy(notes.number(id)?)));
         Ok(copy)
@@ -215,9 +214,8 @@ impl Scene {
     pub fn remove_object(&mut self, id: ObjectId) -> Result<()> {
         self.objects.get(id)?;
         self.note(|notes| notes.write(&Record::Remove(notes.number(id)?)));
-        let object = self.objects.get(id)?;
-        for proxy in object.proxies() {
-            self.broad_phase.take_out(proxy, object.fixed);
+        for proxy in self.objects.get(id)?.proxies() {
+            self.broad_phase.take_out(proxy, self.proxies.labels[proxy].fixed);
             self.proxies.end(proxy);
         }
         self.objects.remove(id)
@@ -227,13 +225,17 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
-    pub fn object(&self, id: ObjectId) -> Result<&Object> {
-        self.objects.get(id)
+    pub fn object(&self, id: ObjectId) -> Result<Object<'_>> {
+        self.view().get(id)
     }
 
     /// All objects in order of creation.
-    pub fn objects(&self) -> impl Iterator<Item = &Object> {
-        self.objects.iter()
+    pub fn objects(&self) -> impl Iterator<Item = Object<'_>> {
+        self.view().iter()
+    }
+
+    fn view(&self) -> Objects<'_> {
+        Objects { table: &self.objects, proxies: &self.proxies }
     }
 
     /// The number of objects.
@@ -246,12 +248,10 @@ impl Scene {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_fixed(&mut self, id: ObjectId, fixed: bool) -> Result<()> {
-        let object = self.objects.get_mut(id)?;
-        let was_fixed = std::mem::replace(&mut object.fixed, fixed);
-        if fixed != was_fixed {
-            for proxy in object.proxies() {
+        for proxy in self.objects.get(id)?.proxies() {
+            let was_fixed = std::mem::replace(&mut self.proxies.labels[proxy].fixed, fixed);
+            if fixed != was_fixed {
                 self.broad_phase.take_out(proxy, was_fixed);
-                self.proxies.labels[proxy].fixed = fixed;
                 self.proxies.look_for_pairs_of(proxy);
             }
         }
@@ -264,11 +264,10 @@ impl Scene {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_filter(&mut self, id: ObjectId, groups: u32, mask: u32) -> Result<()> {
-        let object = self.objects.get_mut(id)?;
-        if (object.groups, object.mask) != (groups, mask) {
-            (object.groups, object.mask) = (groups, mask);
-            for proxy in object.proxies() {
-                (self.proxies.labels[proxy].groups, self.proxies.labels[proxy].mask) = (groups, mask);
+        for proxy in self.objects.get(id)?.proxies() {
+            let label = &mut self.proxies.labels[proxy];
+            if (label.groups, label.mask) != (groups, mask) {
+                (label.groups, label.mask) = (groups, mask);
                 self.proxies.look_for_pairs_of(proxy);
             }
         }
@@ -281,9 +280,7 @@ impl Scene {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_user_data(&mut self, id: ObjectId, user_data: u64) -> Result<()> {
-        let object = self.objects.get_mut(id)?;
-        object.user_data = user_data;
-        for proxy in object.proxies() {
+        for proxy in self.objects.get(id)?.proxies() {
             self.proxies.labels[proxy].user_data = user_data;
         }
         self.note(|notes| notes.write(&Record::UserData(notes.number(id)?, user_data)));

@@ -270,8 +270,7 @@ impl Pass<'_> {
             statistics.count_settled(Settled::Unmoved);
             return Look::Settled;
         }
-        let inner = self.proxies.inner[a] + self.proxies.inner[b];
-        if self.verdict_only && overlap_inside(spheres1, spheres2, inner) { Look::Intersects } else { Look::Test }
+        if self.verdict_only && overlap_inside(spheres1, spheres2) { Look::Intersects } else { Look::Test }
     }
 
     /// Adds the pair's result if it is listed; true if the query is to stop there.

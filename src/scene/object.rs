@@ -4,14 +4,13 @@
 //! changes with every reuse of a slot, so an id outlives its object without ever naming another one.
 
 use std::fmt;
+use std::num::NonZeroU32;
 use std::ops::Range;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
-use crate::base::memory::reserve;
-use crate::shape::Shape;
+use crate::base::memory::reserve_sparingly;
 
 const SLOT_BITS: u32 = 24;
 const GENERATION_BITS: u32 = 20;
@@ -103,102 +102,44 @@ impl Stamp {
     }
 }
 
-/// One or several convex pieces that move together.
-#[derive(Debug, Clone)]
-pub struct Object {
-    /// Convex pieces in one local frame, shared; at least one. They are never tested against each other.
-    pub(crate) pieces: Vec<Arc<Shape>>,
-    pub(crate) pose: Pose,
-    /// Where each piece is in the object; none where all are at its origin.
-    pub(crate) piece_poses: Vec<Pose>,
-    pub(crate) fixed: bool,
-    pub(crate) user_data: u64,
-    pub(crate) groups: u32,
-    pub(crate) mask: u32,
-    /// The last word on the activation of its pairs.
-    pub(crate) activation: Stamp,
+/// What the table knows of an object. The rest is in the rows of its pieces.
+#[derive(Debug)]
+pub(crate) struct Entry {
     /// The first of its rows among the scene's proxies, one for each piece.
-    pub(crate) first_proxy: u32,
+    pub first_proxy: u32,
+    piece_count: NonZeroU32,
+    /// The last word on the activation of its pairs.
+    pub activation: Stamp,
     /// How many objects the scene had created before this one.
     serial: u64,
-    /// Where it stands in the table's order of creation.
-    place: u32,
-    id: ObjectId,
+    /// None where all pieces are at its origin: the pose is that of each piece then.
+    pub arrangement: Option<Box<Arrangement>>,
 }
 
-impl Object {
-    /// Its id.
-    pub fn id(&self) -> ObjectId {
-        self.id
-    }
+/// Where an object is, and each of its pieces in it.
+#[derive(Debug, Clone)]
+pub(crate) struct Arrangement {
+    pub pose: Pose,
+    pub piece_poses: Vec<Pose>,
+}
 
-    /// Its convex pieces.
-    pub fn pieces(&self) -> &[Arc<Shape>] {
-        &self.pieces
-    }
-
-    /// Where it stands.
-    pub fn pose(&self) -> &Pose {
-        &self.pose
-    }
-
-    /// Where a piece is in the object.
-    ///
-    /// # Panics
-    /// Without such a piece.
-    pub fn piece_pose(&self, piece: usize) -> &Pose {
-        assert!(piece < self.pieces.len(), "piece {piece} of {}", self.pieces.len());
-        self.piece_poses.get(piece).unwrap_or(&Pose::IDENTITY)
-    }
-
-    /// Where a piece is in the world: the pose for which queries answer.
-    ///
-    /// # Panics
-    /// Without such a piece.
-    pub fn piece_pose_in_world(&self, piece: usize) -> Pose {
-        if self.piece_poses.is_empty() { self.pose } else { composed(&self.pose, self.piece_pose(piece)) }
-    }
-
-    /// What it was made of, but for the pieces.
-    pub(crate) fn options(&self) -> ObjectOptions {
-        let Object { pose, fixed, user_data, groups, mask, .. } = *self;
-        ObjectOptions { pose, fixed, user_data, groups, mask }
-    }
-
-    /// Whether the two may make a pair, activation and the program's filter aside.
-    pub(crate) fn may_meet(&self, other: &Object) -> bool {
-        !(self.fixed && other.fixed) && self.groups & other.mask != 0 && other.groups & self.mask != 0
-    }
-
-    /// The groups it is in.
-    pub fn groups(&self) -> u32 {
-        self.groups
-    }
-
-    /// The groups it is tested against.
-    pub fn mask(&self) -> u32 {
-        self.mask
-    }
-
-    /// Whether it is fixed.
-    pub fn fixed(&self) -> bool {
-        self.fixed
-    }
-
-    /// The caller's own number.
-    pub fn user_data(&self) -> u64 {
-        self.user_data
-    }
-
+impl Entry {
     /// Its place in the order of creation, for ever.
-    pub(crate) fn serial(&self) -> u64 {
+    pub fn serial(&self) -> u64 {
         self.serial
     }
 
     /// Its rows among the scene's proxies.
-    pub(crate) fn proxies(&self) -> Range<usize> {
+    pub fn proxies(&self) -> Range<usize> {
         let first = self.first_proxy as usize;
-        first..first + self.pieces.len()
+        first..first + self.piece_count.get() as usize
+    }
+}
+
+impl Arrangement {
+    /// Where a piece is in the world.
+    pub fn in_world(&self, piece: usize) -> Pose {
+        composed(&self.pose, &self.piece_poses[piece])
     }
 }
 
@@ -211,24 +152,34 @@ pub(crate) fn composed(outer: &Pose, inner: &Pose) -> Pose {
 struct Slot {
     /// That of the object in it, or of the last one; 0 before the first.
     generation: u32,
-    object: Option<Object>,
+    holds: Holds,
 }
 
-/// The objects of one scene, by id and in order of creation.
+#[derive(Debug)]
+enum Holds {
+    Object(Entry),
+    /// Nothing, and after it `next` is the slot to be used again, or [`NONE`].
+    Nothing {
+        next: u32,
+    },
+}
+
+/// The objects of one scene, by id.
 #[derive(Debug)]
 pub(crate) struct ObjectTable {
     scene: u32,
     slots: Vec<Slot>,
-    /// Slots to be used again, the last one first; with room for all slots, so that removing needs no memory.
-    free: Vec<u32>,
-    /// Slots of the objects in order of creation, [`GONE`] in the places of those removed.
-    order: Vec<u32>,
+    /// The slot to be used again, or [`NONE`]: the one emptied last.
+    free: u32,
     count: usize,
     created: u64,
 }
 
 /// No slot.
-const GONE: u32 = u32::MAX;
+const NONE: u32 = u32::MAX;
+
+/// Numbers of proxies leave one bit of 32 to the trees.
+const MOST_PROXIES: usize = 1 << 31;
 
 impl ObjectTable {
     pub(crate) fn new() -> ObjectTable {
@@ -236,54 +187,45 @@ impl ObjectTable {
         let count = SCENES.fetch_add(1, Ordering::Relaxed);
         // Tags repeat after 2²⁰ − 1 scenes; zero is left to the null id.
         let scene = (count % ((1 << SCENE_BITS) - 1)) as u32 + 1;
-        ObjectTable { scene, slots: Vec::new(), free: Vec::new(), order: Vec::new(), count: 0, created: 0 }
+        ObjectTable { scene, slots: Vec::new(), free: NONE, count: 0, created: 0 }
     }
 
-    /// Adds an object; the caller has checked the pieces and the pose.
+    /// Adds an object, whose pieces have these rows.
     ///
     /// # Errors
-    /// [`Error::Limit`] when there are no ids left, [`Error::Memory`]; nothing is added then.
-    pub(crate) fn insert(
-        &mut self,
-        pieces: Vec<Arc<Shape>>,
-        options: &ObjectOptions,
-        first_proxy: u32,
-    ) -> Result<ObjectId> {
-        reserve(&mut self.order, 1)?;
-        let slot = match self.free.pop() {
-            Some(slot) => slot as usize,
-            None if self.slots.len() < 1 << SLOT_BITS => {
-                reserve(&mut self.slots, 1)?;
-                reserve(&mut self.free, self.slots.len() + 1)?;
-                self.slots.push(Slot { generation: 0, object: None });
-                self.slots.len() - 1
-            }
-            None => {
-                return Err(Error::Limit(format!("a scene holds at most {} objects", 1 << SLOT_BITS)));
-            }
+    /// [`Error::Argument`] without rows, [`Error::Limit`] when there are no ids left, [`Error::Memory`]; nothing is added then.
+    pub(crate) fn insert(&mut self, proxies: Range<usize>) -> Result<ObjectId> {
+        if proxies.end > MOST_PROXIES {
+            return Err(Error::Limit(format!("a scene holds at most {MOST_PROXIES} pieces")));
+        }
+        let first_proxy = proxies.start as u32;
+        let Some(piece_count) = NonZeroU32::new(proxies.len() as u32) else {
+            return Err(Error::Argument("an object needs at least one piece".into()));
         };
-        self.slots[slot].generation += 1;
-        let id = ObjectId::new(slot, self.slots[slot].generation, self.scene);
-        let ObjectOptions { pose, fixed, user_data, groups, mask } = *options;
-        let (activation, place) = (Stamp::default(), self.order.len() as u32);
-        self.slots[slot].object = Some(Object {
-            pieces,
-            pose,
-            piece_poses: Vec::new(),
-            fixed,
-            user_data,
-            groups,
-            mask,
-            activation,
-            first_proxy,
-            serial: self.created,
-            place,
-            id,
-        });
+        let slot = self.empty_slot()?;
+        let Slot { generation, holds } = &mut self.slots[slot];
+        if let Holds::Nothing { next } = *holds {
+            self.free = next;
+        }
+        *generation += 1;
+        let (activation, serial) = (Stamp::default(), self.created);
+        *holds = Holds::Object(Entry { first_proxy, piece_count, activation, serial, arrangement: None });
         self.count += 1;
         self.created += 1;
-        self.order.push(slot as u32);
-        Ok(id)
+        Ok(ObjectId::new(slot, *generation, self.scene))
+    }
+
+    /// The next to be used.
+    fn empty_slot(&mut self) -> Result<usize> {
+        if self.free == NONE {
+            if self.slots.len() == 1 << SLOT_BITS {
+                return Err(Error::Limit(format!("a scene holds at most {} objects", 1 << SLOT_BITS)));
+            }
+            reserve_sparingly(&mut self.slots, 1)?;
+            self.free = self.slots.len() as u32;
+            self.slots.push(Slot { generation: 0, holds: Holds::Nothing { next: NONE } });
+        }
+        Ok(self.free as usize)
     }
 
     /// Removes an object; its id is stale from now on.
@@ -291,46 +233,41 @@ impl ObjectTable {
     /// # Errors
     /// [`Error::Handle`] as [`ObjectTable::get`].
     pub(crate) fn remove(&mut self, id: ObjectId) -> Result<()> {
-        let place = self.get(id)?.place as usize;
-        let slot = id.slot();
-        self.order[place] = GONE;
+        self.get(id)?;
         self.count -= 1;
-        self.slots[slot].object = None;
-        // Seldom enough that removing one takes constant time on average.
-        if self.order.len() > 2 * self.count + 64 {
-            self.close_gaps();
-        }
-        if self.slots[slot].generation < LAST_GENERATION {
-            self.free.push(slot as u32);
+        let Slot { generation, holds } = &mut self.slots[id.slot()];
+        *holds = Holds::Nothing { next: self.free };
+        if *generation < LAST_GENERATION {
+            self.free = id.slot() as u32;
         }
         Ok(())
-    }
-
-    fn close_gaps(&mut self) {
-        self.order.retain(|&slot| slot != GONE);
-        for (place, &slot) in (0..).zip(&self.order) {
-            if let Some(object) = &mut self.slots[slot as usize].object {
-                object.place = place;
-            }
-        }
     }
 
     /// The object of an id.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
-    pub(crate) fn get(&self, id: ObjectId) -> Result<&Object> {
-        match self.slots.get(id.slot()).and_then(|slot| slot.object.as_ref()) {
-            Some(object) if object.id == id => Ok(object),
+    #[inline]
+    pub(crate) fn get(&self, id: ObjectId) -> Result<&Entry> {
+        match self.slots.get(id.slot()) {
+            Some(Slot { generation, holds: Holds::Object(entry) }) if self.is_id(id, *generation) => Ok(entry),
             _ => Err(self.refusal(id)),
         }
     }
 
     /// As [`ObjectTable::get`], for changing it.
-    pub(crate) fn get_mut(&mut self, id: ObjectId) -> Result<&mut Object> {
+    pub(crate) fn get_mut(&mut self, id: ObjectId) -> Result<&mut Entry> {
         // The shared borrow ends before the exclusive one begins; a match on the exclusive one would hold it too long.
         self.get(id)?;
-        self.slots[id.slot()].object.as_mut().ok_or_else(|| Error::Bug(format!("object id {id} has no object")))
+        match &mut self.slots[id.slot()].holds {
+            Holds::Object(entry) => Ok(entry),
+            Holds::Nothing { .. } => Err(Error::Bug(format!("object id {id} has no object"))),
+        }
+    }
+
+    /// Whether an id is that of the object in its slot, which has this generation.
+    fn is_id(&self, id: ObjectId, generation: u32) -> bool {
+        (id.generation(), id.scene()) == (generation, self.scene)
     }
 
     /// Why an id that names no object of this scene does not.
@@ -347,16 +284,11 @@ impl ObjectTable {
         })
     }
 
-    /// The objects in order of creation.
-    pub(crate) fn iter(&self) -> impl Iterator<Item = &Object> + Clone {
-        self.order.iter().filter_map(|&slot| self.slots.get(slot as usize)?.object.as_ref())
-    }
-
-    /// The objects in order of creation, for changing them.
-    pub(crate) fn for_each_mut(&mut self, mut change: impl FnMut(&mut Object)) {
-        for &slot in &self.order {
-            if let Some(Slot { object: Some(object), .. }) = self.slots.get_mut(slot as usize) {
-                change(object);
+    /// Numbers the proxies anew: number k of old becomes `numbers[k]`.
+    pub(crate) fn renumber(&mut self, numbers: &[u32]) {
+        for slot in &mut self.slots {
+            if let Holds::Object(entry) = &mut slot.holds {
+                entry.first_proxy = numbers[entry.first_proxy as usize];
             }
         }
     }
@@ -376,7 +308,7 @@ impl ObjectTable {
 mod tests {
     use super::*;
 
-    /// A table with `count` objects that have no pieces: the table does not look at them.
+    /// A table with `count` objects of a piece each.
     fn table(count: usize) -> (ObjectTable, Vec<ObjectId>) {
         let mut table = ObjectTable::new();
         let ids = (0..count).map(|_| insert(&mut table)).collect();
@@ -384,7 +316,8 @@ mod tests {
     }
 
     fn insert(table: &mut ObjectTable) -> ObjectId {
-        table.insert(Vec::new(), &ObjectOptions::default(), 0).unwrap()
+        let row = table.len();
+        table.insert(row..row + 1).unwrap()
     }
 
     fn message(table: &ObjectTable, id: ObjectId) -> String {
@@ -400,7 +333,7 @@ mod tests {
         for id in ids {
             assert_ne!(id.to_bits(), 0);
             assert_eq!(ObjectId::from_bits(id.to_bits()), id);
-            assert_eq!(table.get(id).unwrap().id(), id);
+            assert!(table.get(id).is_ok());
         }
         assert_eq!(ObjectId::default(), ObjectId::NULL);
     }
@@ -423,26 +356,25 @@ mod tests {
     }
 
     #[test]
-    fn a_slot_used_again_gives_another_id_and_the_last_place_in_order() {
-        let (mut table, ids) = table(3);
-        table.remove(ids[0]).unwrap();
-        let again = insert(&mut table);
-        assert_eq!(again.slot(), ids[0].slot());
-        assert_ne!(again, ids[0]);
-        assert!(message(&table, ids[0]).contains("stale"));
-        let order: Vec<ObjectId> = table.iter().map(Object::id).collect();
-        assert_eq!(order, [ids[1], ids[2], again]);
+    fn slots_are_used_again_the_one_emptied_last_first() {
+        let (mut table, ids) = table(4);
+        for k in [0, 2, 1] {
+            table.remove(ids[k]).unwrap();
+        }
+        for k in [1, 2, 0] {
+            let again = insert(&mut table);
+            assert_eq!(again.slot(), ids[k].slot());
+            assert_ne!(again, ids[k]);
+            assert!(message(&table, ids[k]).contains("stale"));
+        }
+        assert_eq!((insert(&mut table).slot(), table.len(), table.created()), (4, 5, 8));
     }
 
     #[test]
-    fn a_table_emptied_object_by_object_keeps_its_order_and_no_gaps() {
-        let (mut table, mut ids) = table(500);
-        while ids.len() > 3 {
-            table.remove(ids.remove(ids.len() * 7 / 11)).unwrap();
-            let order: Vec<ObjectId> = table.iter().map(Object::id).collect();
-            assert_eq!((order, table.len()), (ids.clone(), ids.len()));
-            assert!(table.order.len() <= 2 * ids.len() + 64);
-        }
+    fn an_object_without_pieces_is_refused() {
+        let mut table = ObjectTable::new();
+        assert!(matches!(table.insert(3..3), Err(Error::Argument(_))));
+        assert_eq!((table.len(), insert(&mut table).slot()), (0, 0));
     }
 
     #[test]

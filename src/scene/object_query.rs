@@ -10,7 +10,7 @@ use crate::base::memory::{collected, filled, push};
 use crate::pair::{PairCache, Query};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing};
 use crate::scene::narrow_phase::Own;
-use crate::scene::object::{Object, ObjectId};
+use crate::scene::object::ObjectId;
 use crate::scene::proxies::{Label, NewProxy};
 use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::scene::recording::format::Subject;
@@ -55,7 +55,7 @@ impl Scene {
         let own = self.objects.get(id)?.proxies();
         let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
         let mut pairs = Vec::new();
-        for other in objects.iter().map(Object::proxies) {
+        for other in self.proxies.of_objects() {
             let [one, other] = if other.start < own.start { [other, own.clone()] } else { [own.clone(), other] };
             for a in one {
                 for b in other.clone() {

@@ -5,7 +5,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::filled;
 use crate::base::simd::environment::with_default;
-use crate::scene::object::{Object, ObjectId, composed};
+use crate::scene::object::{Arrangement, Entry, ObjectId, composed};
 use crate::scene::proxies::Proxies;
 use crate::scene::recording::format::Record;
 
@@ -58,26 +58,28 @@ impl Scene {
     /// [`Error::Argument`] unless there is one pose for each, [`Error::Pose`] for a pose that is not accepted; all objects then
     /// stay where they are.
     pub fn set_all_poses(&mut self, poses: &[Pose]) -> Result<()> {
-        let moving = || self.objects.iter().filter(|object| !object.fixed);
-        let count = moving().count();
+        let count = self.objects().filter(|object| !object.fixed()).count();
         if poses.len() != count {
             return Err(Error::Argument(format!("{} poses for {count} objects that are not fixed", poses.len())));
         }
-        for (k, (object, pose)) in moving().zip(poses).enumerate() {
-            with_default(|| check(object, pose, self.rotation_limit))
+        let moving = self.objects().filter(|object| !object.fixed());
+        for (k, (object, pose)) in moving.zip(poses).enumerate() {
+            with_default(|| check(object.entry, pose, self.rotation_limit))
                 .map_err(|e| in_pose(&format!("pose {k} of {count}"), &e))?;
         }
-        let mut next = poses.iter();
-        let (proxies, passes) = (&mut self.proxies, self.passes);
+        let passes = self.passes;
         with_default(|| {
-            self.objects.for_each_mut(|object| {
-                if !object.fixed
-                    && let Some(pose) = next.next()
-                {
-                    place(object, pose, pose.rotation_defect(), proxies, passes);
+            let mut proxy = 0;
+            for pose in poses {
+                while !self.proxies.leads_movable(proxy) {
+                    proxy += 1;
                 }
-            });
-        });
+                let object = self.objects.get_mut(self.proxies.labels[proxy].object)?;
+                place(object, pose, pose.rotation_defect(), &mut self.proxies, passes);
+                proxy += 1;
+            }
+            Ok(())
+        })?;
         self.note(|notes| notes.write(&Record::AllPoses(poses.into())));
         Ok(())
     }
@@ -92,19 +94,24 @@ impl Scene {
     /// where it is.
     pub fn set_piece_pose(&mut self, id: ObjectId, piece: u32, pose: &Pose) -> Result<()> {
         let object = self.objects.get_mut(id)?;
-        let (at, count) = (piece as usize, object.pieces.len());
-        if at >= count {
-            return Err(Error::Argument(format!("piece {piece} of an object of {count} pieces")));
+        let (own, at) = (object.proxies(), piece as usize);
+        if at >= own.len() {
+            return Err(Error::Argument(format!("piece {piece} of an object of {} pieces", own.len())));
         }
         let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
         with_default(|| {
             pose.check(limit)?;
-            let defect = composed(&object.pose, pose).checked_defect(limit)?;
-            if object.piece_poses.is_empty() {
-                object.piece_poses = filled(Pose::IDENTITY, count)?;
-            }
-            object.piece_poses[at] = *pose;
-            proxies.place(object.proxies().start + at, &object.piece_pose_in_world(at), defect, passes);
+            let whole = object.arrangement.as_ref().map_or(proxies.poses[own.start], |arrangement| arrangement.pose);
+            let world = composed(&whole, pose);
+            let defect = world.checked_defect(limit)?;
+            let arrangement = match &mut object.arrangement {
+                Some(arrangement) => arrangement,
+                none => {
+                    none.insert(Box::new(Arrangement { pose: whole, piece_poses: filled(Pose::IDENTITY, own.len())? }))
+                }
+            };
+            arrangement.piece_poses[at] = *pose;
+            proxies.place(own.start + at, &world, defect, passes);
             Ok(())
         })?;
         self.note(|notes| notes.write(&Record::PiecePose { object: notes.number(id)?, piece, pose: *pose }));
@@ -113,10 +120,13 @@ impl Scene {
 
     /// Gives an object the piece poses of another one, none or one for each piece, which were accepted with its pose.
     pub(super) fn put_pieces(&mut self, id: ObjectId, piece_poses: Vec<Pose>) -> Result<()> {
+        if piece_poses.is_empty() {
+            return Ok(());
+        }
         let object = self.objects.get_mut(id)?;
-        object.piece_poses = piece_poses;
         let (proxies, passes) = (&mut self.proxies, self.passes);
-        let pose = object.pose;
+        let pose = proxies.poses[object.first_proxy as usize];
+        object.arrangement = Some(Box::new(Arrangement { pose, piece_poses }));
         with_default(|| place(object, &pose, pose.rotation_defect(), proxies, passes));
         Ok(())
     }
@@ -127,24 +137,28 @@ fn in_pose(which: &str, error: &Error) -> Error {
 }
 
 /// Refuses a pose that is not accepted, also of one of the pieces, for which the rotation of both is rounded; gives its defect.
-fn check(object: &Object, pose: &Pose, limit: f64) -> Result<f64> {
+fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
     let defect = pose.checked_defect(limit)?;
-    for (k, piece_pose) in object.piece_poses.iter().enumerate() {
-        let world = composed(pose, piece_pose);
-        world.check(limit).map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;
+    if let Some(arrangement) = &object.arrangement {
+        for (k, piece_pose) in arrangement.piece_poses.iter().enumerate() {
+            let world = composed(pose, piece_pose);
+            world.check(limit).map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;
+        }
     }
     Ok(defect)
 }
 
 /// Puts all pieces of an object elsewhere. `defect` is that of the pose.
-fn place(object: &mut Object, pose: &Pose, defect: f64, proxies: &mut Proxies, passes: u64) {
-    object.pose = *pose;
-    for (k, proxy) in object.proxies().enumerate() {
-        if object.piece_poses.is_empty() {
-            proxies.place(proxy, pose, defect, passes);
-        } else {
-            let world = object.piece_pose_in_world(k);
-            proxies.place(proxy, &world, world.rotation_defect(), passes);
+fn place(object: &mut Entry, pose: &Pose, defect: f64, proxies: &mut Proxies, passes: u64) {
+    let own = object.proxies();
+    match &mut object.arrangement {
+        None => own.for_each(|proxy| proxies.place(proxy, pose, defect, passes)),
+        Some(arrangement) => {
+            arrangement.pose = *pose;
+            for (k, proxy) in own.enumerate() {
+                let world = arrangement.in_world(k);
+                proxies.place(proxy, &world, world.rotation_defect(), passes);
+            }
         }
     }
 }

@@ -1,12 +1,13 @@
 //! What the scene knows of each placed convex piece: one row of several arrays, in the order of results. Spheres, boxes and bounds
 //! of motion err on the safe side.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{reserve, with_capacity};
-use crate::scene::boxes::Aabb;
+use crate::base::memory::{reserve_sparingly, with_capacity};
+use crate::scene::boxes::{Aabb, above, below};
 use crate::scene::object::ObjectId;
 use crate::shape::Shape;
 
@@ -32,8 +33,10 @@ const TINY: f64 = 1e-150;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spheres {
     pub centre: [f64; 3],
-    /// Rounded up.
-    pub outer: f64,
+    /// Radius, rounded up.
+    pub outer: f32,
+    /// Radius, rounded down; −∞ where there is none.
+    pub inner: f32,
 }
 
 /// How a piece has moved.
@@ -81,8 +84,6 @@ pub(crate) struct Proxies {
     pub shapes: Vec<Arc<Shape>>,
     pub poses: Vec<Pose>,
     pub spheres: Vec<Spheres>,
-    /// Radii of balls about the same centres that are in the pieces, rounded down; −∞ where none is.
-    pub inner: Vec<f64>,
     pub motions: Vec<Motion>,
     pub boxes: Vec<Aabb>,
     pub labels: Vec<Label>,
@@ -103,26 +104,24 @@ impl Proxies {
 
     /// Room for `count` more.
     pub fn reserve(&mut self, count: usize) -> Result<()> {
-        reserve(&mut self.shapes, count)?;
-        reserve(&mut self.poses, count)?;
-        reserve(&mut self.spheres, count)?;
-        reserve(&mut self.inner, count)?;
-        reserve(&mut self.motions, count)?;
-        reserve(&mut self.boxes, count)?;
-        reserve(&mut self.labels, count)?;
-        reserve(&mut self.firsts, count)?;
+        reserve_sparingly(&mut self.shapes, count)?;
+        reserve_sparingly(&mut self.poses, count)?;
+        reserve_sparingly(&mut self.spheres, count)?;
+        reserve_sparingly(&mut self.motions, count)?;
+        reserve_sparingly(&mut self.boxes, count)?;
+        reserve_sparingly(&mut self.labels, count)?;
+        reserve_sparingly(&mut self.firsts, count)?;
         // Each stands there at most once.
         let room = self.labels.len() + count - self.escaped.len();
-        reserve(&mut self.escaped, room)
+        reserve_sparingly(&mut self.escaped, room)
     }
 
     /// Adds a piece for which there is room.
     pub fn push(&mut self, new: NewProxy) {
-        let (spheres, inner, rigid) = placed(&new.shape, &new.pose, new.pose.rotation_defect());
+        let (spheres, rigid) = placed(&new.shape, &new.pose, new.pose.rotation_defect());
         self.shapes.push(new.shape);
         self.poses.push(new.pose);
         self.spheres.push(spheres);
-        self.inner.push(inner);
         self.motions.push(Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false });
         self.boxes.push(Aabb::EVERYWHERE);
         self.firsts.push(self.labels.len() as u32 - new.label.piece);
@@ -144,7 +143,6 @@ impl Proxies {
         self.shapes.pop();
         self.poses.pop();
         self.spheres.pop();
-        self.inner.pop();
         self.motions.pop();
         self.boxes.pop();
         self.labels.pop();
@@ -164,6 +162,24 @@ impl Proxies {
             motion.has_escaped = true;
             self.escaped.push(proxy as u32);
         }
+    }
+
+    /// The objects in order of creation.
+    pub fn objects(&self) -> impl Iterator<Item = ObjectId> {
+        let is_first = |label: &&Label| label.piece == 0 && label.object != ObjectId::NULL;
+        self.labels.iter().filter(is_first).map(|label| label.object)
+    }
+
+    /// The rows of each object, in order of creation.
+    pub fn of_objects(&self) -> impl Iterator<Item = Range<usize>> {
+        let ends = |first: usize| (first + 1..self.len()).find(|&k| self.labels[k].piece == 0).unwrap_or(self.len());
+        (0..self.len()).filter(|&k| self.labels[k].piece == 0 && !self.is_gone(k)).map(move |first| first..ends(first))
+    }
+
+    /// Whether it is the first piece of an object that is not fixed.
+    pub fn leads_movable(&self, proxy: usize) -> bool {
+        let label = &self.labels[proxy];
+        (label.piece == 0) & !label.fixed & !self.is_gone(proxy)
     }
 
     pub fn is_gone(&self, proxy: usize) -> bool {
@@ -186,7 +202,7 @@ impl Proxies {
         let shape = &self.shapes[proxy];
         let lever = shape.extent().lever;
         let motion = &mut self.motions[proxy];
-        let (spheres, inner, rigid) = placed(shape, pose, defect);
+        let (spheres, rigid) = placed(shape, pose, defect);
         let way = way_bound(&old, pose, lever, motion.rigid & rigid);
         motion.rigid = rigid;
         motion.moved = passes;
@@ -194,12 +210,11 @@ impl Proxies {
         motion.odometer = (motion.odometer + way).next_up();
         motion.rate = match (motion.rate, way as f32) {
             _ if motion.limit == NO_BOX => 0.0,
-            (rate, way) if rate == 0.0 || rate.max(way) > MOST_ROOM * spheres.outer as f32 => way,
+            (rate, way) if rate == 0.0 || rate.max(way) > MOST_ROOM * spheres.outer => way,
             (rate, way) => 0.75 * rate + 0.25 * way,
         };
         self.poses[proxy] = *pose;
         self.spheres[proxy] = spheres;
-        self.inner[proxy] = inner;
         // An infinite odometer is above every limit but an infinite one, which only boxes without end have.
         if motion.odometer > motion.limit {
             self.escape(proxy);
@@ -209,11 +224,11 @@ impl Proxies {
     /// Gives a piece a new box, which two pieces share if they are `tolerance` apart or less.
     pub fn refit(&mut self, proxy: usize, tolerance: f64) {
         let motion = &mut self.motions[proxy];
-        let Spheres { centre, outer } = self.spheres[proxy];
-        let most = MOST_ROOM * outer as f32;
+        let Spheres { centre, outer, .. } = self.spheres[proxy];
+        let most = MOST_ROOM * outer;
         let can_move = !self.labels[proxy].fixed;
         let room = match motion.rate {
-            0.0 if can_move => FIRST_ROOM * outer as f32,
+            0.0 if can_move => FIRST_ROOM * outer,
             rate if rate > most => 0.0,
             rate => (STEPS_OF_ROOM * rate).min(most),
         };
@@ -227,7 +242,7 @@ impl Proxies {
             (false, true) => limit,
             (false, false) => NO_BOX,
         };
-        let reach = self.shapes[proxy].extent().reach(&self.poses[proxy], outer);
+        let reach = self.shapes[proxy].extent().reach(&self.poses[proxy], outer.into());
         let centre_error = centre_error(&self.shapes[proxy], &self.poses[proxy]);
         self.boxes[proxy] = Aabb::around(centre, &reach, grown + centre_error);
     }
@@ -273,7 +288,6 @@ impl Proxies {
         keep(&mut self.shapes, stays);
         keep(&mut self.poses, stays);
         keep(&mut self.spheres, stays);
-        keep(&mut self.inner, stays);
         keep(&mut self.motions, stays);
         keep(&mut self.boxes, stays);
         self.labels = labels;
@@ -290,14 +304,14 @@ impl Proxies {
 ///
 /// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
 /// d ≤ 1e-2; d as computed is off by at most 4u.
-fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, f64, bool) {
+fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool) {
     let polyhedron = shape.polyhedron();
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
     let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
     let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
-    (Spheres { centre: centre.into(), outer }, inner, defect <= RIGID)
+    (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
 }
 
 /// How far rounding may move a placed body's centre T + R·c: three products and three sums in each component.
@@ -330,13 +344,14 @@ fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
 /// The squares are off by less than 8u of themselves; below [`TINY`] they may underflow.
 #[inline(always)]
 pub(crate) fn are_far_apart(one: &Spheres, other: &Spheres, tolerance: f64) -> bool {
-    let radii = (one.outer + other.outer + tolerance) * (1.0 + 16.0 * U) + TINY;
+    let radii = (f64::from(one.outer) + f64::from(other.outer) + tolerance) * (1.0 + 16.0 * U) + TINY;
     square_distance(one, other) > radii * radii
 }
 
 /// Whether balls in two pieces certainly overlap.
 #[inline(always)]
-pub(crate) fn overlap_inside(one: &Spheres, other: &Spheres, inner: f64) -> bool {
+pub(crate) fn overlap_inside(one: &Spheres, other: &Spheres) -> bool {
+    let inner = f64::from(one.inner) + f64::from(other.inner);
     inner > TINY && square_distance(one, other) * (1.0 + 32.0 * U) < inner * inner
 }
 

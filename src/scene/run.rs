@@ -12,7 +12,7 @@ use crate::pair::{self, PairCache, PairConfig, Query};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing, order};
 use crate::scene::contacts::Details;
 use crate::scene::narrow_phase::{BLOCK, Before, Findings, Own, Pass};
-use crate::scene::object::{Object, ObjectId};
+use crate::scene::object::ObjectId;
 use crate::scene::proxies::{Label, Proxies};
 use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::scene::recording::format::Subject;
@@ -107,7 +107,7 @@ impl Scene {
             }
         } else {
             let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
-            let rows = collected(objects.iter().map(Object::proxies))?;
+            let rows = collected(self.proxies.of_objects())?;
             ask_all(&pass, &rows, near, |labels| testing(objects, activation, filter, labels), &mut self.findings)?
         };
         self.statistics.add(&self.findings.statistics);

@@ -4,7 +4,7 @@
 use std::ops::Range;
 
 use crate::base::error::Result;
-use crate::base::memory::{extend, push, reserve};
+use crate::base::memory::{extend, push, reserve_sparingly};
 use crate::scene::boxes::Aabb;
 
 /// Fewer boxes are left to the tree.
@@ -22,16 +22,22 @@ const MOST_CELLS: f64 = 8.0;
 /// At most so many boxes share a cell, seen from a box, on average.
 const CROWD: usize = 8;
 
+/// Sides of so many boxes say which is the one in the middle of all.
+const ENOUGH_SIDES: usize = 1024;
+
+/// The cell of a box that is too large for the cells, of which there are fewer.
+const LARGE_ONE: u32 = u32::MAX;
+
 /// Boxes by cells. Cells are larger than every box in them, which is in that of its lower corner: boxes overlap only where their
 /// cells are the same or neighbours.
 #[derive(Debug, Default)]
 pub(crate) struct Grid {
-    /// Sides of boxes, for finding that of a cell.
+    /// Sides of some boxes, for finding that of a cell.
     sides: Vec<f64>,
     /// The proxies that are too large for the cells.
     pub large: Vec<u32>,
-    /// The others, each with its cell.
-    inside: Vec<(u32, u32)>,
+    /// The cell of each box, or [`LARGE_ONE`].
+    cells: Vec<u32>,
     /// The boxes of one cell after the other, with their proxies.
     sorted: Vec<(Aabb, u32)>,
     /// Where the boxes of each cell begin, and where the last one's end.
@@ -49,18 +55,15 @@ impl Grid {
         if proxies.len() < FEWEST {
             return Ok(false);
         }
-        self.sides.clear();
-        extend(&mut self.sides, proxies.iter().map(|&proxy| side(&boxes[proxy as usize])))?;
-        let (_, &mut median, _) = self.sides.select_nth_unstable_by(proxies.len() / 2, f64::total_cmp);
+        let most = LARGE * self.median_side(boxes, proxies)?;
+        // False for a NaN.
+        let is_inside = |bounds: &Aabb| side(bounds) <= most && side(bounds) < f64::INFINITY;
         self.large.clear();
-        self.inside.clear();
         let mut extent = Extent { lower: [f64::INFINITY; 3], upper: [f64::NEG_INFINITY; 3], cell: 0.0 };
         for &proxy in proxies {
             let bounds = &boxes[proxy as usize];
-            // False for a NaN.
-            if side(bounds) <= LARGE * median && side(bounds) < f64::INFINITY {
+            if is_inside(bounds) {
                 extent.add(bounds);
-                push(&mut self.inside, (0, proxy))?;
             } else {
                 push(&mut self.large, proxy)?;
             }
@@ -71,34 +74,50 @@ impl Grid {
             return Ok(false);
         }
         self.counts = counts.map(|count| count as usize);
-        for (cell, proxy) in &mut self.inside {
-            let [x, y, z] = extent.cell_of(&boxes[*proxy as usize]);
-            *cell = ((z * self.counts[1] + y) * self.counts[0] + x) as u32;
-        }
-        self.sort(boxes)
+        let [width, height, _] = self.counts;
+        let cell = |bounds: &Aabb| {
+            let [x, y, z] = extent.cell_of(bounds);
+            ((z * height + y) * width + x) as u32
+        };
+        let cells = proxies.iter().map(|&proxy| &boxes[proxy as usize]);
+        self.cells.clear();
+        extend(&mut self.cells, cells.map(|bounds| if is_inside(bounds) { cell(bounds) } else { LARGE_ONE }))?;
+        self.sort(boxes, proxies)
+    }
+
+    /// Of all boxes, or of a thousand or two.
+    fn median_side(&mut self, boxes: &[Aabb], proxies: &[u32]) -> Result<f64> {
+        let some = proxies.iter().step_by(proxies.len().div_ceil(ENOUGH_SIDES));
+        self.sides.clear();
+        extend(&mut self.sides, some.map(|&proxy| side(&boxes[proxy as usize])))?;
+        let half = self.sides.len() / 2;
+        let (_, &mut median, _) = self.sides.select_nth_unstable_by(half, f64::total_cmp);
+        Ok(median)
     }
 
     /// False where too many share a cell.
-    fn sort(&mut self, boxes: &[Aabb]) -> Result<bool> {
+    fn sort(&mut self, boxes: &[Aabb], proxies: &[u32]) -> Result<bool> {
+        let inside = || self.cells.iter().zip(proxies).filter(|(cell, _)| **cell != LARGE_ONE);
         let cell_count = self.counts.iter().product::<usize>();
         self.starts.clear();
-        reserve(&mut self.starts, cell_count + 2)?;
+        reserve_sparingly(&mut self.starts, cell_count + 2)?;
         self.starts.resize(cell_count + 2, 0);
         // Two places ahead, so that counting where to put the next box leaves where each cell begins.
-        for &(cell, _) in &self.inside {
+        for (&cell, _) in inside() {
             self.starts[cell as usize + 2] += 1;
         }
+        let count = proxies.len() - self.large.len();
         let shared: usize = self.starts.iter().map(|&count| (count as usize).pow(2)).sum();
-        if shared > CROWD * self.inside.len() {
+        if shared > CROWD * count {
             return Ok(false);
         }
         for k in 0..cell_count {
             self.starts[k + 2] += self.starts[k + 1];
         }
         self.sorted.clear();
-        reserve(&mut self.sorted, self.inside.len())?;
-        self.sorted.resize(self.inside.len(), (Aabb::NOWHERE, 0));
-        for &(cell, proxy) in &self.inside {
+        reserve_sparingly(&mut self.sorted, count)?;
+        self.sorted.resize(count, (Aabb::NOWHERE, 0));
+        for (&cell, &proxy) in inside() {
             let next = &mut self.starts[cell as usize + 1];
             self.sorted[*next as usize] = (boxes[proxy as usize], proxy);
             *next += 1;

@@ -11,7 +11,7 @@ pub(crate) mod near_pairs;
 use std::ops::Range;
 
 use crate::base::error::Result;
-use crate::base::memory::{extend, reserve};
+use crate::base::memory::{extend, reserve_sparingly};
 use crate::scene::object::ObjectId;
 use crate::scene::proxies::{Label, Proxies};
 use grid::Grid;
@@ -30,8 +30,8 @@ pub(crate) struct BroadPhase {
     pub near: NearPairs,
     /// Of pieces that move and of fixed ones, which never meet each other.
     trees: [Tree; 2],
-    /// Each piece's node in its tree, or [`NONE`].
-    leaves: Vec<u32>,
+    /// What each piece hangs on in its tree, or [`NONE`].
+    parents: Vec<u32>,
     /// Whose boxes are not those of its pieces.
     is_stale: [bool; 2],
     /// For all moving pieces at once.
@@ -53,7 +53,7 @@ impl Default for BroadPhase {
         BroadPhase {
             near: NearPairs::default(),
             trees: Default::default(),
-            leaves: Vec::new(),
+            parents: Vec::new(),
             is_stale: [false; 2],
             grid: Grid::default(),
             candidates: Candidates::default(),
@@ -69,19 +69,20 @@ impl Default for BroadPhase {
 impl BroadPhase {
     /// Room for `count` more pieces.
     pub fn reserve(&mut self, count: usize) -> Result<()> {
-        reserve(&mut self.leaves, count)
+        reserve_sparingly(&mut self.parents, count)
     }
 
     /// A piece was added.
     pub fn push(&mut self) {
-        self.leaves.push(NONE);
+        self.parents.push(NONE);
     }
 
     /// A piece has ended, or is to go to the other tree.
     pub fn take_out(&mut self, proxy: usize, fixed: bool) {
-        let leaf = std::mem::replace(&mut self.leaves[proxy], NONE);
-        if leaf != NONE && !self.is_broken {
-            self.trees[usize::from(fixed)].remove(leaf);
+        if self.is_broken {
+            self.parents[proxy] = NONE;
+        } else if self.parents[proxy] != NONE {
+            self.trees[usize::from(fixed)].remove(proxy as u32, &mut self.parents);
         }
     }
 
@@ -100,7 +101,7 @@ impl BroadPhase {
             return Ok(());
         }
         if std::mem::replace(&mut self.is_broken, true) {
-            self.leaves.fill(NONE);
+            self.parents.fill(NONE);
             self.trees = Default::default();
         }
         self.candidates.clear();
@@ -137,7 +138,7 @@ impl BroadPhase {
         self.near.shrink()?;
         *self = BroadPhase {
             near: std::mem::take(&mut self.near),
-            leaves: std::mem::take(&mut self.leaves),
+            parents: std::mem::take(&mut self.parents),
             tolerance: self.tolerance,
             is_broken: true,
             ..BroadPhase::default()
@@ -226,8 +227,8 @@ impl BroadPhase {
         let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
         let mut found = |a: u32, b: u32| candidates.add_if_meeting(proxies, a, b);
         let [moving, fixed] = &self.trees;
-        moving.for_each_pair(scratch, &mut found)?;
-        moving.for_each_pair_with(fixed, scratch, found)
+        moving.for_each_pair(&proxies.boxes, scratch, &mut found)?;
+        moving.for_each_pair_with(fixed, &proxies.boxes, scratch, found)
     }
 
     /// Moving pieces meet each other in the grid, but for large ones, and fixed ones in their tree.
@@ -240,7 +241,7 @@ impl BroadPhase {
         let [moving, fixed] = &self.trees;
         for &large in &self.grid.large {
             let found = |other: u32| candidates.add_if_meeting(proxies, large, other);
-            moving.for_each_overlapping(&proxies.boxes[large as usize], scratch, found)?;
+            moving.for_each_overlapping(&proxies.boxes[large as usize], &proxies.boxes, scratch, found)?;
         }
         if fixed.is_empty() {
             return Ok(());
@@ -248,7 +249,7 @@ impl BroadPhase {
         for proxy in 0..proxies.len() as u32 {
             if belongs(proxies, proxy, false) {
                 let found = |other: u32| candidates.add_if_meeting(proxies, proxy, other);
-                fixed.for_each_overlapping(&proxies.boxes[proxy as usize], scratch, found)?;
+                fixed.for_each_overlapping(&proxies.boxes[proxy as usize], &proxies.boxes, scratch, found)?;
             }
         }
         Ok(())
@@ -260,11 +261,11 @@ impl BroadPhase {
         if !self.is_stale[tree] {
             return Ok(());
         }
-        let is_missing = |&proxy: &u32| self.leaves[proxy as usize] == NONE && belongs(proxies, proxy, fixed);
+        let is_missing = |&proxy: &u32| self.parents[proxy as usize] == NONE && belongs(proxies, proxy, fixed);
         let has_all = !(0..proxies.len() as u32).any(|proxy| is_missing(&proxy));
         if !(has_all && self.trees[tree].refit(&proxies.boxes, &mut self.scratch)?) {
             self.list_tree(fixed, proxies)?;
-            self.trees[tree].build(&mut self.scratch, &proxies.boxes, &mut self.leaves)?;
+            self.trees[tree].build(&mut self.scratch, &proxies.boxes, &mut self.parents)?;
         }
         self.is_stale[tree] = false;
         Ok(())
@@ -290,15 +291,18 @@ impl BroadPhase {
             self.is_stale[usize::from(fixed)] |= self.trees[usize::from(fixed)].is_worn();
             self.fit_tree(fixed, proxies)?;
         }
-        for &proxy in &proxies.escaped {
-            let at = proxy as usize;
-            if proxies.is_gone(at) {
-                continue;
+        let is_there = |&&proxy: &&u32| !proxies.is_gone(proxy as usize);
+        let tree = |proxy: u32| usize::from(proxies.labels[proxy as usize].fixed);
+        // First what is in a tree: a leaf comes beside others only once these are held.
+        for &proxy in proxies.escaped.iter().filter(is_there) {
+            let parent = self.parents[proxy as usize];
+            if parent != NONE {
+                self.trees[tree(proxy)].enlarge(parent, &proxies.boxes[proxy as usize]);
             }
-            let tree = &mut self.trees[usize::from(proxies.labels[at].fixed)];
-            match self.leaves[at] {
-                NONE => self.leaves[at] = tree.insert(proxy, proxies.boxes[at])?,
-                leaf => tree.enlarge(leaf, &proxies.boxes[at]),
+        }
+        for &proxy in proxies.escaped.iter().filter(is_there) {
+            if self.parents[proxy as usize] == NONE {
+                self.trees[tree(proxy)].insert(proxy, &proxies.boxes, &mut self.parents)?;
             }
         }
         Ok(())
@@ -313,9 +317,9 @@ impl BroadPhase {
                 continue;
             }
             let mut found = |other: u32| candidates.add_if_meeting(proxies, proxy, other);
-            moving.for_each_overlapping(&proxies.boxes[at], scratch, &mut found)?;
+            moving.for_each_overlapping(&proxies.boxes[at], &proxies.boxes, scratch, &mut found)?;
             if !proxies.labels[at].fixed {
-                fixed.for_each_overlapping(&proxies.boxes[at], scratch, found)?;
+                fixed.for_each_overlapping(&proxies.boxes[at], &proxies.boxes, scratch, found)?;
             }
         }
         Ok(())
@@ -330,7 +334,7 @@ impl BroadPhase {
         self.near.renumber(&numbers);
         self.trees.iter_mut().for_each(|tree| tree.renumber(&numbers));
         let mut proxy = 0;
-        self.leaves.retain(|_| {
+        self.parents.retain(|_| {
             proxy += 1;
             !proxies.is_gone(proxy - 1)
         });

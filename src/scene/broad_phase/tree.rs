@@ -1,21 +1,27 @@
 //! A dynamic tree of boxes: leaves come, go and grow one at a time, all boxes are refitted at once, and it is built anew where it
 //! has become loose. Where a call lacks memory the tree is good for nothing but to be built anew.
 
+use std::ops::Range;
+
 use crate::base::error::Result;
-use crate::base::memory::{push, reserve};
+use crate::base::memory::{extend, push, reserve_sparingly};
 use crate::scene::boxes::Aabb;
 
 /// Room for what traversals and builds have still to visit, kept from one to the next.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
-    nodes: Vec<(u32, u32)>,
-    ranges: Vec<(usize, usize, u32)>,
+    branches: Vec<Branch>,
+    pairs: Vec<[Branch; 2]>,
+    ranges: Vec<(Range<usize>, Place)>,
     /// The proxies over which a tree is to be built.
     pub proxies: Vec<u32>,
 }
 
-/// No node.
+/// No node. A proxy without a parent is in no tree.
 pub(crate) const NONE: u32 = u32::MAX;
+
+/// The parent of the root.
+const TOP: u32 = u32::MAX - 1;
 
 /// A tree whose boxes have grown to so many times their girth when built is built anew.
 const LOOSE: f32 = 1.5;
@@ -23,32 +29,48 @@ const LOOSE: f32 = 1.5;
 /// So many leaves may come, go or grow before all boxes are refitted, or a quarter of all.
 const FEW_CHANGES: usize = 64;
 
+/// What has two children. Leaves need no node: they are proxies, and the caller keeps their boxes and parents.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     bounds: Aabb,
+    /// Of one out of use, the next to be used again.
     parent: u32,
-    /// Two nodes, or [`NONE`] and the proxy of a leaf.
-    children: [u32; 2],
+    children: [Branch; 2],
 }
 
-impl Node {
-    fn leaf(proxy: u32, bounds: Aabb, parent: u32) -> Node {
-        Node { bounds, parent, children: [NONE, proxy] }
+/// A node, or with the highest bit a leaf: a proxy.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Branch(u32);
+
+enum Kind {
+    Node(u32),
+    Leaf(u32),
+}
+
+impl Branch {
+    const LEAF: u32 = 1 << 31;
+
+    fn leaf(proxy: u32) -> Branch {
+        Branch(proxy | Branch::LEAF)
     }
 
     #[inline(always)]
-    fn proxy(&self) -> Option<u32> {
-        (self.children[0] == NONE).then_some(self.children[1])
+    fn kind(self) -> Kind {
+        if self.0 & Branch::LEAF == 0 { Kind::Node(self.0) } else { Kind::Leaf(self.0 ^ Branch::LEAF) }
     }
 }
 
-/// A binary tree over the boxes of proxies.
+/// Where something hangs: the parent, and which of its children it is.
+type Place = (u32, usize);
+
+/// A binary tree over the boxes of proxies. Each call gets these boxes, and what changes the tree the leaves' parents: `parents`,
+/// by proxy.
 #[derive(Debug)]
 pub(crate) struct Tree {
     nodes: Vec<Node>,
-    root: u32,
-    /// Nodes to be used again; with room for all.
-    free: Vec<u32>,
+    root: Option<Branch>,
+    /// The node to be used again, or [`NONE`].
+    free: u32,
     leaf_count: usize,
     /// Leaves that have come, gone or grown since all boxes were refitted.
     changes: usize,
@@ -60,8 +82,7 @@ pub(crate) struct Tree {
 
 impl Default for Tree {
     fn default() -> Self {
-        let (nodes, free) = (Vec::new(), Vec::new());
-        Tree { nodes, root: NONE, free, leaf_count: 0, changes: 0, patches: 0, girth_built: 0.0 }
+        Tree { nodes: Vec::new(), root: None, free: NONE, leaf_count: 0, changes: 0, patches: 0, girth_built: 0.0 }
     }
 }
 
@@ -77,85 +98,100 @@ impl Tree {
 
     // --- One leaf ----------------------------------------------------------------------------------------------------------------
 
-    /// Adds a leaf, beside what grows least on the way down, and gives its node.
+    /// Adds a leaf, beside what grows least on the way down. All others' parents hold their boxes.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn insert(&mut self, proxy: u32, bounds: Aabb) -> Result<u32> {
-        reserve(&mut self.nodes, 2)?;
-        let room = self.nodes.len() + 2 - self.free.len();
-        reserve(&mut self.free, room)?;
+    pub fn insert(&mut self, proxy: u32, boxes: &[Aabb], parents: &mut [u32]) -> Result<()> {
+        reserve_sparingly(&mut self.nodes, 1)?;
         self.changes += 1;
         self.leaf_count += 1;
         self.patches += 1;
-        let leaf = self.add(Node::leaf(proxy, bounds, NONE));
-        if self.root == NONE {
-            self.root = leaf;
-            return Ok(leaf);
-        }
-        let mut beside = self.root;
-        while self.nodes[beside as usize].proxy().is_none() {
-            let node = &mut self.nodes[beside as usize];
-            node.bounds = node.bounds.union(&bounds);
+        let (leaf, bounds) = (Branch::leaf(proxy), &boxes[proxy as usize]);
+        let (mut parent, mut beside) = match self.root {
+            Some(root) => (TOP, root),
+            None => {
+                self.hang((TOP, 0), leaf, parents);
+                return Ok(());
+            }
+        };
+        while let Kind::Node(at) = beside.kind() {
+            let node = &mut self.nodes[at as usize];
+            node.bounds = node.bounds.union(bounds);
             let [left, right] = node.children;
-            let growth = |child: u32| {
-                let old = &self.nodes[child as usize].bounds;
-                old.union(&bounds).girth() - 0.5 * old.girth()
+            let growth = |child: Branch| {
+                let old = self.bounds(child, boxes);
+                old.union(bounds).girth() - 0.5 * old.girth()
             };
-            beside = if growth(left) <= growth(right) { left } else { right };
+            (parent, beside) = (at, if growth(left) <= growth(right) { left } else { right });
         }
-        let Node { parent, bounds: other, .. } = self.nodes[beside as usize];
-        let joint = self.add(Node { bounds: other.union(&bounds), parent, children: [beside, leaf] });
-        self.nodes[beside as usize].parent = joint;
-        self.nodes[leaf as usize].parent = joint;
-        self.replace_child(parent, beside, joint);
-        Ok(leaf)
+        let place = self.place(parent, beside);
+        let both = self.bounds(beside, boxes).union(bounds);
+        let joint = self.add(Node { bounds: both, parent, children: [beside, leaf] });
+        self.hang(place, Branch(joint), parents);
+        self.hang((joint, 0), beside, parents);
+        self.hang((joint, 1), leaf, parents);
+        Ok(())
     }
 
     /// There is room for it.
     fn add(&mut self, node: Node) -> u32 {
-        if let Some(place) = self.free.pop() {
-            self.nodes[place as usize] = node;
-            return place;
+        let at = self.free;
+        if at == NONE {
+            self.nodes.push(node);
+            return self.nodes.len() as u32 - 1;
         }
-        self.nodes.push(node);
-        self.nodes.len() as u32 - 1
+        self.free = std::mem::replace(&mut self.nodes[at as usize], node).parent;
+        at
     }
 
-    fn replace_child(&mut self, parent: u32, old: u32, new: u32) {
-        if parent == NONE {
-            self.root = new;
-            return;
+    /// Which child of its parent a branch is.
+    fn place(&self, parent: u32, child: Branch) -> Place {
+        (parent, self.nodes.get(parent as usize).map_or(0, |node| usize::from(node.children[1] == child)))
+    }
+
+    /// Makes a branch the child at a place, which for [`TOP`] is the root.
+    fn hang(&mut self, (parent, side): Place, child: Branch, parents: &mut [u32]) {
+        match self.nodes.get_mut(parent as usize) {
+            Some(node) => node.children[side] = child,
+            None => self.root = Some(child),
         }
-        let children = &mut self.nodes[parent as usize].children;
-        children[usize::from(children[1] == old)] = new;
+        match child.kind() {
+            Kind::Node(at) => self.nodes[at as usize].parent = parent,
+            Kind::Leaf(proxy) => parents[proxy as usize] = parent,
+        }
+    }
+
+    #[inline(always)]
+    fn bounds<'a>(&'a self, branch: Branch, boxes: &'a [Aabb]) -> &'a Aabb {
+        match branch.kind() {
+            Kind::Node(at) => &self.nodes[at as usize].bounds,
+            Kind::Leaf(proxy) => &boxes[proxy as usize],
+        }
     }
 
     /// Removes a leaf.
-    pub fn remove(&mut self, leaf: u32) {
+    pub fn remove(&mut self, proxy: u32, parents: &mut [u32]) {
         self.changes += 1;
         self.leaf_count -= 1;
         self.patches += 1;
-        let parent = self.nodes[leaf as usize].parent;
-        self.free.push(leaf);
-        if parent == NONE {
-            self.root = NONE;
+        let parent = std::mem::replace(&mut parents[proxy as usize], NONE);
+        let Some(&Node { children, parent: above, .. }) = self.nodes.get(parent as usize) else {
+            self.root = None;
             return;
-        }
-        let Node { children, parent: above, .. } = self.nodes[parent as usize];
-        let sibling = children[usize::from(children[0] == leaf)];
-        self.nodes[sibling as usize].parent = above;
-        self.replace_child(above, parent, sibling);
-        self.free.push(parent);
+        };
+        let sibling = children[usize::from(children[0] == Branch::leaf(proxy))];
+        self.hang(self.place(above, Branch(parent)), sibling, parents);
+        self.nodes[parent as usize].parent = std::mem::replace(&mut self.free, parent);
     }
 
-    /// Gives a leaf another box, and makes those above hold it.
-    pub fn enlarge(&mut self, leaf: u32, bounds: &Aabb) {
+    /// Makes those above a leaf hold its box, which has changed. `parent`: that of the leaf.
+    pub fn enlarge(&mut self, parent: u32, bounds: &Aabb) {
         self.changes += 1;
-        self.nodes[leaf as usize].bounds = *bounds;
-        let mut at = self.nodes[leaf as usize].parent;
-        while at != NONE && !self.nodes[at as usize].bounds.contains(bounds) {
-            let node = &mut self.nodes[at as usize];
+        let mut at = parent;
+        while let Some(node) = self.nodes.get_mut(at as usize)
+            && !node.bounds.contains(bounds)
+        {
             node.bounds = node.bounds.union(bounds);
             at = node.parent;
         }
@@ -175,95 +211,77 @@ impl Tree {
         let girth = if self.patches == 0 {
             self.refit_upwards((0..self.nodes.len() as u32).rev(), boxes)
         } else {
-            self.list_downwards(scratch)?;
-            self.refit_upwards(scratch.nodes.iter().rev().map(|&(node, _)| node), boxes)
+            let nodes = &mut scratch.branches;
+            self.list_downwards(nodes)?;
+            self.refit_upwards(nodes.iter().rev().map(|node| node.0), boxes)
         };
         // A NaN, of boxes without end, is as good as any.
         Ok(!(girth > LOOSE * self.girth_built))
     }
 
     /// All nodes in use, parents before their children.
-    fn list_downwards(&self, scratch: &mut Scratch) -> Result<()> {
-        let nodes = &mut scratch.nodes;
+    fn list_downwards(&self, nodes: &mut Vec<Branch>) -> Result<()> {
         nodes.clear();
-        if self.root != NONE {
-            push(nodes, (self.root, NONE))?;
-        }
+        let is_node = |branch: &Branch| matches!(branch.kind(), Kind::Node(_));
+        extend(nodes, self.root.filter(is_node))?;
         let mut next = 0;
-        while let Some(&(at, _)) = nodes.get(next) {
-            let node = &self.nodes[at as usize];
-            if node.proxy().is_none() {
-                push(nodes, (node.children[0], NONE))?;
-                push(nodes, (node.children[1], NONE))?;
-            }
+        while let Some(&Branch(at)) = nodes.get(next) {
+            extend(nodes, self.nodes[at as usize].children.into_iter().filter(is_node))?;
             next += 1;
         }
         Ok(())
     }
 
-    /// Children first; gives the sum of the girths of all parents.
+    /// Children first; gives the sum of the girths.
     fn refit_upwards(&mut self, nodes: impl Iterator<Item = u32>, boxes: &[Aabb]) -> f32 {
         let mut girth = 0.0;
         for at in nodes {
-            let node = &self.nodes[at as usize];
-            self.nodes[at as usize].bounds = match node.proxy() {
-                Some(proxy) => boxes[proxy as usize],
-                None => {
-                    let [left, right] = node.children.map(|child| self.nodes[child as usize].bounds);
-                    let bounds = left.union(&right);
-                    girth += bounds.girth();
-                    bounds
-                }
-            };
+            let [left, right] = self.nodes[at as usize].children.map(|child| self.bounds(child, boxes));
+            let bounds = left.union(right);
+            girth += bounds.girth();
+            self.nodes[at as usize].bounds = bounds;
         }
         girth
     }
 
-    /// Builds it over `scratch.proxies`, top down; `leaves` gets their nodes.
+    /// Builds it over `scratch.proxies`, top down.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn build(&mut self, scratch: &mut Scratch, boxes: &[Aabb], leaves: &mut [u32]) -> Result<()> {
+    pub fn build(&mut self, scratch: &mut Scratch, boxes: &[Aabb], parents: &mut [u32]) -> Result<()> {
         let Scratch { ranges: open, proxies, .. } = scratch;
         let count = proxies.len();
-        let node_count = (2 * count).saturating_sub(1);
+        *self = Tree { nodes: std::mem::take(&mut self.nodes), leaf_count: count, ..Tree::default() };
         self.nodes.clear();
-        self.free.clear();
-        reserve(&mut self.nodes, node_count)?;
-        reserve(&mut self.free, node_count)?;
+        reserve_sparingly(&mut self.nodes, count.saturating_sub(1))?;
         open.clear();
         if count > 0 {
-            push(open, (0, count, NONE))?;
+            push(open, (0..count, (TOP, 0)))?;
         }
-        while let Some((first, end, parent)) = open.pop() {
-            let at = self.nodes.len() as u32;
-            if let Some(Node { children, .. }) = self.nodes.get_mut(parent as usize) {
-                children[usize::from(children[0] != NONE)] = at;
-            }
-            if let [proxy] = proxies[first..end] {
-                self.nodes.push(Node::leaf(proxy, boxes[proxy as usize], parent));
-                leaves[proxy as usize] = at;
+        while let Some((range, place)) = open.pop() {
+            if let [proxy] = proxies[range.clone()] {
+                self.hang(place, Branch::leaf(proxy), parents);
                 continue;
             }
-            self.nodes.push(Node { bounds: Aabb::NOWHERE, parent, children: [NONE; 2] });
-            let half = first + split(&mut proxies[first..end], boxes);
-            push(open, (half, end, at))?;
-            push(open, (first, half, at))?;
+            let node = Branch(self.nodes.len() as u32);
+            self.nodes.push(Node { bounds: Aabb::NOWHERE, parent: TOP, children: [node; 2] });
+            self.hang(place, node, parents);
+            let half = range.start + split(&mut proxies[range.clone()], boxes);
+            push(open, (half..range.end, (node.0, 1)))?;
+            push(open, (range.start..half, (node.0, 0)))?;
         }
-        self.root = if count == 0 { NONE } else { 0 };
-        (self.leaf_count, self.changes, self.patches) = (count, 0, 0);
-        self.girth_built = self.refit_upwards((0..node_count as u32).rev(), boxes);
+        self.girth_built = self.refit_upwards((0..self.nodes.len() as u32).rev(), boxes);
         Ok(())
     }
 
     /// Numbers the proxies anew: number k of old becomes `numbers[k]`.
     pub fn renumber(&mut self, numbers: &[u32]) {
-        for node in &mut self.nodes {
+        for branch in self.nodes.iter_mut().flat_map(|node| &mut node.children).chain(&mut self.root) {
             // Nodes out of use may hold any number.
-            if let Some(proxy) = node.proxy()
+            if let Kind::Leaf(proxy) = branch.kind()
                 && let Some(&new) = numbers.get(proxy as usize)
             {
-                node.children[1] = new;
+                *branch = Branch::leaf(new);
             }
         }
     }
@@ -277,24 +295,23 @@ impl Tree {
     pub fn for_each_overlapping(
         &self,
         bounds: &Aabb,
+        boxes: &[Aabb],
         scratch: &mut Scratch,
         mut found: impl FnMut(u32) -> Result<()>,
     ) -> Result<()> {
-        let open = &mut scratch.nodes;
+        let open = &mut scratch.branches;
         open.clear();
-        if self.root != NONE {
-            push(open, (self.root, NONE))?;
-        }
-        while let Some((at, _)) = open.pop() {
-            let node = &self.nodes[at as usize];
-            if !node.bounds.overlaps(bounds) {
+        extend(open, self.root)?;
+        while let Some(branch) = open.pop() {
+            if !self.bounds(branch, boxes).overlaps(bounds) {
                 continue;
             }
-            match node.proxy() {
-                Some(proxy) => found(proxy)?,
-                None => {
-                    push(open, (node.children[0], NONE))?;
-                    push(open, (node.children[1], NONE))?;
+            match branch.kind() {
+                Kind::Leaf(proxy) => found(proxy)?,
+                Kind::Node(at) => {
+                    let [left, right] = self.nodes[at as usize].children;
+                    push(open, left)?;
+                    push(open, right)?;
                 }
             }
         }
@@ -305,8 +322,13 @@ impl Tree {
     ///
     /// # Errors
     /// As [`Tree::for_each_overlapping`].
-    pub fn for_each_pair(&self, scratch: &mut Scratch, found: impl FnMut(u32, u32) -> Result<()>) -> Result<()> {
-        self.cross(self, scratch, found)
+    pub fn for_each_pair(
+        &self,
+        boxes: &[Aabb],
+        scratch: &mut Scratch,
+        found: impl FnMut(u32, u32) -> Result<()>,
+    ) -> Result<()> {
+        self.cross(self, boxes, scratch, found)
     }
 
     /// Calls `found` with all pairs of a proxy of this tree and one of the other whose boxes overlap.
@@ -316,41 +338,51 @@ impl Tree {
     pub fn for_each_pair_with(
         &self,
         other: &Tree,
+        boxes: &[Aabb],
         scratch: &mut Scratch,
         found: impl FnMut(u32, u32) -> Result<()>,
     ) -> Result<()> {
-        self.cross(other, scratch, found)
+        self.cross(other, boxes, scratch, found)
     }
 
-    /// Both trees at once, from their roots down. Of a tree against itself a node meets itself, too.
-    fn cross(&self, other: &Tree, scratch: &mut Scratch, mut found: impl FnMut(u32, u32) -> Result<()>) -> Result<()> {
+    /// Both trees at once, from their roots down. Of a tree against itself a branch meets itself, too.
+    fn cross(
+        &self,
+        other: &Tree,
+        boxes: &[Aabb],
+        scratch: &mut Scratch,
+        mut found: impl FnMut(u32, u32) -> Result<()>,
+    ) -> Result<()> {
         let is_same = std::ptr::eq(self, other);
-        let open = &mut scratch.nodes;
+        let children = |tree: &Tree, at: u32| tree.nodes[at as usize].children;
+        let open = &mut scratch.pairs;
         open.clear();
-        if !self.is_empty() && !other.is_empty() {
-            push(open, (self.root, other.root))?;
-        }
-        while let Some((at, beside)) = open.pop() {
-            let (node, neighbour) = (&self.nodes[at as usize], &other.nodes[beside as usize]);
-            if is_same && at == beside {
-                if let ([left, right], None) = (node.children, node.proxy()) {
-                    for pair in [(left, left), (right, right), (left, right)] {
+        extend(open, self.root.zip(other.root).map(|(root, other_root)| [root, other_root]))?;
+        while let Some([branch, beside]) = open.pop() {
+            if is_same && branch == beside {
+                if let Kind::Node(at) = branch.kind() {
+                    let [left, right] = children(self, at);
+                    for pair in [[left, left], [right, right], [left, right]] {
                         push(open, pair)?;
                     }
                 }
                 continue;
             }
-            if !node.bounds.overlaps(&neighbour.bounds) {
+            if !self.bounds(branch, boxes).overlaps(other.bounds(beside, boxes)) {
                 continue;
             }
-            match (node.proxy(), neighbour.proxy()) {
-                (Some(proxy1), Some(proxy2)) => found(proxy1, proxy2)?,
-                (None, Some(_)) => node.children.iter().try_for_each(|&child| push(open, (child, beside)))?,
-                (Some(_), None) => neighbour.children.iter().try_for_each(|&child| push(open, (at, child)))?,
-                (None, None) => {
-                    for child in node.children {
-                        for other_child in neighbour.children {
-                            push(open, (child, other_child))?;
+            match (branch.kind(), beside.kind()) {
+                (Kind::Leaf(proxy1), Kind::Leaf(proxy2)) => found(proxy1, proxy2)?,
+                (Kind::Node(at), Kind::Leaf(_)) => {
+                    children(self, at).into_iter().try_for_each(|child| push(open, [child, beside]))?;
+                }
+                (Kind::Leaf(_), Kind::Node(at)) => {
+                    children(other, at).into_iter().try_for_each(|child| push(open, [branch, child]))?;
+                }
+                (Kind::Node(at), Kind::Node(other_at)) => {
+                    for child in children(self, at) {
+                        for other_child in children(other, other_at) {
+                            push(open, [child, other_child])?;
                         }
                     }
                 }
@@ -417,10 +449,10 @@ mod tests {
         for round in 0..rounds {
             let proxy = random.below(200);
             if leaves[proxy] == NONE {
-                leaves[proxy] = tree.insert(proxy as u32, boxes[proxy]).unwrap();
+                tree.insert(proxy as u32, &boxes, &mut leaves).unwrap();
             } else if random.below(3) == 0 {
-                tree.remove(leaves[proxy]);
-                leaves[proxy] = NONE;
+                tree.remove(proxy as u32, &mut leaves);
+                assert_eq!(leaves[proxy], NONE);
             } else {
                 boxes[proxy] = random_box(&mut random);
                 tree.enlarge(leaves[proxy], &boxes[proxy]);
@@ -435,7 +467,7 @@ mod tests {
             let inside: Vec<u32> = (0..200).filter(|&k| leaves[k as usize] != NONE).collect();
             assert_eq!(tree.leaf_count, inside.len());
             let mut found = Vec::new();
-            tree.for_each_pair(&mut scratch, |a, b| push(&mut found, (a.min(b), a.max(b)))).unwrap();
+            tree.for_each_pair(&boxes, &mut scratch, |a, b| push(&mut found, (a.min(b), a.max(b)))).unwrap();
             found.sort_unstable();
             let overlap = |a: u32, b: u32| boxes[a as usize].overlaps(&boxes[b as usize]);
             let pairs = |&a: &u32| inside.iter().filter(move |&&b| a < b && overlap(a, b)).map(move |&b| (a, b));
@@ -443,7 +475,7 @@ mod tests {
             assert_eq!(found, expected);
             let asked = random_box(&mut random);
             let mut near = Vec::new();
-            tree.for_each_overlapping(&asked, &mut scratch, |proxy| push(&mut near, proxy)).unwrap();
+            tree.for_each_overlapping(&asked, &boxes, &mut scratch, |proxy| push(&mut near, proxy)).unwrap();
             near.sort_unstable();
             let expected: Vec<u32> = inside.into_iter().filter(|&k| boxes[k as usize].overlaps(&asked)).collect();
             assert_eq!(near, expected);
@@ -456,8 +488,8 @@ mod tests {
         let (mut tree, mut leaves) = (Tree::default(), vec![NONE; 1000]);
         let mut scratch = Scratch { proxies: (0..1000).collect(), ..Scratch::default() };
         tree.build(&mut scratch, &boxes, &mut leaves).unwrap();
-        let above = |&at: &u32| Some(tree.nodes[at as usize].parent).filter(|&parent| parent != NONE);
-        let depth = |leaf: u32| std::iter::successors(Some(leaf), above).count();
-        assert!(leaves.iter().all(|&leaf| depth(leaf) <= 12));
+        let above = |&at: &u32| Some(tree.nodes[at as usize].parent).filter(|&parent| parent != TOP);
+        let depth = |parent: u32| std::iter::successors(Some(parent), above).count();
+        assert!(leaves.iter().all(|&parent| depth(parent) <= 11));
     }
 }

@@ -33,7 +33,8 @@ use crate::base::memory::{collected, push};
 use crate::pair::Query;
 use crate::scene::activation::Word;
 use crate::scene::broad_phase::near_pairs::Testing;
-use crate::scene::object::{Object, ObjectId, ObjectTable};
+use crate::scene::object::ObjectId;
+use crate::scene::object_view::Objects;
 use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::shape::Shape;
 use digest::Digest;
@@ -53,7 +54,7 @@ pub(crate) enum Recording {
 /// What a record is made with.
 pub(crate) struct Notes<'a> {
     recorder: &'a mut Recorder,
-    objects: &'a ObjectTable,
+    objects: Objects<'a>,
 }
 
 impl Notes<'_> {
@@ -63,7 +64,7 @@ impl Notes<'_> {
 
     /// The number of an object that is there.
     pub fn number(&self, id: ObjectId) -> Result<u32> {
-        self.recorder.number(self.objects.get(id)?.serial())
+        self.recorder.number(self.objects.get(id)?.entry.serial())
     }
 
     pub fn numbers(&self, ids: &[ObjectId]) -> Result<Vec<u32>> {
@@ -88,10 +89,9 @@ impl Notes<'_> {
     }
 
     pub fn object(&mut self, id: ObjectId) -> Result<()> {
-        let objects = self.objects;
-        let object = objects.get(id)?;
+        let object = self.objects.get(id)?;
         let mut pieces = Vec::new();
-        object.pieces.iter().try_for_each(|piece| push(&mut pieces, self.shape(piece)?))?;
+        object.pieces().iter().try_for_each(|piece| push(&mut pieces, self.shape(piece)?))?;
         self.write(&Record::Object { pieces: pieces.into(), options: object.options() })
     }
 
@@ -167,7 +167,7 @@ impl Scene {
     }
 
     fn begin_recording(&mut self, sink: Box<dyn Write + Send + Sync>, name: String) -> Result<()> {
-        let serials = collected(self.objects.iter().map(Object::serial))?;
+        let serials = collected(self.objects().map(|object| object.entry.serial()))?;
         let recorder = Recorder::new(sink, name, serials, self.objects.created())?;
         self.recording = Recording::On(Box::new(recorder));
         self.note_all();
@@ -183,8 +183,9 @@ impl Scene {
     /// Writes something down, if the scene is recorded; what cannot be written ends the recording.
     #[inline]
     pub(super) fn note(&mut self, write: impl FnOnce(&mut Notes) -> Result<()>) {
+        let objects = Objects { table: &self.objects, proxies: &self.proxies };
         if let Recording::On(recorder) = &mut self.recording
-            && let Err(error) = write(&mut Notes { recorder, objects: &self.objects })
+            && let Err(error) = write(&mut Notes { recorder, objects })
         {
             recorder.give_up();
             self.recording = Recording::Failed(error);
@@ -249,7 +250,7 @@ impl Scene {
             for object in notes.objects.iter() {
                 notes.object(object.id())?;
                 let number = notes.number(object.id())?;
-                for (piece, pose) in (0..).zip(&object.piece_poses) {
+                for (piece, pose) in (0..).zip(object.piece_poses()) {
                     notes.write(&Record::PiecePose { object: number, piece, pose: *pose })?;
                 }
             }
@@ -257,7 +258,8 @@ impl Scene {
         });
         let (activation, given) = (std::mem::take(&mut self.activation), self.given.take());
         self.note(|notes| {
-            for (word, active) in activation.words(notes.objects.iter())? {
+            let stamps = notes.objects.iter().map(|object| (object.id(), object.entry.activation));
+            for (word, active) in activation.words(stamps)? {
                 match word {
                     Word::All => notes.write(&Record::AllActive(active))?,
                     Word::Object(id) => notes.write(&Record::ObjectActive(notes.number(id)?, active))?,

@@ -1,0 +1,117 @@
+//! The objects of a scene, for reading.
+
+use std::sync::Arc;
+
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::scene::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::proxies::{Label, Proxies};
+use crate::shape::Shape;
+
+/// All of a scene.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Objects<'a> {
+    pub table: &'a ObjectTable,
+    pub proxies: &'a Proxies,
+}
+
+impl<'a> Objects<'a> {
+    /// The object of an id.
+    ///
+    /// # Errors
+    /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's.
+    pub fn get(self, id: ObjectId) -> Result<Object<'a>> {
+        self.table.get(id).map(|entry| Object { entry, proxies: self.proxies })
+    }
+
+    /// In order of creation.
+    pub fn iter(self) -> impl Iterator<Item = Object<'a>> {
+        self.proxies.objects().filter_map(move |id| self.get(id).ok())
+    }
+}
+
+/// One or several convex pieces that move together.
+#[derive(Debug, Clone, Copy)]
+pub struct Object<'a> {
+    pub(super) entry: &'a Entry,
+    proxies: &'a Proxies,
+}
+
+impl<'a> Object<'a> {
+    /// Its id.
+    pub fn id(&self) -> ObjectId {
+        self.label().object
+    }
+
+    /// Its convex pieces, shared, in one local frame; at least one. They are never tested against each other.
+    pub fn pieces(&self) -> &'a [Arc<Shape>] {
+        &self.proxies.shapes[self.entry.proxies()]
+    }
+
+    /// Where it stands.
+    pub fn pose(&self) -> &'a Pose {
+        match &self.entry.arrangement {
+            Some(arrangement) => &arrangement.pose,
+            None => &self.proxies.poses[self.entry.first_proxy as usize],
+        }
+    }
+
+    /// Where a piece is in the object.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose(&self, piece: usize) -> &'a Pose {
+        self.check(piece);
+        self.piece_poses().get(piece).unwrap_or(&Pose::IDENTITY)
+    }
+
+    /// Where a piece is in the world: the pose for which queries answer.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_pose_in_world(&self, piece: usize) -> Pose {
+        self.check(piece);
+        self.proxies.poses[self.entry.first_proxy as usize + piece]
+    }
+
+    fn check(&self, piece: usize) {
+        let count = self.pieces().len();
+        assert!(piece < count, "piece {piece} of {count}");
+    }
+
+    /// Where each piece is in the object; none where all are at its origin.
+    pub(super) fn piece_poses(&self) -> &'a [Pose] {
+        self.entry.arrangement.as_ref().map_or(&[], |arrangement| &arrangement.piece_poses)
+    }
+
+    /// What it was made of, but for the pieces.
+    pub(super) fn options(&self) -> ObjectOptions {
+        let Label { fixed, user_data, groups, mask, .. } = *self.label();
+        ObjectOptions { pose: *self.pose(), fixed, user_data, groups, mask }
+    }
+
+    /// The groups it is in.
+    pub fn groups(&self) -> u32 {
+        self.label().groups
+    }
+
+    /// The groups it is tested against.
+    pub fn mask(&self) -> u32 {
+        self.label().mask
+    }
+
+    /// Whether it is fixed.
+    pub fn fixed(&self) -> bool {
+        self.label().fixed
+    }
+
+    /// The caller's own number.
+    pub fn user_data(&self) -> u64 {
+        self.label().user_data
+    }
+
+    /// That of its first piece: but for the piece's number all are alike.
+    fn label(&self) -> &'a Label {
+        &self.proxies.labels[self.entry.first_proxy as usize]
+    }
+}
