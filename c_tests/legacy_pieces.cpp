@@ -213,6 +213,30 @@ void decompositions(const Folder& folder)
     }
 }
 
+/* A word of a file's header, another in its place, and what is said of the file then. */
+struct Change {
+    const char* what;
+    const char* by;
+    const char* message;
+
+    std::string made_in(std::string content) const
+    {
+        return content.replace(content.find(what), std::strlen(what), by);
+    }
+};
+
+/* The file is refused, the id is left alone, and the message holds this; all of what was said. */
+std::string refuse(SWIFT_Scene& scene, Messages& messages, const std::string& path, const char* message)
+{
+    int id = 44;
+    CHECK(!scene.Add_General_Object(path.c_str(), id) && id == 44);
+    const std::string said = messages.take();
+    if (!CHECK(said.find(message) != std::string::npos)) {
+        std::printf("not \"%s\", but %s", message, said.c_str());
+    }
+    return said;
+}
+
 void refused_decompositions(const Folder& folder)
 {
     Messages messages;
@@ -224,19 +248,14 @@ void refused_decompositions(const Folder& folder)
     for (std::size_t length = 0; length < good.size(); length += length < header ? 7 : 61) {
         CHECK(!scene.Add_General_Object(folder.write("cut.dcp", good.substr(0, length)).c_str(), id) && !messages.take().empty());
     }
-    CHECK(!scene.Add_General_Object(folder.write("more.dcp", good + "x").c_str(), id));
-    CHECK(messages.has("damaged: there are more bytes than its header says"));
-    CHECK(!scene.Add_General_Object(folder.write("order.dcp", Rod(true, false, true).decomposition().replace(29, 3, "lit")).c_str(), id));
-    CHECK(messages.has("damaged: the byte order is missing"));
+    refuse(scene, messages, folder.write("more.dcp", good + "x"), "damaged: there are more bytes than its header says");
+    const std::string no_order = Rod(true, false, true).decomposition().replace(29, 3, "lit");
+    refuse(scene, messages, folder.write("order.dcp", no_order), "damaged: the byte order is missing");
     /* The bytes of the other order: numbers of vertices that there are not. */
     std::string swapped = good;
     swapped.replace(swapped.find("little"), 6, "big");
-    CHECK(!scene.Add_General_Object(folder.write("swapped.dcp", swapped).c_str(), id) && messages.has("damaged: "));
-    const struct {
-        const char* what;
-        const char* by;
-        const char* message;
-    } changes[] = {
+    refuse(scene, messages, folder.write("swapped.dcp", swapped), "damaged: ");
+    const Change changes[] = {
         {"real double", "real half", "the kind of its real numbers is missing"},
         {"vertices 12", "vertices -1", "the number of vertices is missing"},
         {"faces 20", "fences 20", "the number of faces is missing"},
@@ -248,30 +267,21 @@ void refused_decompositions(const Folder& folder)
         {"faces 20\nmap_vids 12\nmap_fids 20", "faces 19\nmap_vids 12\nmap_fids 19", "damaged: "},
     };
     for (std::size_t i = 0; i < sizeof changes / sizeof changes[0]; ++i) {
-        std::string bad = good;
-        bad.replace(bad.find(changes[i].what), std::strlen(changes[i].what), changes[i].by);
-        CHECK(!scene.Add_General_Object(folder.write("changed.dcp", bad).c_str(), id));
-        const std::string said = messages.take();
-        if (!CHECK(said.find(changes[i].message) != std::string::npos)) {
-            std::printf("%s: %s", changes[i].by, said.c_str());
-        }
+        refuse(scene, messages, folder.write("changed.dcp", changes[i].made_in(good)), changes[i].message);
     }
     /* A face in another piece than its list says, and a vertex without a value. */
     std::string other = good;
     const std::size_t pieces_at = header + 8 * 36 + 4 * (60 + 12 + 20);
     other[pieces_at] = 1;
-    CHECK(!scene.Add_General_Object(folder.write("other.dcp", other).c_str(), id));
-    CHECK(messages.has("face 0 is in piece 1 and listed in piece 0"));
+    refuse(scene, messages, folder.write("other.dcp", other), "face 0 is in piece 1 and listed in piece 0");
     other = good;
     other.replace(header, 8, 8, static_cast<char>(-1));
-    CHECK(!scene.Add_General_Object(folder.write("nan.dcp", other).c_str(), id) && messages.has("vertex 0 is not finite"));
+    refuse(scene, messages, folder.write("nan.dcp", other), "vertex 0 is not finite");
     /* What is not convex is told where to go. */
-    std::ostringstream dented;
     BoxMesh box(1, 1, 1);
     box.vertices[0] = box.vertices[1] = box.vertices[2] = static_cast<SWIFT_Real>(0.5);
-    CHECK(!scene.Add_General_Object(folder.write("dented.tri", box_file(box, false)).c_str(), id));
-    const std::string said = messages.take();
-    CHECK(said.find("outside of its plane") != std::string::npos && said.find("decomposition file (Convex_Decomposition)") != std::string::npos);
+    const std::string said = refuse(scene, messages, folder.write("dented.tri", box_file(box, false)), "outside of its plane");
+    CHECK(said.find("decomposition file (Convex_Decomposition)") != std::string::npos);
     CHECK(!scene.Add_General_Object(NULL, id) && messages.has("Error: Invalid filename given to read file"));
     CHECK(id == 44);
     CHECK(scene.Add_General_Object(folder.write("good.dcp", good).c_str(), id) && id == 0);
@@ -290,11 +300,7 @@ void refused_hulls(const Folder& folder)
     int id = 44;
     const std::string good = Rod(false, false, true).hulls();
     const std::size_t header = good.find("nodes 3\n") + 8, node = first_node(good);
-    const struct {
-        const char* what;
-        const char* by;
-        const char* message;
-    } words[] = {
+    const Change words[] = {
         {"little", "middle", "the byte order is missing"},
         {"real double", "real half", "the kind of its real numbers is missing"},
         {"orig_faces", "orig_fences", "the number of orig_faces is missing"},
@@ -311,13 +317,8 @@ void refused_hulls(const Folder& folder)
         {"nodes 3\n", "nodes 3 ", "the header does not end in a new line"},
     };
     for (std::size_t i = 0; i < sizeof words / sizeof words[0]; ++i) {
-        std::string bad = good;
-        bad.replace(bad.find(words[i].what), std::strlen(words[i].what), words[i].by);
-        CHECK(!scene.Add_General_Object(folder.write("changed.chr", bad).c_str(), id));
-        const std::string said = messages.take();
-        if (!CHECK(said.find("the convex hierarchy is damaged: ") != std::string::npos && said.find(words[i].message) != std::string::npos)) {
-            std::printf("%s: %s", words[i].by, said.c_str());
-        }
+        const std::string said = refuse(scene, messages, folder.write("changed.chr", words[i].made_in(good)), words[i].message);
+        CHECK(said.find("the convex hierarchy is damaged: ") != std::string::npos);
     }
     /* One byte of a number: where, its new value, and what is then wrong. */
     const std::size_t faces = header + 4 + 56 + 12 * 24 + 4 * (12 + 20), shared = faces + 24 * 16, twins = shared + 40 * 4;
@@ -342,14 +343,9 @@ void refused_hulls(const Folder& folder)
         if (bytes[i].at == header + 4 + 56 + 7) {
             bad[bytes[i].at - 1] = -16;
         }
-        CHECK(!scene.Add_General_Object(folder.write("changed.chr", bad).c_str(), id));
-        const std::string said = messages.take();
-        if (!CHECK(said.find(bytes[i].message) != std::string::npos)) {
-            std::printf("%d, not %s: %s", static_cast<int>(i), bytes[i].message, said.c_str());
-        }
+        refuse(scene, messages, folder.write("changed.chr", bad), bytes[i].message);
     }
-    CHECK(!scene.Add_General_Object(folder.write("more.chr", good + "x").c_str(), id));
-    CHECK(messages.has("there are more bytes than its header says") && id == 44);
+    refuse(scene, messages, folder.write("more.chr", good + "x"), "there are more bytes than its header says");
 
     /* One hull alone is one piece. */
     CHECK(scene.Add_General_Object(folder.write("one.chr", Rod(true, true, false).hulls(1)).c_str(), id) && id == 0);

@@ -94,6 +94,15 @@ static size_t session(swiftprox_scene *scene, double *sums)
     return asked;
 }
 
+/* A scene that is recorded from its beginning. */
+static swiftprox_scene *recorded_scene(void)
+{
+    swiftprox_scene *scene;
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_record(scene, path));
+    return scene;
+}
+
 /* Plays the file to its end; how many queries it asked, all with the recorded bits if `exact`. */
 static size_t play(int exact, const double *sums, swiftprox_status *ending, int *cut_off)
 {
@@ -139,13 +148,10 @@ static size_t play(int exact, const double *sums, swiftprox_status *ending, int 
 
 static void played_back(void)
 {
-    swiftprox_scene *scene;
+    swiftprox_scene *const scene = recorded_scene();
     swiftprox_status ending;
     double sums[2 * STEPS];
     int cut_off;
-    CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    CHECK_OK(swiftprox_scene_record(scene, NULL)); /* there is none */
-    CHECK_OK(swiftprox_scene_record(scene, path));
     const size_t asked = session(scene, sums);
     CHECK_OK(swiftprox_scene_record(scene, NULL));
     CHECK(play(1, sums, &ending, &cut_off) == asked && ending == SWIFTPROX_OK && !cut_off);
@@ -170,12 +176,10 @@ static void rewrite(const char *bytes, size_t size)
 
 static void cut_and_damaged(void)
 {
-    swiftprox_scene *scene;
+    swiftprox_scene *const scene = recorded_scene();
     swiftprox_status ending;
     double sums[2 * STEPS];
     int cut_off;
-    CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    CHECK_OK(swiftprox_scene_record(scene, path));
     const size_t asked = session(scene, sums);
     CHECK_OK(swiftprox_scene_destroy(scene));
     static char bytes[1 << 16];
@@ -208,7 +212,6 @@ static void count_line(swiftprox_status status, const char *message, void *user)
 /* As on a full disk: no file grows beyond 4 kB. */
 static void a_full_disk(void)
 {
-    swiftprox_scene *scene;
     swiftprox_status ending;
     double sums[2 * STEPS];
     int cut_off;
@@ -218,8 +221,7 @@ static void a_full_disk(void)
     limit.rlim_cur = 4096;
     signal(SIGXFSZ, SIG_IGN);
     CHECK(setrlimit(RLIMIT_FSIZE, &limit) == 0);
-    CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    CHECK_OK(swiftprox_scene_record(scene, path));
+    swiftprox_scene *const scene = recorded_scene();
     swiftprox_library_set_log(count_line, NULL);
     session(scene, sums);
     CHECK(lines == 1);
@@ -240,6 +242,7 @@ static void bad_arguments(const char *folder)
     swiftprox_replay_step_info step = {.struct_size = sizeof step};
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scene_record(scene, NULL)); /* there is none */
     CHECK(swiftprox_scene_record(NULL, path) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_scene_record(scene, folder) == SWIFTPROX_ERROR_FILE);
     CHECK(swiftprox_scene_record(scene, "/nowhere/at/all") == SWIFTPROX_ERROR_FILE);

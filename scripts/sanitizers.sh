@@ -5,6 +5,13 @@
 #   sanitizers.sh address        C programs too, which are compiled for it and for undefined behaviour; the library is not
 #   sanitizers.sh thread         the tests that have threads, with a standard library built for it: else its locks look like races
 #   sanitizers.sh miri           unit tests
+#
+# Where rustup's server is out of reach, packages of Debian 14 do for threads: rustc, cargo, rust-src, clang-22, libclang-rt-22-dev.
+# Debian's rustc comes without sanitizers, so that of clang is linked, of the LLVM that `rustc -vV` names:
+#
+#   export RUSTC_BOOTSTRAP=1
+#   export RUSTFLAGS="-Zsanitizer=thread -Zexternal-clangrt -Clinker=clang-22 -Clink-arg=-fsanitize=thread"
+#   cargo test --locked --profile checked -Zbuild-std --target x86_64-unknown-linux-gnu --lib --test c_interface --test scene
 set -e
 cd "${0%/*}/.."
 host=$(rustc -vV | sed -n 's/^host: //p')
@@ -28,6 +35,7 @@ address)
     ;;
 thread)
     export RUSTFLAGS=-Zsanitizer=thread
+    export OTHERWISE="packages of Debian do, too: see scripts/sanitizers.sh"
     scripts/nightly.sh rust-src test --locked --profile checked -Zbuild-std --target "$host" \
         --lib --test c_interface --test scene
     scripts/nightly.sh rust-src test --locked --profile checked -Zbuild-std --target "$host" --test pair -- lookup::

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "program.h"
 #include "progress.h"
 
 int player_failed(void)

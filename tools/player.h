@@ -10,8 +10,6 @@
 
 #include "scene_file.h"
 
-enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
-
 typedef swiftprox_status scene_query(swiftprox_scene *, const swiftprox_scene_query *, swiftprox_scene_answer *);
 
 /* What is to be played, and how. */

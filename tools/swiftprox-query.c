@@ -12,9 +12,8 @@
 #include <swiftprox_tuning.h>
 
 #include "poses.h"
+#include "program.h"
 #include "progress.h"
-
-enum exit_status { GOOD = 0, FAILED = 1, BAD_FILE = 2 };
 
 static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth]\n"
                             "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
@@ -76,6 +75,8 @@ static const char HELP[] =
     "On a terminal the standard error shows a bar while models are built or queries answered for long.\n"
     "\n"
     "Exit status: 0, or 2 when a mesh or pose file is bad (the message names the line), or 1 for anything else.\n";
+
+static const struct program PROGRAM = {"swiftprox-query", USAGE, HELP};
 
 /* ---- the command line ---- */
 
@@ -515,24 +516,13 @@ static int run(const struct arguments *arguments)
     pose_list_free(&job.poses);
     swiftprox_shape_release(shapes[0]);
     swiftprox_shape_release(shapes[1]);
-    if ((fflush(stdout) != 0 || ferror(stdout)) && result == GOOD) {
-        fprintf(stderr, "swiftprox-query: the output cannot be written: %s\n", strerror(errno));
-        return FAILED;
-    }
-    return result;
+    return program_end(&PROGRAM, result);
 }
 
 int main(int argc, char **argv)
 {
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            printf("%s%s", USAGE, HELP);
-            return GOOD;
-        }
-        if (strcmp(argv[i], "--version") == 0) {
-            printf("swiftprox-query %s\n", swiftprox_library_version());
-            return GOOD;
-        }
+    if (program_tells(&PROGRAM, argc, argv)) {
+        return program_end(&PROGRAM, GOOD);
     }
     struct arguments arguments;
     return parse_arguments(argc, argv, &arguments) ? run(&arguments) : FAILED;

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "player.h"
+#include "program.h"
 #include "progress.h"
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact] [--tolerance T]\n"
@@ -57,6 +58,8 @@ static const char HELP[] =
     "On a terminal the standard error shows a bar while it takes long.\n"
     "\n"
     "Exit status: 0, or 2 when a scene or mesh file is bad (the message names the line), or 1 for anything else.\n";
+
+static const struct program PROGRAM = {"swiftprox-replay", USAGE, HELP};
 
 /* ---- the command line ---- */
 
@@ -346,24 +349,13 @@ static int run(const struct arguments *arguments)
         result = arguments->passes ? print_times(&player, arguments->passes) : print_answers(&player);
     }
     player_free(&player);
-    if ((fflush(stdout) != 0 || ferror(stdout)) && result == GOOD) {
-        fprintf(stderr, "swiftprox-replay: the output cannot be written: %s\n", strerror(errno));
-        return FAILED;
-    }
-    return result;
+    return program_end(&PROGRAM, result);
 }
 
 int main(int argc, char **argv)
 {
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--help") == 0 || strcmp(argv[i], "-h") == 0) {
-            printf("%s%s", USAGE, HELP);
-            return GOOD;
-        }
-        if (strcmp(argv[i], "--version") == 0) {
-            printf("swiftprox-replay %s\n", swiftprox_library_version());
-            return GOOD;
-        }
+    if (program_tells(&PROGRAM, argc, argv)) {
+        return program_end(&PROGRAM, GOOD);
     }
     struct arguments arguments;
     return parse_arguments(argc, argv, &arguments) ? run(&arguments) : FAILED;

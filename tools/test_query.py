@@ -183,6 +183,14 @@ class Query(unittest.TestCase):
         self.assertIn("--bench", self.run_tool("--help").stdout)
         self.assertRegex(self.run_tool("--version").stdout, r"^swiftprox-query \d+\.\d+\.\d+\n$")
 
+    @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
+    def test_what_cannot_be_written_is_told(self):
+        for arguments in ((BOX, BOX, self.file("poses", APART)), ("--help",), ("--version",)):
+            with open("/dev/full", "w") as full:
+                done = subprocess.run([TOOL, *arguments], stdout=full, stderr=subprocess.PIPE, text=True, timeout=60)
+            self.assertEqual(done.returncode, 1)
+            self.assertIn("swiftprox-query: the output cannot be written: ", done.stderr)
+
     def test_approximate_distances(self):
         poses = "\n".join("%s %s" % (HERE, pose(3.3 + 0.01 * i, 0.2, 0.1)) for i in range(20))
         exact = self.answers(poses, "--query", "distance", meshes=(SPHERE, PRISM))

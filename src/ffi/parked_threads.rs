@@ -490,6 +490,23 @@ mod tests {
     }
 
     #[test]
+    fn parts_of_slow_threads_are_waited_for() {
+        let threads = ParkedThreads::new(2);
+        let caller = std::thread::current().id();
+        for _ in 0..if cfg!(miri) { 3 } else { 50 } {
+            let done = AtomicUsize::new(0);
+            threads.run(3, &|_| {
+                // The caller is slow enough that the others join, and they end after it.
+                for _ in 0..if std::thread::current().id() == caller { 100 } else { 200 } {
+                    std::thread::yield_now();
+                }
+                done.fetch_add(1, Ordering::Relaxed);
+            });
+            assert_eq!(done.into_inner(), 3);
+        }
+    }
+
+    #[test]
     fn another_process_does_all_by_itself() {
         let mut threads = ParkedThreads::new(2);
         let (inside, process) = (std::thread::current().id(), threads.process);

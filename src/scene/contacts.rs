@@ -132,11 +132,6 @@ impl Contacts {
         }
     }
 
-    /// Whether a result was found to intersect.
-    pub fn intersects(&self, at: u32) -> bool {
-        self.list.get(at as usize).is_some_and(|contact| contact.depth.outcome == Outcome::Intersecting)
-    }
-
     /// How the last depth ended.
     pub fn last_ending(&self) -> Option<DepthEnding> {
         self.list.last().map(|contact| contact.depth.ending)

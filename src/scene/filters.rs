@@ -6,7 +6,7 @@ use crate::base::memory::{copied, push};
 use crate::base::simd::environment::with_callers;
 use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
-use crate::scene::narrow_phase::{Before, Findings};
+use crate::scene::findings::{Before, Findings};
 use crate::scene::object::{Entry, ObjectId, ObjectTable};
 use crate::scene::proxies::Label;
 use crate::scene::recording::format::Record;

@@ -19,6 +19,7 @@ mod proxies;
 mod object_view;
 mod contacts;
 mod broad_phase;
+mod findings;
 mod narrow_phase;
 mod workers;
 pub(crate) mod recording;
@@ -46,7 +47,7 @@ use crate::scene::activation::Activation;
 use crate::scene::broad_phase::BroadPhase;
 use crate::scene::contacts::Details;
 use crate::scene::events::Events;
-use crate::scene::narrow_phase::{Before, Findings};
+use crate::scene::findings::{Before, Findings};
 use crate::scene::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::object_view::Objects;
 use crate::scene::proxies::{Label, NewProxy, Proxies};
@@ -283,6 +284,8 @@ impl Scene {
         for proxy in self.objects.get(id)?.proxies() {
             self.proxies.labels[proxy].user_data = user_data;
         }
+        // No result with the old number is given again.
+        self.last = None;
         self.note(|notes| notes.write(&Record::UserData(notes.number(id)?, user_data)));
         Ok(())
     }

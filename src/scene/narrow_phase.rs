@@ -2,27 +2,27 @@
 //!
 //! | first look | settles |
 //! |---|---|
+//! | stamps | pairs of which neither piece has moved since the same query before: its answer is given again |
 //! | outer spheres | pairs farther apart than the tolerance |
 //! | odometers | pairs that cannot have come near since they were last found apart |
-//! | stamps | pairs of which neither piece has moved since the same query before: its answer is given again |
 //! | inner spheres | of queries for intersection alone, pairs that certainly intersect |
 //!
-//! Only the last two list pairs. The last is a function of the poses, and an answer given again is the one that the
+//! Only the first and the last list pairs. The last is a function of the poses, and an answer given again is the one that the
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
-use crate::base::memory::{push, reserve};
 use crate::base::simd::prefetch;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Placed, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
-use crate::scene::contacts::{ContactMemory, Contacts, Details};
+use crate::scene::contacts::{ContactMemory, Details};
+use crate::scene::findings::{Before, Findings, make_room};
 use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
 use crate::scene::query::PairResult;
-use crate::scene::statistics::{SceneStatistics, Settled};
+use crate::scene::statistics::{SceneStatistics, Settled, level_of};
 
 /// Pairs that are looked at before the first of them is tested.
-pub(crate) const BLOCK: usize = 256;
+pub(crate) const BLOCK: usize = 1 << u8::BITS;
 
 /// So many tests ahead the memory is asked for poses and caches: one test takes about as long as memory does.
 const TEST_AHEAD: usize = 3;
@@ -54,20 +54,10 @@ pub(crate) struct Pass<'a> {
     pub tolerance: f64,
     /// Stop behind the first intersecting pair.
     pub early_exit: bool,
-    /// The number of this pass over the pairs, from 1 on.
-    pub number: u64,
-    /// The results of the pass before if it asked the same, else none.
+    /// The pass before, if it asked the same of the same pairs and its answers are to be given again.
     pub before: Option<&'a Before>,
     /// What is asked of listed pairs beside their answers.
     pub details: Option<&'a Details>,
-}
-
-/// The results of a pass, when another has begun.
-#[derive(Debug, Default)]
-pub(crate) struct Before {
-    /// They, and what is left of earlier ones.
-    pairs: Vec<PairResult>,
-    contacts: Contacts,
 }
 
 /// What pairs remember, by place.
@@ -126,77 +116,34 @@ impl Caches for Own<'_> {
     }
 }
 
-/// What came of a part of the pairs.
-#[derive(Debug, Default)]
-pub(crate) struct Findings {
-    /// Kept from pass to pass, with what is left of earlier ones behind the results.
-    slots: Vec<PairResult>,
-    count: usize,
-    /// Of each result, where they are asked for.
-    pub contacts: Contacts,
-    pub statistics: SceneStatistics,
-    pub intersecting: bool,
-    /// Of one block of pairs those that the first look has not settled.
-    left: Vec<(usize, Look)>,
-}
-
-impl Findings {
-    /// For another pass.
-    pub fn clear(&mut self) {
-        self.count = 0;
-        self.contacts.clear();
-        self.statistics = SceneStatistics::default();
-        self.intersecting = false;
-    }
-
-    /// Those of the pass, in the scene's order.
-    pub fn results(&self) -> &[PairResult] {
-        &self.slots[..self.count]
-    }
-
-    /// Takes the place of the results of before, and gives it to them.
-    pub fn swap_results(&mut self, before: &mut Before) {
-        std::mem::swap(&mut self.slots, &mut before.pairs);
-        std::mem::swap(&mut self.contacts, &mut before.contacts);
-    }
-
-    /// Room for `count` more results.
-    fn reserve(&mut self, count: usize) -> Result<()> {
-        let missing = (self.count + count).saturating_sub(self.slots.len());
-        reserve(&mut self.slots, missing)?;
-        self.slots.resize(self.slots.len() + missing, PairResult::default());
-        Ok(())
-    }
-
-    /// Adds those of another part behind; gives where they begin.
-    ///
-    /// # Errors
-    /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn append(&mut self, part: &Findings) -> Result<u32> {
-        let first = self.count;
-        self.reserve(part.count)?;
-        self.slots[first..first + part.count].copy_from_slice(part.results());
-        self.count += part.count;
-        self.contacts.append_all(&part.contacts)?;
-        self.intersecting |= part.intersecting;
-        self.statistics.add(&part.statistics);
-        Ok(first as u32)
-    }
-
-    /// Sum of `upper − lower` over the results.
-    pub fn error_spent(&self) -> f64 {
-        self.results().iter().map(|result| result.answer.upper - result.answer.lower).sum()
-    }
-}
-
 /// What the first look says.
 #[derive(Debug, Clone, Copy)]
 enum Look {
     Settled,
-    /// To be listed as result so-and-so of before.
-    Again(u32),
+    /// Its result of before is listed again.
+    Again,
     Intersects,
     Test,
+}
+
+/// Of one block of pairs those that the first look has not settled, in order; a byte tells which.
+struct Left {
+    pairs: [(u8, Look); BLOCK],
+    count: usize,
+}
+
+impl Left {
+    /// Written whether it counts or not, as what cannot be foretold is better no branch.
+    #[inline(always)]
+    fn add_if(&mut self, counts: bool, pair: usize, look: Look) {
+        self.pairs[self.count] = (pair as u8, look);
+        self.count += usize::from(counts);
+    }
+
+    #[inline(always)]
+    fn get(&self, k: usize) -> Option<(usize, Look)> {
+        self.pairs[..self.count].get(k).map(|&(pair, look)| (pair.into(), look))
+    }
 }
 
 impl Pass<'_> {
@@ -210,45 +157,68 @@ impl Pass<'_> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
+        let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
         for pairs in pairs.chunks_mut(BLOCK) {
-            findings.left.clear();
-            for k in 0..pairs.len() {
-                if let Some(ahead) = pairs.get(k + LOOK_AHEAD) {
-                    prefetch(&self.proxies.spheres[ahead.proxies[1] as usize]);
-                    prefetch(&self.proxies.motions[ahead.proxies[1] as usize]);
+            self.look_at(pairs, &mut left, &mut findings.statistics);
+            make_room(&mut findings.slots, findings.written + left.count)?;
+            let mut next = 0;
+            while let Some((at, look)) = left.get(next) {
+                if let Some((ahead, look)) = left.get(next + TEST_AHEAD) {
+                    self.prefetch(look, &pairs[ahead], caches);
                 }
-                match self.look(&mut pairs[k], &mut findings.statistics) {
-                    Look::Settled => pairs[k].result = UNLISTED,
-                    look => push(&mut findings.left, (k, look))?,
-                }
-            }
-            findings.reserve(findings.left.len())?;
-            for k in 0..findings.left.len() {
-                if let Some((ahead, look)) = findings.left.get(k + TEST_AHEAD) {
-                    let ahead = &pairs[*ahead];
-                    prefetch(&self.proxies.labels[ahead.proxies[1] as usize]);
-                    if let Look::Test = look {
-                        prefetch(caches.peek(ahead.cache));
-                        for proxy in ahead.proxies {
-                            prefetch(&self.proxies.poses[proxy as usize]);
-                        }
-                    }
-                }
-                let (at, look) = findings.left[k];
-                if self.list(look, &mut pairs[at], caches, findings)? {
+                let pair = &mut pairs[at];
+                let stops = match look {
+                    Look::Settled => false,
+                    Look::Again => self.list_again(pair, findings)?,
+                    Look::Intersects | Look::Test => self.list_anew(look, pair, caches, findings)?,
+                };
+                if stops {
                     return Ok(true);
                 }
+                next += 1;
             }
         }
         Ok(false)
     }
 
+    /// The first look at a block.
+    #[inline(always)]
+    fn look_at(&self, pairs: &mut [NearPair], left: &mut Left, statistics: &mut SceneStatistics) {
+        left.count = 0;
+        let mut unlisted = 0;
+        for k in 0..pairs.len() {
+            if let Some(ahead) = pairs.get(k + LOOK_AHEAD)
+                && !self.is_unmoved(ahead)
+            {
+                self.prefetch_rows(ahead);
+            }
+            let pair = &mut pairs[k];
+            if self.is_unmoved(pair) {
+                let is_listed = pair.result != UNLISTED;
+                left.add_if(is_listed, k, Look::Again);
+                unlisted += u64::from(!is_listed);
+                continue;
+            }
+            match self.look(pair, statistics) {
+                Look::Settled => pair.result = UNLISTED,
+                look => left.add_if(true, k, look),
+            }
+        }
+        statistics.count_unmoved(unlisted, 0);
+    }
+
+    /// Whether neither piece has moved since the same query before.
+    #[inline(always)]
+    fn is_unmoved(&self, pair: &NearPair) -> bool {
+        self.before.is_some_and(|before| before.answers(pair))
+    }
+
     #[inline(always)]
     fn look(&self, pair: &mut NearPair, statistics: &mut SceneStatistics) -> Look {
-        if pair.testing != Testing::Active {
+        pair.is_answered = pair.testing == Testing::Active;
+        if !pair.is_answered {
             return Look::Settled;
         }
-        let before = std::mem::replace(&mut pair.looked_at, self.number);
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
         if are_far_apart(spheres1, spheres2, self.tolerance) {
@@ -263,45 +233,68 @@ impl Pass<'_> {
             statistics.count_settled(Settled::OutOfReach);
             return Look::Settled;
         }
-        if self.before.is_some() & (before + 1 == self.number) & (motion1.moved < before) & (motion2.moved < before) {
-            if pair.result != UNLISTED {
-                return Look::Again(pair.result);
-            }
-            statistics.count_settled(Settled::Unmoved);
-            return Look::Settled;
-        }
         if self.verdict_only && overlap_inside(spheres1, spheres2) { Look::Intersects } else { Look::Test }
+    }
+
+    /// Asks for the memory that a look needs.
+    #[inline(always)]
+    fn prefetch_rows(&self, pair: &NearPair) {
+        for proxy in pair.proxies.map(|proxy| proxy as usize) {
+            prefetch(&self.proxies.spheres[proxy]);
+            prefetch(&self.proxies.motions[proxy]);
+        }
+    }
+
+    /// Asks for the memory that a pair's new result needs.
+    #[inline(always)]
+    fn prefetch<C: Caches + ?Sized>(&self, look: Look, pair: &NearPair, caches: &C) {
+        if let Look::Settled | Look::Again = look {
+            return;
+        }
+        for proxy in pair.proxies.map(|proxy| proxy as usize) {
+            prefetch(&self.proxies.labels[proxy]);
+            if let Look::Test = look {
+                prefetch(&self.proxies.poses[proxy]);
+                prefetch(&self.proxies.shapes[proxy]);
+            }
+        }
+        if let Look::Test = look {
+            prefetch(caches.peek(pair.cache));
+        }
+    }
+
+    /// Lists a pair with its result of before; true if the query is to stop there.
+    #[inline(always)]
+    fn list_again(&self, pair: &mut NearPair, findings: &mut Findings) -> Result<bool> {
+        let at = pair.result as usize;
+        if let (Some(_), Some(before)) = (self.details, self.before) {
+            findings.contacts.again(&before.contacts, at)?;
+        }
+        pair.result = findings.listed as u32;
+        findings.list_again(at)?;
+        findings.statistics.count_unmoved(1, pair.level);
+        findings.intersecting |= pair.intersects;
+        Ok(pair.intersects & self.early_exit)
     }
 
     /// Adds the pair's result if it is listed; true if the query is to stop there.
     #[inline(always)]
-    fn list<C: Caches + ?Sized>(
+    fn list_anew<C: Caches + ?Sized>(
         &self,
         look: Look,
         pair: &mut NearPair,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
-        let at = findings.count;
+        let at = findings.written;
         let answer = &mut findings.slots[at].answer;
-        match look {
-            Look::Settled => {}
-            Look::Again(result) => {
-                if let Some(before) = self.before {
-                    *answer = before.pairs[result as usize].answer;
-                }
-                findings.statistics.count_again(answer);
-            }
-            Look::Intersects => {
-                *answer = INSCRIBED;
-                findings.statistics.count(answer);
-            }
-            Look::Test => {
-                *answer = PairAnswer::default();
-                caches.change(pair.cache, |cache| self.test(pair, cache, answer))?;
-                findings.statistics.count(answer);
-            }
+        if let Look::Intersects = look {
+            *answer = INSCRIBED;
+        } else {
+            *answer = PairAnswer::default();
+            caches.change(pair.cache, |cache| self.test(pair, cache, answer))?;
         }
+        findings.statistics.count(answer);
         let is_listed = match answer.outcome {
             Outcome::Intersecting => true,
             Outcome::Separated | Outcome::Undecided => !self.verdict_only,
@@ -311,15 +304,15 @@ impl Pass<'_> {
             pair.result = UNLISTED;
             return Ok(false);
         }
-        let intersects = answer.outcome == Outcome::Intersecting;
+        (pair.intersects, pair.level) = (answer.outcome == Outcome::Intersecting, level_of(answer));
         if let Some(details) = self.details {
-            self.find_details(details, look, pair, at, caches, findings)?;
+            self.find_details(details, pair, at, caches, findings)?;
         }
-        pair.result = at as u32;
         self.sign(pair, &mut findings.slots[at]);
-        findings.count += 1;
-        findings.intersecting |= intersects;
-        Ok(intersects & self.early_exit)
+        pair.result = findings.listed as u32;
+        findings.list_new()?;
+        findings.intersecting |= pair.intersects;
+        Ok(pair.intersects & self.early_exit)
     }
 
     /// Asks the pair layer.
@@ -332,7 +325,7 @@ impl Pass<'_> {
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
-            pair.looked_at = 0;
+            pair.is_answered = false;
         }
         Ok(())
     }
@@ -342,25 +335,21 @@ impl Pass<'_> {
     fn find_details<C: Caches + ?Sized>(
         &self,
         details: &Details,
-        look: Look,
         pair: &mut NearPair,
         at: usize,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<()> {
         let Findings { slots, contacts, .. } = findings;
-        if let (Look::Again(result), Some(before)) = (look, self.before) {
-            return contacts.again(&before.contacts, result as usize);
-        }
         let answer = &slots[at].answer;
         let bodies =
             pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));
-        caches.change_contact(pair.cache, answer.outcome == Outcome::Intersecting, |reference, cache| {
+        caches.change_contact(pair.cache, pair.intersects, |reference, cache| {
             details.find(bodies, answer, reference, cache, contacts)
         })?;
         // As of distances.
         if contacts.last_ending() == Some(DepthEnding::Budget) {
-            pair.looked_at = 0;
+            pair.is_answered = false;
         }
         Ok(())
     }

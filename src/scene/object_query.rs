@@ -42,7 +42,7 @@ impl Scene {
         let near = &mut self.broad_phase.near;
         let is_own = |pair: &&NearPair| pair.proxies.iter().any(|&proxy| rows.contains(&(proxy as usize)));
         let mut pairs = collected(near.pairs.iter().filter(is_own).copied())?;
-        let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
+        let pass = asked.pass(&self.proxies, early_exit, None);
         let NearPairs { caches, contacts, .. } = near;
         contacts.make_room(if asked.details.is_some() { caches.len() } else { 0 })?;
         let stopped = pass.run(&mut pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?;
@@ -117,7 +117,7 @@ impl Scene {
     /// Pairs that remember nothing.
     fn ask_cold(&mut self, pairs: &mut [NearPair], asked: &Asked, early_exit: bool) -> Result<bool> {
         let mut caches = filled(PairCache::default(), pairs.len())?;
-        let pass = asked.pass(&self.proxies, early_exit, self.passes, None);
+        let pass = asked.pass(&self.proxies, early_exit, None);
         let stopped = pass.run(pairs, &mut Own { caches: &mut caches, contacts: None }, &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);
         Ok(stopped)

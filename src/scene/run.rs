@@ -11,7 +11,8 @@ use crate::base::simd::environment::with_default;
 use crate::pair::{self, PairCache, PairConfig, Query};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing, order};
 use crate::scene::contacts::Details;
-use crate::scene::narrow_phase::{BLOCK, Before, Findings, Own, Pass};
+use crate::scene::findings::{Before, Findings};
+use crate::scene::narrow_phase::{BLOCK, Own, Pass};
 use crate::scene::object::ObjectId;
 use crate::scene::proxies::{Label, Proxies};
 use crate::scene::query::{SceneAnswer, SceneQuery};
@@ -88,9 +89,15 @@ impl Scene {
         if keeps_list {
             self.update_near_pairs(tolerance)?;
         }
-        let before = is_repeated.then_some(&self.before);
-        let pass = asked.pass(&self.proxies, early_exit, self.passes, before);
         let near = &mut self.broad_phase.near;
+        let gives_again = is_repeated
+            && keeps_list
+            && near.last_pass + 1 == self.passes
+            && self.before.find_moved(&self.proxies, self.passes)?;
+        if gives_again {
+            self.findings.set_apart(&mut self.before);
+        }
+        let pass = asked.pass(&self.proxies, early_exit, gives_again.then_some(&self.before));
         if asked.details.is_some() {
             near.contacts.make_room(near.caches.len())?;
         }
@@ -110,10 +117,16 @@ impl Scene {
             let rows = collected(self.proxies.of_objects())?;
             ask_all(&pass, &rows, near, |labels| testing(objects, activation, filter, labels), &mut self.findings)?
         };
+        if gives_again {
+            self.findings.join(&mut self.before)?;
+        }
         self.statistics.add(&self.findings.statistics);
         if !stopped {
+            if keeps_list {
+                near.last_pass = self.passes;
+            }
             if asked.details.is_some() && keeps_list {
-                near.forget_depths(|result| !self.findings.contacts.intersects(result));
+                near.forget_depths();
             }
             self.last = Some(asked);
         }
@@ -122,8 +135,7 @@ impl Scene {
 
     /// Makes the last results those of before; what was asked for them if they are all there.
     pub(super) fn begin_pass(&mut self) -> Option<Asked> {
-        self.findings.swap_results(&mut self.before);
-        self.findings.clear();
+        self.findings.begin(&mut self.before);
         self.passes += 1;
         self.last.take()
     }
@@ -168,14 +180,8 @@ impl Asked {
         if self.query == Query::Intersection { 0.0 } else { self.config.distance_tolerance }
     }
 
-    /// One pass over pairs, its number `number` of the scene's; `before` are the results of the last one if it was the same.
-    pub(super) fn pass<'a>(
-        &'a self,
-        proxies: &'a Proxies,
-        early_exit: bool,
-        number: u64,
-        before: Option<&'a Before>,
-    ) -> Pass<'a> {
+    /// One pass over pairs; see [`Pass::before`].
+    pub(super) fn pass<'a>(&'a self, proxies: &'a Proxies, early_exit: bool, before: Option<&'a Before>) -> Pass<'a> {
         let solver = match self.query {
             Query::Intersection => pair::intersection,
             Query::Distance => pair::distance,
@@ -186,17 +192,7 @@ impl Asked {
         };
         let verdict_only = self.query == Query::Intersection;
         let (config, tolerance) = (&self.config, self.tolerance());
-        Pass {
-            proxies,
-            solver,
-            config,
-            verdict_only,
-            tolerance,
-            early_exit,
-            number,
-            before,
-            details: self.details.as_ref(),
-        }
+        Pass { proxies, solver, config, verdict_only, tolerance, early_exit, before, details: self.details.as_ref() }
     }
 }
 

@@ -51,7 +51,6 @@ pub struct SceneStatistics {
 /// What settled a pair that is not listed.
 pub(crate) enum Settled {
     BoundingSpheres,
-    Unmoved,
     OutOfReach,
 }
 
@@ -73,14 +72,15 @@ impl SceneStatistics {
         self.marching_steps += u64::from(answer.statistics.marching_steps);
         self.fallback_iterations += u64::from(answer.statistics.fallback_iterations);
         self.exact_iterations += u64::from(answer.statistics.exact_iterations);
-        self.count_level(answer);
+        self.by_level[usize::from(level_of(answer))] += 1;
     }
 
-    /// A pair whose answer of before was given again.
-    pub(crate) fn count_again(&mut self, answer: &PairAnswer) {
-        self.pairs += 1;
-        self.unmoved += 1;
-        self.count_level(answer);
+    /// Pairs of which neither piece has moved; `level` is that of their answers, as [`level_of`] says it.
+    #[inline(always)]
+    pub(crate) fn count_unmoved(&mut self, count: u64, level: u8) {
+        self.pairs += count;
+        self.unmoved += count;
+        self.by_level[usize::from(level)] += count;
     }
 
     /// A pair that a first look settled.
@@ -90,14 +90,8 @@ impl SceneStatistics {
         self.by_level[0] += 1;
         *match by {
             Settled::BoundingSpheres => &mut self.bounding_spheres,
-            Settled::Unmoved => &mut self.unmoved,
             Settled::OutOfReach => &mut self.out_of_reach,
         } += 1;
-    }
-
-    fn count_level(&mut self, answer: &PairAnswer) {
-        let [level1, level2] = answer.statistics.levels.map(usize::from);
-        self.by_level[level1.max(level2).min(self.by_level.len() - 1)] += 1;
     }
 
     /// What a part of a query did, but for the queries themselves and the error, which are no sums over parts.
@@ -120,4 +114,13 @@ impl SceneStatistics {
         self.unmoved += part.unmoved;
         self.out_of_reach += part.out_of_reach;
     }
+}
+
+/// The last entry of [`SceneStatistics::by_level`].
+const LAST_LEVEL: u16 = 7;
+
+/// Where an answer counts among [`SceneStatistics::by_level`].
+pub(crate) fn level_of(answer: &PairAnswer) -> u8 {
+    let [level1, level2] = answer.statistics.levels;
+    level1.max(level2).min(LAST_LEVEL) as u8
 }

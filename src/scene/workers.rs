@@ -10,7 +10,8 @@ use crate::base::simd::environment::with_default;
 use crate::pair::{DepthCache, PairCache, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
 use crate::scene::contacts::ContactMemory;
-use crate::scene::narrow_phase::{BLOCK, Caches, Findings, Pass};
+use crate::scene::findings::Findings;
+use crate::scene::narrow_phase::{BLOCK, Caches, Pass};
 
 /// Fewer pairs are left to one thread: waking another takes as long as some dozen tests, and its first ones miss the memory.
 pub(crate) const FEWEST_SHARED: usize = 2048;

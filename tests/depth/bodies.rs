@@ -245,6 +245,21 @@ fn witness_points_of_bodies_of_very_different_sizes_hold() {
     check(pair, placed, &cache, &answer);
 }
 
+/// A body beyond the range of the search, and a pose that shrinks it: the common point is farther from the feature in the object's
+/// frame than the interval is wide. From fuzzing.
+#[test]
+fn a_wide_interval_in_a_shrunk_pose_holds() {
+    let (large, small) = (cuboid([1.5445794735293872e157; 3]), cuboid([2.498001805406602e-16; 3]));
+    let shrunk = Matrix::new(0.0, -0.99609375, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0);
+    let stretched = Matrix::from_diagonal(&Vector::new(1.00390625, 1.0, 1.0));
+    let poses = [Pose::new(&shrunk, &Vector::zeros()), Pose::new(&stretched, &Vector::new(-32.0, -4.0, -32.0))];
+    let (pair, placed) = ([&large, &small], [&poses[0], &poses[1]]);
+    let mut cache = DepthCache::default();
+    let answer = query(pair, placed, &mut cache);
+    assert_eq!((answer.outcome, answer.ending), (Outcome::Intersecting, DepthEnding::Integers));
+    check(pair, placed, &cache, &answer);
+}
+
 /// As narrow as asked for, and no more steps than that takes; a budget ends in an interval that holds.
 #[test]
 fn errors_and_budgets_are_kept() {

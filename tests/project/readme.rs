@@ -1,4 +1,6 @@
-//! The C code in the README is that of examples, which are compiled and run.
+//! The C code in the README is that of examples, which are compiled and run; links of all pages lead somewhere.
+
+use std::path::{Path, PathBuf};
 
 const README: &str = include_str!("../../README.md");
 const HELLO: &str = include_str!("../../examples/hello.c");
@@ -17,14 +19,25 @@ fn the_blocks_of_c_are_from_examples() {
     assert!(SCENE.contains(scene), "README.md has lines that examples/scene.c has not:\n{scene}");
 }
 
-/// Every file that the README links to is there.
+/// README.md, ARCHITECTURE.md, and those of `docs`, `benches` and `fuzz`.
+fn pages() -> Vec<PathBuf> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR"));
+    let files = ["", "docs", "benches", "fuzz"].iter().flat_map(|folder| root.join(folder).read_dir().unwrap());
+    files.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
+}
+
+/// Every file that a page links to is there.
 #[test]
 fn links_lead_somewhere() {
-    let targets: Vec<&str> =
-        README.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target).collect();
-    assert!(targets.len() > 10, "{targets:?}");
-    for target in targets.iter().filter(|target| !target.starts_with("http")) {
-        let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(target);
-        assert!(path.exists(), "README.md links to {target}, which is not there");
+    let mut count = 0;
+    for page in pages() {
+        let text = std::fs::read_to_string(&page).unwrap();
+        let targets = text.split("](").skip(1).filter_map(|rest| rest.split_once(')')).map(|(target, _)| target);
+        for target in targets.filter(|target| !target.starts_with("http")) {
+            let file = target.split_once('#').map_or(target, |(file, _)| file);
+            assert!(page.with_file_name(file).exists(), "{} links to {target}, which is not there", page.display());
+            count += 1;
+        }
     }
+    assert!(count > 50, "{count}");
 }

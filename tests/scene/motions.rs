@@ -194,6 +194,65 @@ fn run_all(setting: Setting) {
     }
 }
 
+/// The same query step after step, so that most answers are given again: while few objects move, others come and go, are left out
+/// for a step, and sometimes get other user data.
+#[test]
+fn answers_given_again_are_those_of_all_pairs() {
+    for (name, family) in families() {
+        for verdicts in [true, false] {
+            let mut random = Random::new(0xa6a1);
+            let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+            let add = |scene: &mut Scene, random: &mut Random| {
+                let pose = anywhere(random, 5.0, Setting::Plain);
+                let options = ObjectOptions { pose, user_data: random.below(1000) as u64, ..Default::default() };
+                scene.add_object(family[random.below(family.len())].clone(), &options).unwrap();
+            };
+            (0..OBJECTS / 2).for_each(|_| add(&mut scene, &mut random));
+            for step in 0..3 * STEPS {
+                let ids: Vec<ObjectId> = scene.objects().map(|object| object.id()).collect();
+                let mut left_out = Vec::new();
+                for &id in &ids {
+                    let pose = *scene.object(id).unwrap().pose();
+                    match random.below(100) {
+                        0..5 => scene.set_pose(id, &stepped(&mut random, &pose, 0.1)).unwrap(),
+                        5 => scene.remove_object(id).unwrap(),
+                        6 => add(&mut scene, &mut random),
+                        7 => left_out.push(id),
+                        8 if step % 3 == 0 => scene.set_user_data(id, 1000 + step as u64).unwrap(),
+                        _ => {}
+                    }
+                }
+                // All pairs of an object that is added later are active.
+                left_out.iter().for_each(|&id| scene.set_object_active(id, false).unwrap());
+                let mut all = all_pairs(&scene, 0.25);
+                all.retain(|((id1, id2, ..), _)| !left_out.contains(id1) && !left_out.contains(id2));
+                let query = SceneQuery { distance_tolerance: 0.25, ..SceneQuery::default() };
+                let what = format!("{name}, verdicts {verdicts}, step {step}");
+                let listed = if verdicts {
+                    let listed = scene.query_intersection(&query).unwrap().pairs.to_vec();
+                    agree(&listed, &all, |answer| answer.outcome == Outcome::Intersecting, &what);
+                    listed
+                } else {
+                    let listed = scene.query_exact_distance(&query).unwrap().pairs.to_vec();
+                    agree(&listed, &all, |_| true, &what);
+                    listed
+                };
+                for result in &listed {
+                    let of = |id: ObjectId| scene.object(id).unwrap().user_data();
+                    assert_eq!(
+                        (result.user_data1, result.user_data2),
+                        (of(result.object1), of(result.object2)),
+                        "{what}"
+                    );
+                }
+                left_out.iter().for_each(|&id| scene.set_object_active(id, true).unwrap());
+            }
+            let statistics = scene.statistics();
+            assert!(3 * statistics.unmoved > statistics.pairs, "{name}: {statistics:?}");
+        }
+    }
+}
+
 #[test]
 fn plain_scenes() {
     run_all(Setting::Plain);

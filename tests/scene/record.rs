@@ -266,8 +266,8 @@ fn a_changed_byte_is_found_and_its_place_told() {
     }
 }
 
-#[test]
-fn a_question_that_ends_the_program_is_the_last_record() {
+/// A recorded scene of two cubes that overlap.
+fn two_cubes() -> (Tape, Scene, [ObjectId; 2]) {
     let (tape, mut recorded) = (Tape::default(), scene());
     recorded.record_to(tape.clone()).unwrap();
     let cube = cuboid([0.5; 3]);
@@ -275,6 +275,12 @@ fn a_question_that_ends_the_program_is_the_last_record() {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..Default::default() };
         recorded.add_object(vec![cube.clone()], &options).unwrap()
     });
+    (tape, recorded, ids)
+}
+
+#[test]
+fn a_question_that_ends_the_program_is_the_last_record() {
+    let (tape, mut recorded, ids) = two_cubes();
     let during = Arc::new(Mutex::new(Vec::new()));
     let (seen, copy) = (during.clone(), tape.clone());
     recorded.set_pair_filter(Some(PairFilter::new(move |_, _| {
@@ -289,13 +295,7 @@ fn a_question_that_ends_the_program_is_the_last_record() {
 
 #[test]
 fn what_another_filter_said_is_not_remembered() {
-    let (tape, mut recorded) = (Tape::default(), scene());
-    recorded.record_to(tape.clone()).unwrap();
-    let cube = cuboid([0.5; 3]);
-    let ids = [0.0, 0.5].map(|x| {
-        let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..Default::default() };
-        recorded.add_object(vec![cube.clone()], &options).unwrap()
-    });
+    let (tape, mut recorded, ids) = two_cubes();
     let touching = SceneQuery { distance_tolerance: 0.0, ..SceneQuery::default() };
     // The pair is liked while it is near; then it is not, and nobody is asked until it is near again.
     recorded.set_pair_filter(Some(PairFilter::new(|_, _| true)));

@@ -99,6 +99,10 @@ fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
         seen.push(told(scene.query_intersection(&near).unwrap()));
         // Twice: the second time most answers are given again.
         seen.push(told(scene.query_exact_distance(&near).unwrap()));
+        for (pose, id) in poses.iter_mut().zip(&ids).skip(step).step_by(40) {
+            *pose = Pose::new(&pose.rotation(), &(pose.translation() + random.vector() * 0.05));
+            scene.set_pose(*id, pose).unwrap();
+        }
         seen.push(told(scene.query_exact_distance(&near).unwrap()));
         seen.push(told(scene.query_intersection(&early).unwrap()));
         seen.push(format!("{:?}", scene.statistics()));

@@ -116,8 +116,39 @@ impl SupportMap for TurnedClimber<'_> {
     }
 }
 
-fn climbers<'a, const STEEPEST: bool>(rings: [&'a Rings; 2], last: [&'a Cell<u32>; 2]) -> [Climber<'a, STEEPEST>; 2] {
-    [0, 1].map(|k| Climber { rings: rings[k], last: last[k] })
+/// Two hulls at poses, and what a query leaves to the next: where climbs ended, and the last direction.
+pub struct ClimbedPair {
+    rings: [Rc<Rings>; 2],
+    pub poses: Vec<(Pose, Pose)>,
+    last: [Cell<u32>; 2],
+    pub direction: Option<Vector>,
+}
+
+impl ClimbedPair {
+    pub fn new(rings: [Rc<Rings>; 2]) -> ClimbedPair {
+        ClimbedPair { rings, poses: Vec::new(), last: [Cell::new(0), Cell::new(0)], direction: None }
+    }
+
+    pub fn load(&mut self, poses: &[PosePair]) {
+        self.poses = poses.iter().map(pose_pair).collect();
+    }
+
+    pub fn forget(&mut self) {
+        self.last = [Cell::new(0), Cell::new(0)];
+        self.direction = None;
+    }
+
+    #[inline]
+    pub fn climbers<const STEEPEST: bool>(&self) -> [Climber<'_, STEEPEST>; 2] {
+        [0, 1].map(|k| Climber { rings: &self.rings[k], last: &self.last[k] })
+    }
+
+    /// Hull 2 in the frame of hull 1.
+    #[inline]
+    pub fn relative_pose(&self, i: usize) -> Pose {
+        let (pose1, pose2) = &self.poses[i];
+        pose1.inv_mul(pose2)
+    }
 }
 
 /// How the support maps are written.
@@ -133,10 +164,7 @@ pub enum Climbing {
 
 pub struct Parry {
     climbing: Climbing,
-    rings: [Rc<Rings>; 2],
-    poses: Vec<(Pose, Pose)>,
-    last: [Cell<u32>; 2],
-    direction: Option<Vector>,
+    pair: ClimbedPair,
     simplex: VoronoiSimplex,
     answer: GJKResult,
 }
@@ -145,10 +173,7 @@ impl Parry {
     pub fn new(rings: [Rc<Rings>; 2], climbing: Climbing) -> Parry {
         Parry {
             climbing,
-            rings,
-            poses: Vec::new(),
-            last: [Cell::new(0), Cell::new(0)],
-            direction: None,
+            pair: ClimbedPair::new(rings),
             simplex: VoronoiSimplex::new(),
             answer: GJKResult::Intersection,
         }
@@ -165,38 +190,34 @@ impl Method for Parry {
     }
 
     fn load(&mut self, poses: &[PosePair]) {
-        self.poses = poses.iter().map(pose_pair).collect();
+        self.pair.load(poses);
     }
 
     fn forget(&mut self) {
-        self.last = [Cell::new(0), Cell::new(0)];
-        self.direction = None;
+        self.pair.forget();
     }
 
     #[inline]
     fn ask(&mut self, i: usize) {
-        let (pose1, pose2) = &self.poses[i];
-        let pose12 = pose1.inv_mul(pose2);
-        let (simplex, direction) = (&mut self.simplex, self.direction);
-        let [rings1, rings2] = &self.rings;
-        let [last1, last2] = &self.last;
+        let pose12 = self.pair.relative_pose(i);
+        let (simplex, direction) = (&mut self.simplex, self.pair.direction);
         self.answer = match self.climbing {
             Climbing::First => {
-                let climbers = climbers::<false>([rings1, rings2], [last1, last2]);
-                distance(&pose12, &climbers[0], &climbers[1], f64::MAX, simplex, direction)
+                let [climber1, climber2] = self.pair.climbers::<false>();
+                distance(&pose12, &climber1, &climber2, f64::MAX, simplex, direction)
             }
             Climbing::Steepest => {
-                let climbers = climbers::<true>([rings1, rings2], [last1, last2]);
-                distance(&pose12, &climbers[0], &climbers[1], f64::MAX, simplex, direction)
+                let [climber1, climber2] = self.pair.climbers::<true>();
+                distance(&pose12, &climber1, &climber2, f64::MAX, simplex, direction)
             }
             Climbing::FirstWithMatrix => {
-                let [climber1, climber] = climbers::<false>([rings1, rings2], [last1, last2]);
+                let [climber1, climber] = self.pair.climbers::<false>();
                 let rotation = Matrix3::from_quat(pose12.rotation);
                 distance(&pose12, &climber1, &TurnedClimber { climber, rotation }, f64::MAX, simplex, direction)
             }
         };
         if let GJKResult::ClosestPoints(_, _, direction) = self.answer {
-            self.direction = Some(direction);
+            self.pair.direction = Some(direction);
         }
     }
 

@@ -87,7 +87,7 @@ impl Kernel for DepthQuery<'_> {
         if !frame.in_range {
             return None;
         }
-        let mut shell = Shell::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::empty();
+        let mut shell = Shell::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
         let start = self.cache.unpack(&frame, &mut shell);
         let found = self.search(&frame, &mut shell, &start);
         if found.expansion.ending == Ending::Stuck {
@@ -136,7 +136,8 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Found {
-        self.search.search(self.frame, &mut Shell::<255, 508>::empty(), &self.start)
+        let mut shell = Shell::<255, 508>::EMPTY;
+        self.search.search(self.frame, &mut shell, &self.start)
     }
 }
 
@@ -303,7 +304,7 @@ impl Kernel for Proof<'_> {
         if !frame.in_range {
             return Vec::new();
         }
-        let mut shell = Shell::<255, 508>::empty();
+        let mut shell = Shell::<255, 508>::EMPTY;
         match self.from {
             ProofFrom::Cache(cache) => {
                 cache.unpack(&frame, &mut shell);

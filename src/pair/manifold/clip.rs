@@ -126,7 +126,12 @@ struct Recent {
 impl Recent {
     fn report(&mut self, corner: &Corner, visit: &mut impl FnMut(&Corner)) {
         let place = corner.place();
-        let is_near = |known: &[f64; 2]| (known[0] - place.x).hypot(known[1] - place.y) <= 4.0 * self.rounding;
+        let most = 4.0 * self.rounding;
+        // `hypot` takes longer than the rest of a corner, and few are as near as to need it.
+        let is_near = |known: &[f64; 2]| {
+            let (x, y) = (known[0] - place.x, known[1] - place.y);
+            x.abs() <= most && y.abs() <= most && x.hypot(y) <= most
+        };
         if self.places.iter().any(is_near) {
             return;
         }

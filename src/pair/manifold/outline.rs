@@ -1,6 +1,6 @@
 //! The outline of a face seen along the normal of a contact, or of a body that has no faces.
 
-use crate::base::math::{Pose, Vector, divisor};
+use crate::base::math::{Matrix, Pose, Vector, divisor};
 use crate::polyhedron::Polyhedron;
 
 /// Axes of a contact: two across its normal, and that.
@@ -52,6 +52,10 @@ pub struct Outline<'a> {
     pub count: usize,
     /// Whether its corners go around counter-clockwise, seen against the normal.
     is_counter_clockwise: bool,
+    /// R⁻¹.
+    inverse: Option<Matrix>,
+    /// The face's normal up to its length, in the axes of the contact.
+    normal: Option<Vector>,
 }
 
 impl<'a> Outline<'a> {
@@ -66,7 +70,15 @@ impl<'a> Outline<'a> {
             Some(face) => polyhedron.faces[face as usize].side_count as usize,
             None => polyhedron.vertices.len().min(2),
         };
-        let mut outline = Outline { polyhedron, pose, offset, axes, face, count, is_counter_clockwise: true };
+        let inverse = pose.rotation().try_inverse();
+        // In the world it is (R⁻¹)ᵀ·n, which is R·n where R is orthonormal up to rounding.
+        let normal_of = |face: u32| {
+            inverse.map(|inverse| axes.spot(&(inverse.transpose() * polyhedron.faces[face as usize].normal)))
+        };
+        let normal = face.and_then(normal_of);
+        let is_counter_clockwise = true;
+        let mut outline =
+            Outline { polyhedron, pose, offset, axes, face, count, is_counter_clockwise, inverse, normal };
         outline.is_counter_clockwise = outline.facing() >= 0.0;
         outline
     }
@@ -114,9 +126,7 @@ impl<'a> Outline<'a> {
             return Some((from.z + along.z * share.clamp(0.0, 1.0), rounding));
         };
         let face = &self.polyhedron.faces[face as usize];
-        // The normal in the world, up to its length: (R⁻¹)ᵀ·n is R·n where R is orthonormal up to rounding.
-        let inverse = self.pose.rotation().try_inverse()?;
-        let normal = self.axes.spot(&(inverse.transpose() * face.normal));
+        let normal = self.normal?;
         if !(normal.z.abs() > STEEPEST * normal.norm()) {
             return None;
         }
@@ -128,8 +138,7 @@ impl<'a> Outline<'a> {
 
     /// A point in the body's frame, in centred coordinates.
     pub fn local(&self, spot: &Vector) -> Option<Vector> {
-        let inverse = self.pose.rotation().try_inverse()?;
-        Some(inverse * (self.axes.point(spot) - self.offset))
+        Some(self.inverse? * (self.axes.point(spot) - self.offset))
     }
 
     /// The corners of least and of greatest first coordinate.

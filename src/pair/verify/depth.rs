@@ -91,9 +91,12 @@ fn check_overlapping(
         check_position(polyhedra, poses, upper)?;
     }
     let witnesses = witnesses(polyhedra, poses, answer);
+    // The interval is of the world, features are measured in the object's frame: no entry of RᵀR − I is beyond the limit L, so
+    // |x| ≤ |R·x| / √(1 − 3L).
+    let local_width = (upper - lower) / (1.0 - 3.0 * ROTATION_LIMIT).sqrt();
     for witness in &witnesses {
         witness.check_point(allowed, &[])?;
-        witness.check_on_feature(allowed + (upper - lower))?;
+        witness.check_on_feature(allowed + local_width)?;
     }
     let apart = super::difference_of(polyhedra, poses, &witnesses);
     let off = length(&(apart + normal * depth));

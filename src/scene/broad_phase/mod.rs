@@ -38,6 +38,8 @@ pub(crate) struct BroadPhase {
     grid: Grid,
     candidates: Candidates,
     scratch: Scratch,
+    /// Whose pairs are looked for, of all pieces: less memory to read than their rows.
+    is_open: Vec<bool>,
     /// τ: no pair is missing that is so near.
     tolerance: f64,
     /// Queries in a row whose tolerance was smaller, and the largest of those.
@@ -58,6 +60,7 @@ impl Default for BroadPhase {
             grid: Grid::default(),
             candidates: Candidates::default(),
             scratch: Scratch::default(),
+            is_open: Vec::new(),
             tolerance: 0.0,
             smaller: (0, 0.0),
             is_broken: false,
@@ -113,8 +116,7 @@ impl BroadPhase {
         } else {
             self.refit_escaped(proxies)?;
             self.find_escaped(proxies)?;
-            let motions = &proxies.motions;
-            let is_open = |pair: [u32; 2]| pair.into_iter().any(|proxy| motions[proxy as usize].has_escaped);
+            let is_open = |[a, b]: [u32; 2]| self.is_open[a as usize] | self.is_open[b as usize];
             let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
             self.near.update(&mut self.candidates, &proxies.firsts, is_open, is_tested)?;
         }
@@ -309,6 +311,8 @@ impl BroadPhase {
     }
 
     fn find_escaped(&mut self, proxies: &Proxies) -> Result<()> {
+        self.is_open.clear();
+        extend(&mut self.is_open, proxies.motions.iter().map(|motion| motion.has_escaped))?;
         let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
         let [moving, fixed] = &self.trees;
         for &proxy in &proxies.escaped {

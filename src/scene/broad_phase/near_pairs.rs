@@ -23,16 +23,20 @@ pub(crate) struct NearPair {
     pub proxies: [u32; 2],
     /// While both odometers together are below this by more than a tolerance, the pieces are farther apart than that.
     pub apart_until: f64,
-    /// The query in which it was last looked at: its number from 1 on.
-    pub looked_at: u64,
     /// Where its memory is.
     pub cache: u32,
-    /// Where in the results of that query its own is, or [`UNLISTED`].
+    /// Where in the results of the last pass its own is, or [`UNLISTED`].
     pub result: u32,
     pub testing: Testing,
+    /// The last pass over the list looked at it and left nothing open.
+    pub is_answered: bool,
+    /// Of a listed one, whether it intersects, …
+    pub intersects: bool,
+    /// … and where among [`SceneStatistics::by_level`](crate::scene::SceneStatistics::by_level) its answer counts.
+    pub level: u8,
 }
 
-/// Of a pair that a query does not list.
+/// Of a pair that a pass does not list.
 pub(crate) const UNLISTED: u32 = u32::MAX;
 
 impl NearPair {
@@ -40,10 +44,12 @@ impl NearPair {
         NearPair {
             proxies,
             apart_until: f64::NEG_INFINITY,
-            looked_at: 0,
             cache: 0,
             result: UNLISTED,
             testing: Testing::Active,
+            is_answered: false,
+            intersects: false,
+            level: 0,
         }
     }
 }
@@ -136,6 +142,19 @@ impl Candidates {
     }
 }
 
+/// How many of sorted pairs come before another one; found the sooner the fewer come behind.
+fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize {
+    let place = order(firsts, proxies);
+    let mut behind = 0;
+    let mut step = 1;
+    while step <= pairs.len() && order(firsts, pairs[pairs.len() - step].proxies) > place {
+        (behind, step) = (step, 2 * step);
+    }
+    let begin = pairs.len().saturating_sub(step);
+    let is_before = |pair: &NearPair| order(firsts, pair.proxies) < place;
+    begin + pairs[begin..pairs.len() - behind].partition_point(is_before)
+}
+
 /// The list.
 #[derive(Debug, Default)]
 pub(crate) struct NearPairs {
@@ -148,6 +167,8 @@ pub(crate) struct NearPairs {
     free: Vec<u32>,
     /// Pairs that come, until they are merged.
     arrivals: Vec<NearPair>,
+    /// The number of the last pass that looked at the whole list.
+    pub last_pass: u64,
 }
 
 impl NearPairs {
@@ -165,31 +186,38 @@ impl NearPairs {
     ) -> Result<()> {
         candidates.sort(firsts)?;
         let found = &mut candidates.pairs;
-        let (mut kept, mut new, mut next) = (0, 0, 0);
+        let (mut new, mut next) = (0, 0);
+        // Pairs before the first one that goes stay where they are; those between two that go move together.
+        let (mut kept, mut moved) = (0, 0);
         for at in 0..self.pairs.len() {
             let pair = self.pairs[at].proxies;
+            if !is_open(pair) {
+                continue;
+            }
             let place = order(firsts, pair);
             while next < found.len() && order(firsts, found[next]) < place {
                 found[new] = found[next];
                 (new, next) = (new + 1, next + 1);
             }
-            let is_candidate = found.get(next) == Some(&pair);
-            next += usize::from(is_candidate);
-            if is_candidate || !is_open(pair) {
-                self.pairs[kept] = self.pairs[at];
-                kept += 1;
-            } else {
-                self.free.push(self.pairs[at].cache);
-                self.contacts.forget(self.pairs[at].cache);
+            if found.get(next) == Some(&pair) {
+                next += 1;
+                continue;
             }
+            self.free.push(self.pairs[at].cache);
+            self.contacts.forget(self.pairs[at].cache);
+            if kept < moved && moved < at {
+                self.pairs.copy_within(moved..at, kept);
+            }
+            (kept, moved) = (kept + at - moved, at + 1);
         }
+        self.pairs.drain(kept..moved);
         found.copy_within(next.., new);
         found.truncate(new + found.len() - next);
-        self.pairs.truncate(kept);
         self.merge(found, firsts, testing)
     }
 
-    /// Adds sorted pairs that are not there: from the end on, so that each old one moves at most once and in place.
+    /// Adds sorted pairs that are not there: from the end on, so that each old one moves at most once and in place, with those
+    /// next to it.
     fn merge(
         &mut self,
         new_pairs: &[[u32; 2]],
@@ -214,16 +242,13 @@ impl NearPairs {
         }
         let (mut old, mut new) = (self.pairs.len(), arrivals.len());
         self.pairs.extend_from_slice(arrivals);
-        while new > 0 {
-            let at = old + new - 1;
-            let arrival = arrivals[new - 1];
-            if old > 0 && order(firsts, self.pairs[old - 1].proxies) > order(firsts, arrival.proxies) {
-                old -= 1;
-                self.pairs[at] = self.pairs[old];
-            } else {
-                new -= 1;
-                self.pairs[at] = arrival;
+        while let Some(arrival) = new.checked_sub(1).map(|last| arrivals[last]) {
+            let before = count_before(&self.pairs[..old], firsts, arrival.proxies);
+            if before < old {
+                self.pairs.copy_within(before..old, before + new);
             }
+            (old, new) = (before, new - 1);
+            self.pairs[old + new] = arrival;
         }
         Ok(())
     }
@@ -235,10 +260,10 @@ impl NearPairs {
         }
     }
 
-    /// Forgets depths of pairs that are not listed, and of those whose results say so.
-    pub fn forget_depths(&mut self, is_apart: impl Fn(u32) -> bool) {
+    /// Forgets depths of pairs that do not intersect.
+    pub fn forget_depths(&mut self) {
         for pair in &self.pairs {
-            if pair.result == UNLISTED || is_apart(pair.result) {
+            if pair.result == UNLISTED || !pair.intersects {
                 self.contacts.forget_depth(pair.cache);
             }
         }
@@ -256,7 +281,7 @@ impl NearPairs {
         for (place, pair) in (0..).zip(&mut pairs) {
             pair.cache = place;
         }
-        *self = NearPairs { pairs, caches, contacts, free, arrivals: Vec::new() };
+        *self = NearPairs { pairs, caches, contacts, free, arrivals: Vec::new(), last_pass: self.last_pass };
         Ok(())
     }
 
@@ -289,7 +314,7 @@ mod tests {
     fn pairs_keep_their_order_and_what_they_remember() {
         let mut random = Random::new(0x9a12);
         let (mut list, mut candidates) = (NearPairs::default(), Candidates::default());
-        let mut model: BTreeMap<((u64, u64), [u32; 2]), u64> = BTreeMap::new();
+        let mut model: BTreeMap<((u64, u64), [u32; 2]), u32> = BTreeMap::new();
         for round in 1..if cfg!(miri) { 20 } else { 400 } {
             let count = 40;
             // Objects of one, two and three pieces.
@@ -311,16 +336,16 @@ mod tests {
             candidates.clear();
             model.retain(|pair, _| !is_open(pair.1) || found.contains(pair));
             for pair in found {
-                model.entry(pair).or_insert(0);
+                model.entry(pair).or_insert(UNLISTED);
             }
             assert_eq!(list.caches.len(), list.pairs.len() + list.free.len());
             let caches: BTreeSet<u32> =
                 list.pairs.iter().map(|pair| pair.cache).chain(list.free.iter().copied()).collect();
             assert_eq!(caches.len(), list.caches.len(), "no two share one");
-            let listed: Vec<([u32; 2], u64)> = list.pairs.iter().map(|pair| (pair.proxies, pair.looked_at)).collect();
+            let listed: Vec<([u32; 2], u32)> = list.pairs.iter().map(|pair| (pair.proxies, pair.result)).collect();
             assert_eq!(listed, model.iter().map(|(pair, &mark)| (pair.1, mark)).collect::<Vec<_>>());
             for pair in &mut list.pairs {
-                pair.looked_at = round;
+                pair.result = round;
                 model.insert((order(&firsts, pair.proxies), pair.proxies), round);
             }
         }

@@ -21,9 +21,9 @@ const MOST_STEPS: u32 = 400;
 /// long as a first shell.
 const MOST_STALE: usize = 8;
 
-/// A shell with more triangles than this, and than twice those that the last first shell came to, is given up, too: each query
+/// A shell with more triangles than this, and than half as many again as the last first shell came to, is given up, too: each query
 /// takes time in proportion to them.
-const MOST_KEPT: usize = 72;
+const MOST_KEPT: usize = 56;
 
 /// The first shell is still so coarse that the tables know better where to climb from.
 const COARSE: usize = 16;
@@ -238,7 +238,7 @@ impl<L: Lanes> Expander<'_, L> {
         let target = self.target();
         let stale = shell.distances[..count].iter().filter(|distance| **distance < target).count();
         // Whether it is closed is asked last: for poses far from the last ones it is not needed.
-        stale <= MOST_STALE && count <= MOST_KEPT.max(2 * self.first_triangles) && shell.is_closed()
+        stale <= MOST_STALE && count <= MOST_KEPT.max(self.first_triangles * 3 / 2) && shell.is_closed()
     }
 
     /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where

@@ -27,15 +27,13 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
     let [centre_x, centre_y, centre_z] = [L::splat(centre.x), L::splat(centre.y), L::splat(centre.z)];
     let (shortest, none, one) = (L::splat(SHORTEST_NORMAL), L::splat(NO_PLANE), L::splat(1.0));
     let [mut least_distance, mut least_height] = [L::splat(f64::INFINITY); 2];
-    let last = to - 1;
+    // Four at a time: the last stands in for what is missing.
+    let last = shell.corners[to - 1];
+    shell.corners[to..to + 3].fill(last);
     let mut first = from;
     while first < to {
-        let four = [
-            &shell.corners[first],
-            &shell.corners[(first + 1).min(last)],
-            &shell.corners[(first + 2).min(last)],
-            &shell.corners[(first + 3).min(last)],
-        ];
+        let &[a, b, c, d] = &shell.corners[first..first + 4] else { break };
+        let four = [&a, &b, &c, &d];
         let p: [L; 3] = components(&shell.positions, &four, 0);
         let q: [L; 3] = components(&shell.positions, &four, 1);
         let r: [L; 3] = components(&shell.positions, &four, 2);
@@ -63,8 +61,9 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
         shell.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
         shell.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
         shell.distances[first..first + 4].copy_from_slice(&distance.to_array());
-        let bit = |lane: u32| (certain >> lane & 1) as u8;
-        shell.certain[first..first + 4].copy_from_slice(&[bit(0), bit(1), bit(2), bit(3)]);
+        // Bit i moves to byte i.
+        let bytes = (certain.wrapping_mul(0x0020_4081) & 0x0101_0101).to_le_bytes();
+        shell.certain[first..first + 4].copy_from_slice(&bytes);
         first += 4;
     }
     Least { distance: least_distance.least().0, height: least_height.least().0 }
@@ -101,6 +100,13 @@ pub fn nearest<L: Lanes, const V: usize, const T: usize>(shell: &Shell<V, T>) ->
             value = *distance;
         }
     }
-    let place = distances.iter().position(|distance| *distance == value).unwrap_or(0);
+    let wanted = L::splat(value);
+    for (place, four) in fours.iter().enumerate() {
+        let found = L::load(four).at_most(wanted);
+        if found != 0 {
+            return (4 * place + found.trailing_zeros() as usize, value);
+        }
+    }
+    let place = rest.iter().position(|distance| *distance == value).map_or(0, |place| 4 * fours.len() + place);
     (place, value)
 }

@@ -44,7 +44,7 @@ pub struct Shell<const V: usize, const T: usize> {
 }
 
 /// An edge of the region's rim, with the triangle that is to stand on it.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Copy)]
 pub struct RimEdge {
     pub tail: u8,
     pub head: u8,
@@ -81,10 +81,9 @@ impl<const V: usize, const T: usize> Shell<V, T> {
     /// How many triangles there is room for.
     pub const TRIANGLE_ROOM: usize = T - 4;
 
-    /// An empty one.
-    #[inline(always)]
-    pub fn empty() -> Shell<V, T> {
-        const { assert!(V <= 255 && T <= 4096 && T > 8, "corners are bytes, half-edges two bytes") };
+    /// An empty one. (A function would fill each array elsewhere and copy it.)
+    pub const EMPTY: Shell<V, T> = {
+        assert!(V <= 255 && T <= 4096 && T > 8, "corners are bytes, half-edges two bytes");
         Shell {
             vertex_count: 0,
             triangle_count: 0,
@@ -98,9 +97,9 @@ impl<const V: usize, const T: usize> Shell<V, T> {
             certain: [0; T],
             marks: [0; T],
             region: [0; T],
-            rim: [RimEdge::default(); T],
+            rim: [RimEdge { tail: 0, head: 0, ends_loop: false, outer: 0, triangle: 0 }; T],
         }
-    }
+    };
 
     /// Without vertices and triangles.
     pub fn clear(&mut self) {
@@ -164,14 +163,22 @@ impl<const V: usize, const T: usize> Shell<V, T> {
     /// The vertex in use that is the difference of a pair.
     #[inline(always)]
     pub fn find(&self, pair: VertexPair) -> Option<u8> {
-        let mut pairs = self.pairs[..self.vertex_count].iter().zip(&self.uses[..self.vertex_count]);
-        pairs.position(|(own, uses)| *own == pair && *uses > 0).map(|vertex| vertex as u8)
+        // Mostly there is none: all are compared, many at a time, before one is looked for.
+        let is_pair = |own: &VertexPair| (own[0] == pair[0]) & (own[1] == pair[1]);
+        let pairs = &self.pairs[..self.vertex_count];
+        if !pairs.iter().fold(false, |found, own| found | is_pair(own)) {
+            return None;
+        }
+        let mut pairs = pairs.iter().zip(&self.uses[..self.vertex_count]);
+        pairs.position(|(own, uses)| is_pair(own) && *uses > 0).map(|vertex| vertex as u8)
     }
 
     /// A vertex that no triangle has yet; `None` where there is no room.
     #[inline(always)]
     pub fn add_vertex(&mut self, pair: VertexPair, position: [f64; 4]) -> Option<u8> {
-        let free = self.uses[..self.vertex_count].iter().position(|uses| *uses == 0);
+        let uses = &self.uses[..self.vertex_count];
+        let is_any_free = uses.iter().fold(false, |free, uses| free | (*uses == 0));
+        let free = if is_any_free { uses.iter().position(|uses| *uses == 0) } else { None };
         let vertex = free.unwrap_or(self.vertex_count);
         if vertex >= V {
             return None;
@@ -201,7 +208,8 @@ impl<const V: usize, const T: usize> Shell<V, T> {
         let (corners, twins) = (self.corners.as_flattened(), self.twins.as_flattened());
         let ends = |half_edge: usize| u16::from_le_bytes([corners[half_edge], corners[half_edge + 1]]);
         let end = (4 * self.triangle_count).min(4 * Self::TRIANGLE_ROOM);
-        let mut is_open = end < 4 * self.triangle_count;
+        // Bits in which something differs.
+        let mut differing = 0;
         for triangle in 0..end / 4 {
             for k in 0..3 {
                 let half_edge = 4 * triangle + k;
@@ -209,10 +217,10 @@ impl<const V: usize, const T: usize> Shell<V, T> {
                 if twin >= end {
                     return false;
                 }
-                is_open |= usize::from(twins[twin]) != half_edge;
-                is_open |= ends(half_edge) != ends(twin).swap_bytes();
+                differing |= twins[twin] ^ half_edge as HalfEdge;
+                differing |= ends(half_edge) ^ ends(twin).swap_bytes();
             }
         }
-        !is_open
+        differing == 0 && end == 4 * self.triangle_count
     }
 }
