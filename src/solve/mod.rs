@@ -20,4 +20,4 @@ pub(crate) mod gjk;
 pub mod enclosure;
 pub(crate) mod decide;
 #[doc(hidden)]
-pub mod shell;
+pub mod polytope;

@@ -210,7 +210,7 @@ fn depths_of_polygons_of_many_sides_hold() {
 }
 
 /// A body 10¹³ times as long as the other: rounding hides all but that they overlap, and the witness points are a common point, not
-/// what the weights of a thin triangle of the shell make. From fuzzing.
+/// what the weights of a thin triangle of the polytope make. From fuzzing.
 #[test]
 fn witness_points_of_bodies_of_very_different_sizes_hold() {
     let long = hull(&[

@@ -1,16 +1,16 @@
-//! What a pair remembers of its depth: the shell that proved it, packed. Here alone it is packed and unpacked.
+//! What a pair remembers of its depth: the polytope that proved it, packed. Here alone it is packed and unpacked.
 
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
-use crate::solve::shell::{NO_TWIN, Shell, Start, triangle_of};
+use crate::solve::polytope::{NO_TWIN, Polytope, Start, triangle_of};
 
-/// Vertices of a shell that is kept.
+/// Vertices of a polytope that is kept.
 pub const MOST_VERTICES: usize = 64;
 
-/// Triangles of a shell that is kept: a closed surface without holes and handles of so many vertices has no more.
+/// Triangles of a polytope that is kept: a closed surface without holes and handles of so many vertices has no more.
 pub const MOST_TRIANGLES: usize = 124;
 
 /// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
@@ -18,9 +18,10 @@ pub const MOST_TRIANGLES: usize = 124;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct DepthCache {
-    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first shell came to.
+    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
+    /// to.
     counts: [u8; 4],
-    /// Where no shell is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
+    /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
     /// The vertices. Coordinates are computed anew: what is stored could lie.
     pairs: [VertexPair; MOST_VERTICES],
@@ -42,27 +43,32 @@ impl Default for DepthCache {
 }
 
 impl DepthCache {
-    /// Puts the kept shell into an empty one, its positions computed for the pair's poses, and says where to begin. The shell stays
-    /// empty where none is kept, or what is kept has vertices that the bodies have not; it need not be [closed](Shell::is_closed).
+    /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and says where to begin. The polytope
+    /// stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be
+    /// [closed](Polytope::is_closed).
     #[inline(always)]
-    pub fn unpack<L: Lanes, const V: usize, const T: usize>(&self, frame: &Frame<L>, shell: &mut Shell<V, T>) -> Start {
+    pub fn unpack<L: Lanes, const V: usize, const T: usize>(
+        &self,
+        frame: &Frame<L>,
+        polytope: &mut Polytope<V, T>,
+    ) -> Start {
         let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
         let mut start = Start { triangle: None, direction: self.direction(frame), first_triangles };
         let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
         if !(is_kept && self.are_vertices(frame.polyhedra(), vertices)) {
             return start;
         }
-        if !self.unpack_triangles(shell, vertices, triangles) {
+        if !self.unpack_triangles(polytope, vertices, triangles) {
             return start;
         }
-        shell.vertex_count = vertices;
-        shell.triangle_count = triangles;
+        polytope.vertex_count = vertices;
+        polytope.triangle_count = triangles;
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
         for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
             let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
-            shell.positions[index] = difference.to_array();
+            polytope.positions[index] = difference.to_array();
         }
-        shell.pairs[..vertices].copy_from_slice(&self.pairs[..vertices]);
+        polytope.pairs[..vertices].copy_from_slice(&self.pairs[..vertices]);
         start.triangle = Some(if best < triangles { best } else { 0 });
         start
     }
@@ -87,23 +93,23 @@ impl DepthCache {
     #[inline(always)]
     fn unpack_triangles<const V: usize, const T: usize>(
         &self,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         vertices: usize,
         triangles: usize,
     ) -> bool {
         let packed = self.triangles[..triangles].iter();
-        for (&[a, b, c, ..], corners) in packed.clone().zip(&mut shell.corners) {
+        for (&[a, b, c, ..], corners) in packed.clone().zip(&mut polytope.corners) {
             *corners = [a, b, c, a];
         }
-        for (&[.., x, y, z, sides], twins) in packed.zip(&mut shell.twins) {
+        for (&[.., x, y, z, sides], twins) in packed.zip(&mut polytope.twins) {
             let [x, y, z, sides] = [x, y, z, sides].map(u16::from);
             *twins = [x << 2 | sides & 3, y << 2 | sides >> 2 & 3, z << 2 | sides >> 4 & 3, NO_TWIN];
         }
-        let largest = shell.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
+        let largest = polytope.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
         usize::from(largest) < vertices
     }
 
-    /// The shell that it holds stays, with another direction of least overlap.
+    /// The polytope that it holds stays, with another direction of least overlap.
     #[inline(always)]
     pub fn keep<L: Lanes>(&mut self, frame: &Frame<L>, triangle: usize, direction: &Vector) {
         self.remember(frame, direction);
@@ -116,18 +122,18 @@ impl DepthCache {
         self.direction = [(own.x as f32).to_bits(), (own.y as f32).to_bits(), (own.z as f32).to_bits()];
     }
 
-    /// Keeps a shell, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
+    /// Keeps a polytope, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
     #[inline(always)]
     pub fn pack<L: Lanes, const V: usize, const T: usize>(
         &mut self,
         frame: &Frame<L>,
-        shell: &Shell<V, T>,
+        polytope: &Polytope<V, T>,
         triangle: usize,
         direction: &Vector,
         first_triangles: usize,
     ) {
         self.remember(frame, direction);
-        let (vertices, triangles) = (shell.vertex_count, shell.triangle_count);
+        let (vertices, triangles) = (polytope.vertex_count, polytope.triangle_count);
         let is_small = vertices <= MOST_VERTICES && (4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles;
         if !is_small {
             self.counts = [0, 0, 0, 0];
@@ -135,8 +141,8 @@ impl DepthCache {
         }
         let byte = |count: usize| count.min(255) as u8;
         self.counts = [byte(vertices), byte(triangles), byte(triangle), byte(first_triangles)];
-        self.pairs[..vertices].copy_from_slice(&shell.pairs[..vertices]);
-        let surface = shell.corners.iter().zip(&shell.twins);
+        self.pairs[..vertices].copy_from_slice(&polytope.pairs[..vertices]);
+        let surface = polytope.corners.iter().zip(&polytope.twins);
         for (packed, (corners, twins)) in self.triangles[..triangles].iter_mut().zip(surface) {
             let [x, y, z, _] = *twins;
             let sides = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
@@ -145,8 +151,8 @@ impl DepthCache {
         }
     }
 
-    /// Whether a shell is kept.
-    pub fn holds_shell(&self) -> bool {
+    /// Whether a polytope is kept.
+    pub fn holds_polytope(&self) -> bool {
         self.counts[1] > 0
     }
 }

@@ -1,6 +1,6 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
-//! Floating point searches and proves, `solve/shell/`; integers decide what rounding hides at the ends: objects that touch, flat
+//! Floating point searches and proves, `solve/polytope/`; integers decide what rounding hides at the ends: objects that touch, flat
 //! ones, objects that hardly overlap.
 
 mod answer;
@@ -17,7 +17,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::frame::Frame;
-use crate::solve::shell::{self, Ending, Expansion, Shell, Start, Wanted, Witness};
+use crate::solve::polytope::{self, Ending, Expansion, Polytope, Start, Wanted, Witness};
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
@@ -62,7 +62,7 @@ pub(super) fn deepest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> DepthAn
     answer
 }
 
-/// The search in floating point, compiled for the machine's vector units; it keeps the shell.
+/// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
 struct DepthQuery<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
@@ -87,9 +87,9 @@ impl Kernel for DepthQuery<'_> {
         if !frame.in_range {
             return None;
         }
-        let mut shell = Shell::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
-        let start = self.cache.unpack(&frame, &mut shell);
-        let found = self.search(&frame, &mut shell, &start);
+        let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
+        let start = self.cache.unpack(&frame, &mut polytope);
+        let found = self.search(&frame, &mut polytope, &start);
         if found.expansion.ending == Ending::Stuck {
             let start = Start { triangle: None, direction: None, ..start };
             return Some(L::out_of_line(&mut InLarge { search: self, frame: &frame, start }));
@@ -103,24 +103,24 @@ impl DepthQuery<'_> {
     fn search<L: Lanes, const V: usize, const T: usize>(
         &mut self,
         frame: &Frame<L>,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         start: &Start,
     ) -> Found {
         let DepthConfig { absolute_error, relative_error, step_budget, .. } = *self.config;
         let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget, lower: 0.0 };
-        let expansion = shell::expand(frame, shell, start, &wanted);
-        if shell.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
+        let expansion = polytope::expand(frame, polytope, start, &wanted);
+        if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
             *self.cache = DepthCache::default();
             let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
             return Found { expansion, witness, triangles: 0 };
         }
-        let (witness, triangle) = shell::witness(frame, shell, &expansion);
+        let (witness, triangle) = polytope::witness(frame, polytope, &expansion);
         if expansion.is_as_kept {
             self.cache.keep(frame, triangle, &expansion.direction);
         } else {
-            self.cache.pack(frame, shell, triangle, &expansion.direction, expansion.first_triangles);
+            self.cache.pack(frame, polytope, triangle, &expansion.direction, expansion.first_triangles);
         }
-        Found { expansion, witness, triangles: shell.triangle_count as u32 }
+        Found { expansion, witness, triangles: polytope.triangle_count as u32 }
     }
 }
 
@@ -136,8 +136,8 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Found {
-        let mut shell = Shell::<255, 508>::EMPTY;
-        self.search.search(self.frame, &mut shell, &self.start)
+        let mut polytope = Polytope::<255, 508>::EMPTY;
+        self.search.search(self.frame, &mut polytope, &self.start)
     }
 }
 
@@ -195,7 +195,7 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
                     answer.statistics.exact_iterations = common.iterations;
                 }
                 _ => {
-                    // The shell need not surround the origin, and says no point.
+                    // The polytope need not surround the origin, and says no point.
                     let (upper, normal) = match known {
                         Some(found) => (found.expansion.upper, -found.expansion.direction),
                         None => exact::overlap_along_axes(polyhedra, poses),
@@ -209,7 +209,7 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
     }
 }
 
-/// Whether the shell's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is
+/// Whether the polytope's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is
 /// thin beside bodies of very different sizes may be anything.
 fn has_witness(found: &Found, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
     let Found { expansion: Expansion { upper, direction, .. }, witness, triangles } = found;
@@ -278,13 +278,13 @@ fn fill_points(
 
 /// Where a proof of a depth is looked for.
 pub(super) enum ProofFrom<'a> {
-    /// The shell that a cache holds.
+    /// The polytope that a cache holds.
     Cache(&'a DepthCache),
-    /// A search like that of a query whose shell is too large to be kept, for a lower end of at least so much.
+    /// A search like that of a query whose polytope is too large to be kept, for a lower end of at least so much.
     Search(f64),
 }
 
-/// The triangles of a shell in the pair's poses; none where there is no shell.
+/// The triangles of a polytope in the pair's poses; none where there is no polytope.
 pub(super) fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
     simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from })
 }
@@ -304,17 +304,17 @@ impl Kernel for Proof<'_> {
         if !frame.in_range {
             return Vec::new();
         }
-        let mut shell = Shell::<255, 508>::EMPTY;
+        let mut polytope = Polytope::<255, 508>::EMPTY;
         match self.from {
             ProofFrom::Cache(cache) => {
-                cache.unpack(&frame, &mut shell);
+                cache.unpack(&frame, &mut polytope);
             }
             ProofFrom::Search(lower) => {
                 let start = Start { triangle: None, direction: None, first_triangles: 0 };
                 let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
-                shell::expand(&frame, &mut shell, &start, &wanted);
+                polytope::expand(&frame, &mut polytope, &start, &wanted);
             }
         }
-        (0..shell.triangle_count).map(|triangle| shell.pairs_of(triangle)).collect()
+        (0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle)).collect()
     }
 }

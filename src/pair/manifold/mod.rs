@@ -145,7 +145,7 @@ impl Contact {
 
 /// How far the objects are apart, or how deep in each other. What they were the last time is asked first.
 fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &ManifoldConfig) -> Result<Contact> {
-    if cache.depth.holds_shell()
+    if cache.depth.holds_polytope()
         && let Some(contact) = find_depth(bodies, cache, config)?
     {
         return Ok(contact);

@@ -1,7 +1,7 @@
-//! The independent check of a depth: from above by the support along the normal, over all vertices; from below by a closed shell of
-//! triangles, each at least so far from the origin, that surrounds it.
+//! The independent check of a depth: from above by the support along the normal, over all vertices; from below by a closed polytope
+//! of triangles, each at least so far from the origin, that surrounds it.
 //!
-//! Whoever proposes the shell is not trusted. That it is closed is seen by its edges, how far a triangle is by double-double
+//! Whoever proposes the polytope is not trusted. That it is closed is seen by its edges, how far a triangle is by double-double
 //! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as
 //! in the search.
 
@@ -142,13 +142,13 @@ fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &
 
 type Triangle = [VertexPair; 3];
 
-/// Proves a depth of at least `lower` by the shell of the cache, or by one that is searched for, as a query does or until it proves
-/// it.
+/// Proves a depth of at least `lower` by the polytope of the cache, or by one that is searched for, as a query does or until it
+/// proves it.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
-        let shell = proof(facts.polyhedra, facts.poses, from);
-        why = encloses_ball(facts, &shell, lower);
+        let polytope = proof(facts.polyhedra, facts.poses, from);
+        why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {
             return Ok(());
         }
@@ -156,27 +156,27 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
 }
 
-/// Whether a shell encloses the ball of a radius around the origin, or why it may not.
-fn encloses_ball(facts: &Facts, shell: &[Triangle], radius: f64) -> std::result::Result<(), &'static str> {
-    if shell.is_empty() {
-        return Err("there is no shell around the origin");
+/// Whether a polytope encloses the ball of a radius around the origin, or why it may not.
+fn encloses_ball(facts: &Facts, polytope: &[Triangle], radius: f64) -> std::result::Result<(), &'static str> {
+    if polytope.is_empty() {
+        return Err("there is no polytope around the origin");
     }
-    if !is_closed(shell) {
-        return Err("the shell is not closed");
+    if !is_closed(polytope) {
+        return Err("the polytope is not closed");
     }
-    if !shell.iter().all(|triangle| facts.is_beyond(triangle, radius)) {
-        return Err("a triangle of the shell is nearer");
+    if !polytope.iter().all(|triangle| facts.is_beyond(triangle, radius)) {
+        return Err("a triangle of the polytope is nearer");
     }
-    if !surrounds_origin(facts, shell) {
-        return Err("the shell does not surround the origin");
+    if !surrounds_origin(facts, polytope) {
+        return Err("the polytope does not surround the origin");
     }
     Ok(())
 }
 
 /// Every edge is walked as often one way as the other.
-fn is_closed(shell: &[Triangle]) -> bool {
-    let mut edges = Vec::with_capacity(3 * shell.len());
-    for triangle in shell {
+fn is_closed(polytope: &[Triangle]) -> bool {
+    let mut edges = Vec::with_capacity(3 * polytope.len());
+    for triangle in polytope {
         for k in 0..3 {
             let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
             match tail.cmp(&head) {
@@ -190,21 +190,21 @@ fn is_closed(shell: &[Triangle]) -> bool {
     edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
 }
 
-/// Rays tried before a shell is taken for one that does not surround the origin: one that meets an edge tells nothing.
+/// Rays tried before a polytope is taken for one that does not surround the origin: one that meets an edge tells nothing.
 const RAYS: usize = 16;
 
-/// Whether the shell's degree about the origin is not 0: the sum of the signs with which a ray crosses it. No triangle holds the
+/// Whether the polytope's degree about the origin is not 0: the sum of the signs with which a ray crosses it. No triangle holds the
 /// origin.
-fn surrounds_origin(facts: &Facts, shell: &[Triangle]) -> bool {
+fn surrounds_origin(facts: &Facts, polytope: &[Triangle]) -> bool {
     let crossing_of = |ray: &Vector| {
         let mut degree = 0;
-        for triangle in shell {
+        for triangle in polytope {
             degree += facts.crossing(triangle, ray)?;
         }
         Some(degree)
     };
     let rays = (0..RAYS).map(|attempt| {
-        let triangle = &shell[attempt * 7919 % shell.len()];
+        let triangle = &polytope[attempt * 7919 % polytope.len()];
         let [p, q, r] = triangle.map(|pair| facts.position(pair));
         // Beside the middle, so that no symmetry leads it through an edge.
         p * 0.31 + q * 0.3301 + r * 0.3599

@@ -1,7 +1,7 @@
-//! The first shell of a pair: from supports in a few directions.
+//! The first polytope of a pair: from supports in a few directions.
 
 use super::planes::evaluate;
-use super::storage::{Shell, half_edge};
+use super::storage::{Polytope, half_edge};
 use super::support::{Support, support};
 use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
@@ -14,12 +14,12 @@ const LEAN: f64 = 1.4;
 /// In general position to anything a model or a scene is likely to be aligned with.
 const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 
-/// Makes the first shell. Returns the point inside from which to look at it; `None` where the differences are flat as far as
+/// Makes the first polytope. Returns the point inside from which to look at it; `None` where the differences are flat as far as
 /// rounding lets one see.
 #[inline(always)]
 pub fn make<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     direction: Option<&Vector>,
     supports: &mut u32,
@@ -32,20 +32,20 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
         None if away.norm() > 1e-6 * frame.size => away,
         None => GENERIC,
     };
-    if bipyramid(frame, shell, rounding, &centre, &tip, supports) {
+    if bipyramid(frame, polytope, rounding, &centre, &tip, supports) {
         return Some(centre);
     }
-    tetrahedron(frame, shell, rounding, &tip, supports)
+    tetrahedron(frame, polytope, rounding, &tip, supports)
 }
 
 /// Adds a vertex; whether it is a new one.
-fn add<const V: usize, const T: usize>(shell: &mut Shell<V, T>, found: &Support) -> bool {
-    if shell.pairs[..shell.vertex_count].contains(&found.pair) {
+fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, found: &Support) -> bool {
+    if polytope.pairs[..polytope.vertex_count].contains(&found.pair) {
         return false;
     }
-    shell.pairs[shell.vertex_count] = found.pair;
-    shell.positions[shell.vertex_count] = found.position;
-    shell.vertex_count += 1;
+    polytope.pairs[polytope.vertex_count] = found.pair;
+    polytope.positions[polytope.vertex_count] = found.position;
+    polytope.vertex_count += 1;
     true
 }
 
@@ -53,13 +53,13 @@ fn add<const V: usize, const T: usize>(shell: &mut Shell<V, T>, found: &Support)
 #[inline(always)]
 fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     centre: &Vector,
     tip: &Vector,
     supports: &mut u32,
 ) -> bool {
-    shell.clear();
+    polytope.clear();
     let tip = tip.normalize();
     let axis = if tip.x.abs() < 0.6 { Vector::x() } else { Vector::y() };
     let side = tip.cross(&axis).normalize();
@@ -69,28 +69,28 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     let [a, b, c] = around.map(|direction| (direction + tip * LEAN).normalize());
     for direction in [tip, a, b, c, -tip] {
         *supports += 1;
-        if !add(shell, &support(frame, rounding, &direction, None)) {
+        if !add(polytope, &support(frame, rounding, &direction, None)) {
             return false;
         }
     }
     for i in 0..3 {
         let (own, following) = (1 + i as u8, 1 + ((i + 1) % 3) as u8);
-        shell.corners[i] = [0, own, following, 0];
-        shell.corners[3 + i] = [4, following, own, 0];
-        shell.join(half_edge(i, 1), half_edge(3 + i, 1));
-        shell.join(half_edge(i, 2), half_edge((i + 1) % 3, 0));
-        shell.join(half_edge(3 + i, 0), half_edge(3 + (i + 1) % 3, 2));
+        polytope.corners[i] = [0, own, following, 0];
+        polytope.corners[3 + i] = [4, following, own, 0];
+        polytope.join(half_edge(i, 1), half_edge(3 + i, 1));
+        polytope.join(half_edge(i, 2), half_edge((i + 1) % 3, 0));
+        polytope.join(half_edge(3 + i, 0), half_edge(3 + (i + 1) % 3, 2));
     }
-    shell.triangle_count = 6;
-    shell.count_uses();
-    evaluate::<L, V, T>(shell, rounding, centre, 0, 6).height > rounding.plane
+    polytope.triangle_count = 6;
+    polytope.count_uses();
+    evaluate::<L, V, T>(polytope, rounding, centre, 0, 6).height > rounding.plane
 }
 
 /// Four differences far from each other, and their mean.
 #[inline(always)]
 fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     tip: &Vector,
     supports: &mut u32,
@@ -133,25 +133,25 @@ fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     if !(height(&fourth).abs() > 2.0 * least) {
         return None;
     }
-    shell.clear();
+    polytope.clear();
     for found in [&ends[0], &ends[1], &third, &fourth] {
-        add(shell, found);
+        add(polytope, found);
     }
-    if shell.vertex_count < 4 {
+    if polytope.vertex_count < 4 {
         return None;
     }
     let [y, z] = if is_above { [2, 1] } else { [1, 2] };
     let corners = [[0, y, z], [y, 0, 3], [z, y, 3], [0, z, 3]];
-    for (own, [a, b, c]) in shell.corners.iter_mut().zip(corners) {
+    for (own, [a, b, c]) in polytope.corners.iter_mut().zip(corners) {
         *own = [a, b, c, 0];
     }
     for [triangle, k, other, side] in
         [[0, 0, 1, 0], [0, 1, 2, 0], [0, 2, 3, 0], [1, 1, 3, 2], [1, 2, 2, 1], [2, 2, 3, 1]]
     {
-        shell.join(half_edge(triangle, k), half_edge(other, side));
+        polytope.join(half_edge(triangle, k), half_edge(other, side));
     }
-    shell.triangle_count = 4;
-    shell.count_uses();
-    let centre = (0..4).map(|vertex| shell.position(vertex)).sum::<Vector>() * 0.25;
-    (evaluate::<L, V, T>(shell, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
+    polytope.triangle_count = 4;
+    polytope.count_uses();
+    let centre = (0..4).map(|vertex| polytope.position(vertex)).sum::<Vector>() * 0.25;
+    (evaluate::<L, V, T>(polytope, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
 }

@@ -3,7 +3,7 @@
 //! Whatever vector m proves |m·v|/|m| as the distance of a triangle, so that a plane may be replaced by any other.
 
 use super::Rounding;
-use super::storage::{NO_PLANE, Shell};
+use super::storage::{NO_PLANE, Polytope};
 use crate::base::double_double::{WideVector, narrow, wide_cross, wide_difference};
 use crate::base::math::{Vector, divisor};
 use crate::base::simd::Lanes;
@@ -17,11 +17,11 @@ const GILBERT_STEPS: u32 = 12;
 /// one.
 pub fn straighten<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     triangle: usize,
 ) -> bool {
-    let pairs = shell.pairs_of(triangle);
+    let pairs = polytope.pairs_of(triangle);
     let columns =
         [0, 1].map(|i| [Vector::x(), Vector::y(), Vector::z()].map(|axis| frame.bodies[i].rotate(&axis).to_vector()));
     let edge = |k: usize| {
@@ -33,8 +33,8 @@ pub fn straighten<L: Lanes, const V: usize, const T: usize>(
         [0, 1, 2].map(|axis| along1[axis] - along2[axis])
     };
     let normal = narrow(&wide_cross(&edge(1), &edge(2)));
-    let before = shell.normal(triangle);
-    give_plane(shell, rounding, triangle, &normal) && shell.normal(triangle) != before
+    let before = polytope.normal(triangle);
+    give_plane(polytope, rounding, triangle, &normal) && polytope.normal(triangle) != before
 }
 
 /// R·p from the columns of R.
@@ -45,13 +45,13 @@ fn rotate([x, y, z]: &[Vector; 3], p: &WideVector) -> WideVector {
 /// Gives a triangle the plane that proves most of its distance from the origin, of a few: along the direction of the best upper
 /// bound, towards its nearest point, towards those of its sides. Whether that is more than before.
 pub fn sharpen<const V: usize, const T: usize>(
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     triangle: usize,
     direction: Option<&Vector>,
 ) -> bool {
-    let corners = shell.positions_of(triangle);
-    let mut best = (shell.distances[triangle], None);
+    let corners = polytope.positions_of(triangle);
+    let mut best = (polytope.distances[triangle], None);
     let mut consider = |normal: Vector| {
         if let Some((normal, distance)) = plane(rounding, &corners, &normal)
             && distance > best.0
@@ -76,8 +76,8 @@ pub fn sharpen<const V: usize, const T: usize>(
         }
     }
     let (distance, Some(normal)) = best else { return false };
-    shell.distances[triangle] = distance;
-    set_normal(shell, triangle, &normal);
+    polytope.distances[triangle] = distance;
+    set_normal(polytope, triangle, &normal);
     true
 }
 
@@ -90,20 +90,20 @@ fn nearest_between(from: &Vector, to: &Vector) -> Option<Vector> {
 }
 
 fn give_plane<const V: usize, const T: usize>(
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     triangle: usize,
     normal: &Vector,
 ) -> bool {
-    let Some((normal, distance)) = plane(rounding, &shell.positions_of(triangle), normal) else { return false };
-    shell.distances[triangle] = distance;
-    set_normal(shell, triangle, &normal);
+    let Some((normal, distance)) = plane(rounding, &polytope.positions_of(triangle), normal) else { return false };
+    polytope.distances[triangle] = distance;
+    set_normal(polytope, triangle, &normal);
     true
 }
 
-fn set_normal<const V: usize, const T: usize>(shell: &mut Shell<V, T>, triangle: usize, normal: &Vector) {
+fn set_normal<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, triangle: usize, normal: &Vector) {
     for k in 0..3 {
-        shell.normals[k][triangle] = normal[k];
+        polytope.normals[k][triangle] = normal[k];
     }
 }
 

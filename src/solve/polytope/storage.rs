@@ -1,4 +1,4 @@
-//! The shell itself: vertices, triangles, and how these are joined.
+//! The polytope itself: vertices, triangles, and how these are joined.
 
 use crate::base::math::Vector;
 use crate::solve::exact::VertexPair;
@@ -14,7 +14,7 @@ pub const NO_PLANE: f64 = -f64::MAX;
 
 /// A closed surface of triangles over differences of vertices, with room for V vertices and T − 4 triangles: these are evaluated in
 /// fours. (Arrays of known length: with slices each access would load pointer and length.)
-pub struct Shell<const V: usize, const T: usize> {
+pub struct Polytope<const V: usize, const T: usize> {
     /// Entries of `pairs` that may be in use.
     pub vertex_count: usize,
     /// Triangles in use.
@@ -77,14 +77,14 @@ pub fn half_edge(triangle: usize, k: usize) -> HalfEdge {
     (4 * triangle + k) as HalfEdge
 }
 
-impl<const V: usize, const T: usize> Shell<V, T> {
+impl<const V: usize, const T: usize> Polytope<V, T> {
     /// How many triangles there is room for.
     pub const TRIANGLE_ROOM: usize = T - 4;
 
     /// An empty one. (A function would fill each array elsewhere and copy it.)
-    pub const EMPTY: Shell<V, T> = {
+    pub const EMPTY: Polytope<V, T> = {
         assert!(V <= 255 && T <= 4096 && T > 8, "corners are bytes, half-edges two bytes");
-        Shell {
+        Polytope {
             vertex_count: 0,
             triangle_count: 0,
             pairs: [[0; 2]; V],

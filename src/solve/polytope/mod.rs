@@ -1,4 +1,4 @@
-//! How deep two bodies are in each other, by a closed shell of triangles inside their difference body around the origin.
+//! How deep two bodies are in each other, by a closed polytope of triangles inside their difference body around the origin.
 //!
 //! C = {x − y: x in body 1, y in body 2}. Of intersecting bodies the origin lies in C, and the least translation that parts them is
 //! as long as the origin is far from the boundary of C.
@@ -11,9 +11,9 @@
 //!
 //! *From above*: the support h(n) of C in any direction n.
 //!
-//! The shell grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm (van den
-//! Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it can be moved
-//! on with the bodies: the certificate is checked anew in each query.
+//! The polytope grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm (van
+//! den Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it can be
+//! moved on with the bodies: the certificate is checked anew in each query.
 
 mod storage;
 mod planes;
@@ -29,7 +29,7 @@ use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 pub use expand::{Ending, Expansion, Start, Wanted, expand};
-pub use storage::{NO_TWIN, Shell, triangle_of};
+pub use storage::{NO_TWIN, Polytope, triangle_of};
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.
@@ -67,7 +67,7 @@ impl Rounding {
 /// is next to 2⁻²⁰⁰ lose their triangles by it, and integers decide them.
 const SHORTEST_NORMAL: f64 = f64::from_bits((1023 - 400) << 52);
 
-/// The point inside C from which the shell is looked at: the difference of the centres of mass.
+/// The point inside C from which the polytope is looked at: the difference of the centres of mass.
 #[inline(always)]
 fn centre_of_differences<L: Lanes>(frame: &Frame<L>) -> Vector {
     let [centre1, centre2] = frame.polyhedra().map(|polyhedron| polyhedron.mass.centre_of_mass - polyhedron.centre);

@@ -1,8 +1,8 @@
-//! The search: from the last shell, or a first one, until both bounds meet.
+//! The search: from the last polytope, or a first one, until both bounds meet.
 
 use super::planes::{evaluate, nearest};
 use super::sliver::{sharpen, straighten};
-use super::storage::{NO_PLANE, Shell, half_edge, next, triangle_of};
+use super::storage::{NO_PLANE, Polytope, half_edge, next, triangle_of};
 use super::support::{Support, support};
 use super::surgery::{Demand, replace};
 use super::{Rounding, centre_of_differences, degree, first};
@@ -11,21 +11,21 @@ use crate::base::simd::Lanes;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
 
-/// Steps made with a shell of an earlier query before it is given up for a first one.
+/// Steps made with a polytope of an earlier query before it is given up for a first one.
 const WARM_STEPS: u32 = 48;
 
 /// Steps in all, whatever the budget; on the hard cases 231 were the most.
 const MOST_STEPS: u32 = 400;
 
-/// A shell with more triangles than this that are nearer than they should be is given up at once: so many expansions take as
-/// long as a first shell.
+/// A polytope with more triangles than this that are nearer than they should be is given up at once: so many expansions take as
+/// long as a first polytope.
 const MOST_STALE: usize = 8;
 
-/// A shell with more triangles than this, and than half as many again as the last first shell came to, is given up, too: each query
-/// takes time in proportion to them.
+/// A polytope with more triangles than this, and than half as many again as the last first polytope came to, is given up, too: each
+/// query takes time in proportion to them.
 const MOST_KEPT: usize = 56;
 
-/// The first shell is still so coarse that the tables know better where to climb from.
+/// The first polytope is still so coarse that the tables know better where to climb from.
 const COARSE: usize = 16;
 
 /// What a search is to come to.
@@ -44,11 +44,11 @@ pub struct Wanted {
 /// Where a search begins.
 #[derive(Debug, Clone, Copy)]
 pub struct Start {
-    /// The triangle of the shell whose normal was the direction of least overlap, if there is a shell.
+    /// The triangle of the polytope whose normal was the direction of least overlap, if there is a polytope.
     pub triangle: Option<usize>,
-    /// A direction of small overlap, where no shell is known.
+    /// A direction of small overlap, where no polytope is known.
     pub direction: Option<Vector>,
-    /// Triangles that the last first shell came to.
+    /// Triangles that the last first polytope came to.
     pub first_triangles: usize,
 }
 
@@ -80,9 +80,9 @@ pub struct Expansion {
     pub direction: Vector,
     /// The vertices that reach farthest along it.
     pub farthest: VertexPair,
-    /// Triangles that the last first shell came to.
+    /// Triangles that the last first polytope came to.
     pub first_triangles: usize,
-    /// Whether the shell is the one that the search began with.
+    /// Whether the polytope is the one that the search began with.
     pub is_as_kept: bool,
     /// Expansions.
     pub steps: u32,
@@ -90,11 +90,11 @@ pub struct Expansion {
     pub supports: u32,
 }
 
-/// The search in a shell that is closed, or is not but is [as told](Shell::is_closed), with its positions computed; or empty.
+/// The search in a polytope that is closed, or is not but is [as told](Polytope::is_closed), with its positions computed; or empty.
 #[inline(always)]
 pub fn expand<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     start: &Start,
     wanted: &Wanted,
 ) -> Expansion {
@@ -112,10 +112,10 @@ pub fn expand<L: Lanes, const V: usize, const T: usize>(
         first_triangles: start.first_triangles,
         is_as_kept: false,
     };
-    let ending = search.run(shell, start, wanted.steps.min(MOST_STEPS));
-    let is_sure = ending != Ending::Separated && shell.triangle_count > 0;
-    let lower = if is_sure { nearest::<L, V, T>(shell).1 } else { 0.0 };
-    let lower = if lower > 0.0 && degree::is_positive(shell, &rounding) { lower } else { 0.0 };
+    let ending = search.run(polytope, start, wanted.steps.min(MOST_STEPS));
+    let is_sure = ending != Ending::Separated && polytope.triangle_count > 0;
+    let lower = if is_sure { nearest::<L, V, T>(polytope).1 } else { 0.0 };
+    let lower = if lower > 0.0 && degree::is_positive(polytope, &rounding) { lower } else { 0.0 };
     Expansion {
         ending,
         lower: if lower < search.best.upper { lower } else { search.best.upper.max(0.0) },
@@ -169,11 +169,11 @@ impl<L: Lanes> Expander<'_, L> {
     #[inline(always)]
     fn run<const V: usize, const T: usize>(
         &mut self,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         start: &Start,
         most_steps: u32,
     ) -> Ending {
-        let mut is_warm = self.takes_over(shell, start);
+        let mut is_warm = self.takes_over(polytope, start);
         self.is_as_kept = is_warm;
         if self.best.upper < 0.0 {
             return Ending::Separated;
@@ -181,32 +181,33 @@ impl<L: Lanes> Expander<'_, L> {
         loop {
             if !is_warm {
                 self.is_as_kept = false;
-                // No direction of an earlier query but one that was not kept with its shell: as a start it saves two steps of 17.
+                // No direction of an earlier query but one that was not kept with its polytope: as a start it saves two steps of
+                // 17.
                 let known = start.direction.as_ref().filter(|_| start.triangle.is_none());
-                let made = first::make(self.frame, shell, &self.rounding, known, &mut self.supports);
-                let Some(centre) = made else { return self.measure_flat(shell) };
+                let made = first::make(self.frame, polytope, &self.rounding, known, &mut self.supports);
+                let Some(centre) = made else { return self.measure_flat(polytope) };
                 self.demand = Demand { centre, about_origin: false, ..self.demand };
             }
             let limit = if is_warm { WARM_STEPS.min(most_steps) } else { most_steps };
-            let ending = self.grow(shell, limit, is_warm);
+            let ending = self.grow(polytope, limit, is_warm);
             if is_warm && matches!(ending, Ending::Stuck | Ending::Spent) && self.steps < most_steps {
                 is_warm = false;
                 continue;
             }
             if !is_warm {
-                self.first_triangles = shell.triangle_count;
+                self.first_triangles = polytope.triangle_count;
             }
             return ending;
         }
     }
 
-    /// Upper bounds of differences too flat for a search: across what there is of a shell, and along the axes of the world.
+    /// Upper bounds of differences too flat for a search: across what there is of a polytope, and along the axes of the world.
     #[cold]
-    fn measure_flat<const V: usize, const T: usize>(&mut self, shell: &Shell<V, T>) -> Ending {
-        if shell.triangle_count > 0 {
-            let (triangle, distance) = nearest::<L, V, T>(shell);
+    fn measure_flat<const V: usize, const T: usize>(&mut self, polytope: &Polytope<V, T>) -> Ending {
+        if polytope.triangle_count > 0 {
+            let (triangle, distance) = nearest::<L, V, T>(polytope);
             if distance > NO_PLANE {
-                self.ask(&shell.normal(triangle), None);
+                self.ask(&polytope.normal(triangle), None);
             }
         }
         for axis in [Vector::x(), Vector::y(), Vector::z()] {
@@ -216,15 +217,15 @@ impl<L: Lanes> Expander<'_, L> {
         if self.best.upper < 0.0 { Ending::Separated } else { Ending::Flat }
     }
 
-    /// Whether the shell of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
+    /// Whether the polytope of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
     #[inline(always)]
-    fn takes_over<const V: usize, const T: usize>(&mut self, shell: &mut Shell<V, T>, start: &Start) -> bool {
-        let count = shell.triangle_count;
+    fn takes_over<const V: usize, const T: usize>(&mut self, polytope: &mut Polytope<V, T>, start: &Start) -> bool {
+        let count = polytope.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
-        let least = evaluate::<L, V, T>(shell, &self.rounding, &self.demand.centre, 0, count);
-        if shell.distances[triangle] > NO_PLANE {
-            let [pair, ..] = shell.pairs_of(triangle);
-            self.ask(&shell.normal(triangle), Some(pair));
+        let least = evaluate::<L, V, T>(polytope, &self.rounding, &self.demand.centre, 0, count);
+        if polytope.distances[triangle] > NO_PLANE {
+            let [pair, ..] = polytope.pairs_of(triangle);
+            self.ask(&polytope.normal(triangle), Some(pair));
             if self.best.upper < 0.0 {
                 return true;
             }
@@ -236,9 +237,9 @@ impl<L: Lanes> Expander<'_, L> {
             self.demand.about_origin = true;
         }
         let target = self.target();
-        let stale = shell.distances[..count].iter().filter(|distance| **distance < target).count();
+        let stale = polytope.distances[..count].iter().filter(|distance| **distance < target).count();
         // Whether it is closed is asked last: for poses far from the last ones it is not needed.
-        stale <= MOST_STALE && count <= MOST_KEPT.max(self.first_triangles * 3 / 2) && shell.is_closed()
+        stale <= MOST_STALE && count <= MOST_KEPT.max(self.first_triangles * 3 / 2) && polytope.is_closed()
     }
 
     /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where
@@ -276,13 +277,13 @@ impl<L: Lanes> Expander<'_, L> {
     #[inline(always)]
     fn grow<const V: usize, const T: usize>(
         &mut self,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         most_steps: u32,
         is_warm: bool,
     ) -> Ending {
         let mut straightened = None;
         loop {
-            let (triangle, distance) = nearest::<L, V, T>(shell);
+            let (triangle, distance) = nearest::<L, V, T>(polytope);
             if distance >= self.target() && self.best.upper < f64::INFINITY {
                 return Ending::Narrow;
             }
@@ -290,11 +291,11 @@ impl<L: Lanes> Expander<'_, L> {
                 return Ending::Spent;
             }
             if self.is_as_kept {
-                shell.count_uses();
+                polytope.count_uses();
                 self.is_as_kept = false;
             }
             self.steps += 1;
-            match self.step(shell, triangle, is_warm, &mut straightened) {
+            match self.step(polytope, triangle, is_warm, &mut straightened) {
                 Step::On => {}
                 Step::Separated => return Ending::Separated,
                 Step::Stuck => return Ending::Stuck,
@@ -307,85 +308,85 @@ impl<L: Lanes> Expander<'_, L> {
     #[inline(always)]
     fn step<const V: usize, const T: usize>(
         &mut self,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         triangle: usize,
         is_warm: bool,
         straightened: &mut Option<usize>,
     ) -> Step {
-        if shell.distances[triangle] > NO_PLANE {
-            let normal = shell.normal(triangle);
-            let height = |corner: &u8| normal.dot(&shell.position(*corner));
-            let corners = shell.corners_of(triangle);
+        if polytope.distances[triangle] > NO_PLANE {
+            let normal = polytope.normal(triangle);
+            let height = |corner: &u8| normal.dot(&polytope.position(*corner));
+            let corners = polytope.corners_of(triangle);
             let highest = corners.iter().fold(corners[0], |a, b| if height(b) > height(&a) { *b } else { a });
             let highest_value = height(&highest);
-            let is_coarse = !is_warm && shell.triangle_count < COARSE;
-            let from = (!is_coarse).then_some(shell.pairs[usize::from(highest)]);
+            let is_coarse = !is_warm && polytope.triangle_count < COARSE;
+            let from = (!is_coarse).then_some(polytope.pairs[usize::from(highest)]);
             let found = self.ask(&normal, from);
             if self.best.upper < 0.0 {
                 return Step::Separated;
             }
-            if shell.distances[triangle] >= self.target() {
+            if polytope.distances[triangle] >= self.target() {
                 return Step::On;
             }
-            if found.value - highest_value > self.rounding.plane && self.insert(shell, triangle, &found) {
+            if found.value - highest_value > self.rounding.plane && self.insert(polytope, triangle, &found) {
                 *straightened = None;
                 return Step::On;
             }
             if *straightened != Some(triangle) {
                 *straightened = Some(triangle);
-                if straighten(self.frame, shell, &self.rounding, triangle) {
+                if straighten(self.frame, polytope, &self.rounding, triangle) {
                     return Step::On;
                 }
             }
         }
         let direction = (self.best.upper < f64::INFINITY).then_some(&self.best.direction);
-        if sharpen(shell, &self.rounding, triangle, direction) { Step::On } else { Step::Stuck }
+        if sharpen(polytope, &self.rounding, triangle, direction) { Step::On } else { Step::Stuck }
     }
 
-    /// Inserts a support vertex beyond a triangle; a vertex that the shell has already by a flip, or by taking a corner of the
+    /// Inserts a support vertex beyond a triangle; a vertex that the polytope has already by a flip, or by taking a corner of the
     /// triangle out. Flips have to raise the least distance, so that they cannot go round in circles.
     #[inline(always)]
     fn insert<const V: usize, const T: usize>(
         &mut self,
-        shell: &mut Shell<V, T>,
+        polytope: &mut Polytope<V, T>,
         triangle: usize,
         found: &Support,
     ) -> bool {
-        let known = shell.find(found.pair);
-        let Some(apex) = known.or_else(|| shell.add_vertex(found.pair, found.position)) else { return false };
-        let before = shell.distances[triangle];
+        let known = polytope.find(found.pair);
+        let Some(apex) = known.or_else(|| polytope.add_vertex(found.pair, found.position)) else { return false };
+        let before = polytope.distances[triangle];
         let is_flip = known.is_some();
         let raised = before + self.rounding.plane;
         self.demand.least = if is_flip && before > 0.0 { raised + 1e-9 * raised } else { NO_PLANE };
         self.demand.grows = true;
-        let mut region = shell.begin_region();
-        shell.add_to_region(&mut region, triangle);
-        if !shell.flood(&mut region, apex, &self.rounding) {
+        let mut region = polytope.begin_region();
+        polytope.add_to_region(&mut region, triangle);
+        if !polytope.flood(&mut region, apex, &self.rounding) {
             return false;
         }
-        if replace::<L, V, T>(shell, region, apex, &self.rounding, &self.demand) {
+        if replace::<L, V, T>(polytope, region, apex, &self.rounding, &self.demand) {
             return true;
         }
-        is_flip && shell.corners_of(triangle).into_iter().any(|corner| self.take_out(shell, corner))
+        is_flip && polytope.corners_of(triangle).into_iter().any(|corner| self.take_out(polytope, corner))
     }
 
     /// Takes a vertex of few triangles out: the hole is filled by a fan from one of its neighbours, the nearest first.
     #[inline(always)]
-    fn take_out<const V: usize, const T: usize>(&mut self, shell: &mut Shell<V, T>, vertex: u8) -> bool {
-        let Some(ring) = Ring::around(shell, vertex) else { return false };
-        let from = shell.position(vertex);
+    fn take_out<const V: usize, const T: usize>(&mut self, polytope: &mut Polytope<V, T>, vertex: u8) -> bool {
+        let Some(ring) = Ring::around(polytope, vertex) else { return false };
+        let from = polytope.position(vertex);
         let mut by_distance: [(f64, u8); MOST_AROUND] = [(f64::INFINITY, 0); MOST_AROUND];
         for (entry, &neighbour) in by_distance.iter_mut().zip(&ring.neighbours[..ring.count]) {
-            *entry = ((shell.position(neighbour) - from).norm_squared(), neighbour);
+            *entry = ((polytope.position(neighbour) - from).norm_squared(), neighbour);
         }
         by_distance[..ring.count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
         self.demand.grows = false;
         by_distance[..ring.count.min(3)].iter().any(|(_, neighbour)| {
-            let mut region = shell.begin_region();
+            let mut region = polytope.begin_region();
             for &triangle in &ring.triangles[..ring.count] {
-                shell.add_to_region(&mut region, usize::from(triangle));
+                polytope.add_to_region(&mut region, usize::from(triangle));
             }
-            replace::<L, V, T>(shell, region, *neighbour, &self.rounding, &self.demand)
+            replace::<L, V, T>(polytope, region, *neighbour, &self.rounding, &self.demand)
         })
     }
 }
@@ -401,10 +402,10 @@ struct Ring {
 }
 
 impl Ring {
-    fn around<const V: usize, const T: usize>(shell: &Shell<V, T>, vertex: u8) -> Option<Ring> {
-        let triangles = 0..shell.triangle_count;
+    fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, vertex: u8) -> Option<Ring> {
+        let triangles = 0..polytope.triangle_count;
         let corner =
-            |t: usize| shell.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
+            |t: usize| polytope.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
         let first = triangles.into_iter().find_map(corner)?;
         let mut ring = Ring { triangles: [0; MOST_AROUND], neighbours: [0; MOST_AROUND], count: 0 };
         let mut at = first;
@@ -413,14 +414,14 @@ impl Ring {
                 return None;
             }
             ring.triangles[ring.count] = triangle_of(at) as u16;
-            ring.neighbours[ring.count] = shell.tail(next(at));
+            ring.neighbours[ring.count] = polytope.tail(next(at));
             ring.count += 1;
-            at = shell.twin(next(next(at)));
+            at = polytope.twin(next(next(at)));
             if at == first {
                 break;
             }
         }
         // Where the surface is pinched there are more triangles than around one side of it.
-        (ring.count >= 3 && ring.count == usize::from(shell.uses[usize::from(vertex)])).then_some(ring)
+        (ring.count >= 3 && ring.count == usize::from(polytope.uses[usize::from(vertex)])).then_some(ring)
     }
 }

@@ -1,6 +1,6 @@
-//! The point of a shell where it is least deep, as points of both bodies.
+//! The point of a polytope where it is least deep, as points of both bodies.
 
-use super::storage::Shell;
+use super::storage::Polytope;
 use super::{Expansion, Rounding};
 use crate::base::math::{Matrix, UNIT_ROUNDOFF as U, Vector, clamp, divisor};
 use crate::base::simd::Lanes;
@@ -20,32 +20,32 @@ pub struct Witness {
     pub depth: f64,
 }
 
-/// Where the ray from the origin along the direction of least overlap leaves the shell, and the triangle there.
+/// Where the ray from the origin along the direction of least overlap leaves the polytope, and the triangle there.
 #[inline(always)]
 pub fn witness<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
-    shell: &Shell<V, T>,
+    polytope: &Polytope<V, T>,
     found: &Expansion,
 ) -> (Witness, usize) {
     let rounding = Rounding::of(frame);
     let direction = &found.direction;
     let mut best = (f64::NEG_INFINITY, 0);
-    for triangle in 0..shell.triangle_count {
+    for triangle in 0..polytope.triangle_count {
         // Mostly one triangle is as near as the support is far.
-        if shell.distances[triangle] <= found.upper && shell.normal(triangle).dot(direction) > 0.0 {
-            let inside = least_side(&shell.positions_of(triangle), direction);
+        if polytope.distances[triangle] <= found.upper && polytope.normal(triangle).dot(direction) > 0.0 {
+            let inside = least_side(&polytope.positions_of(triangle), direction);
             if inside > best.0 {
                 best = (inside, triangle);
             }
         }
     }
-    let (mut point, mut misses) = on_triangle(shell, best.1, direction);
+    let (mut point, mut misses) = on_triangle(polytope, best.1, direction);
     // The sides of slivers are noise: there the distances tell.
     if misses > 16.0 * U * (frame.size + frame.separation) {
-        for triangle in 0..shell.triangle_count {
-            let near = shell.distances[triangle] <= found.upper + 2.0 * rounding.plane;
-            if near && shell.normal(triangle).dot(direction) > 0.0 {
-                let (other, distance) = on_triangle(shell, triangle, direction);
+        for triangle in 0..polytope.triangle_count {
+            let near = polytope.distances[triangle] <= found.upper + 2.0 * rounding.plane;
+            if near && polytope.normal(triangle).dot(direction) > 0.0 {
+                let (other, distance) = on_triangle(polytope, triangle, direction);
                 if distance < misses {
                     (point, misses, best.1) = (other, distance, triangle);
                 }
@@ -69,9 +69,13 @@ fn least_side([p, q, r]: &[Vector; 3], ray: &Vector) -> f64 {
 const REFINEMENTS: usize = 3;
 
 /// Where the ray meets a triangle, and by how much it misses it: p + w₁(q − p) + w₂(r − p) = s·ray.
-fn on_triangle<const V: usize, const T: usize>(shell: &Shell<V, T>, triangle: usize, ray: &Vector) -> (Witness, f64) {
-    let pairs = shell.pairs_of(triangle);
-    let corners @ [p, q, r] = shell.positions_of(triangle);
+fn on_triangle<const V: usize, const T: usize>(
+    polytope: &Polytope<V, T>,
+    triangle: usize,
+    ray: &Vector,
+) -> (Witness, f64) {
+    let pairs = polytope.pairs_of(triangle);
+    let corners @ [p, q, r] = polytope.positions_of(triangle);
     let (e, g) = (q - p, r - p);
     let mut solution = Vector::new(0.0, 0.0, 0.0);
     // Columns of one length: the triangle may be small, or thin.

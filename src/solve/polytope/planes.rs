@@ -1,6 +1,6 @@
 //! The planes of triangles, four at a time: the pass that takes most of a query's time.
 
-use super::storage::{NO_PLANE, Shell};
+use super::storage::{NO_PLANE, Polytope};
 use super::{Rounding, SHORTEST_NORMAL};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
@@ -8,7 +8,7 @@ use crate::base::simd::Lanes;
 /// The least values over some triangles.
 #[derive(Debug, Clone, Copy)]
 pub struct Least {
-    /// Of [`Shell::distances`].
+    /// Of [`Polytope::distances`].
     pub distance: f64,
     /// How high the centre is below its plane, as computed.
     pub height: f64,
@@ -17,7 +17,7 @@ pub struct Least {
 /// Computes the planes of triangles `from..to`, which are not none, as seen from the `centre`.
 #[inline(always)]
 pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     centre: &Vector,
     from: usize,
@@ -28,15 +28,15 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
     let (shortest, none, one) = (L::splat(SHORTEST_NORMAL), L::splat(NO_PLANE), L::splat(1.0));
     let [mut least_distance, mut least_height] = [L::splat(f64::INFINITY); 2];
     // Four at a time: the last stands in for what is missing.
-    let last = shell.corners[to - 1];
-    shell.corners[to..to + 3].fill(last);
+    let last = polytope.corners[to - 1];
+    polytope.corners[to..to + 3].fill(last);
     let mut first = from;
     while first < to {
-        let &[a, b, c, d] = &shell.corners[first..first + 4] else { break };
+        let &[a, b, c, d] = &polytope.corners[first..first + 4] else { break };
         let four = [&a, &b, &c, &d];
-        let p: [L; 3] = components(&shell.positions, &four, 0);
-        let q: [L; 3] = components(&shell.positions, &four, 1);
-        let r: [L; 3] = components(&shell.positions, &four, 2);
+        let p: [L; 3] = components(&polytope.positions, &four, 0);
+        let q: [L; 3] = components(&polytope.positions, &four, 1);
+        let r: [L; 3] = components(&polytope.positions, &four, 2);
         let [ex, ey, ez] = [q[0].sub(p[0]), q[1].sub(p[1]), q[2].sub(p[2])];
         let [gx, gy, gz] = [r[0].sub(p[0]), r[1].sub(p[1]), r[2].sub(p[2])];
         let nx = ez.negated_mul_add(gy, ey.mul(gz));
@@ -57,13 +57,13 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
         let edges = ex.mul_add(ex, ey.mul_add(ey, ez.mul(ez))).mul(gx.mul_add(gx, gy.mul_add(gy, gz.mul(gz))));
         let certain = distance.mul(length).greater(determinant_error.mul(edges.sqrt()));
         // What is written beyond the last is overwritten before it is used.
-        shell.normals[0][first..first + 4].copy_from_slice(&ux.to_array());
-        shell.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
-        shell.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
-        shell.distances[first..first + 4].copy_from_slice(&distance.to_array());
+        polytope.normals[0][first..first + 4].copy_from_slice(&ux.to_array());
+        polytope.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
+        polytope.normals[2][first..first + 4].copy_from_slice(&uz.to_array());
+        polytope.distances[first..first + 4].copy_from_slice(&distance.to_array());
         // Bit i moves to byte i.
         let bytes = (certain.wrapping_mul(0x0020_4081) & 0x0101_0101).to_le_bytes();
-        shell.certain[first..first + 4].copy_from_slice(&bytes);
+        polytope.certain[first..first + 4].copy_from_slice(&bytes);
         first += 4;
     }
     Least { distance: least_distance.least().0, height: least_height.least().0 }
@@ -87,8 +87,8 @@ fn components<L: Lanes, const V: usize>(
 
 /// The triangle of the least distance, and that; of several the first.
 #[inline(always)]
-pub fn nearest<L: Lanes, const V: usize, const T: usize>(shell: &Shell<V, T>) -> (usize, f64) {
-    let distances = &shell.distances[..shell.triangle_count];
+pub fn nearest<L: Lanes, const V: usize, const T: usize>(polytope: &Polytope<V, T>) -> (usize, f64) {
+    let distances = &polytope.distances[..polytope.triangle_count];
     let mut least = L::splat(f64::INFINITY);
     let (fours, rest) = distances.as_chunks::<4>();
     for four in fours {

@@ -1,8 +1,8 @@
-//! The one way in which a shell changes: a region of triangles gives way to the cone from a vertex over its rim.
+//! The one way in which a polytope changes: a region of triangles gives way to the cone from a vertex over its rim.
 
 use super::Rounding;
 use super::planes::evaluate;
-use super::storage::{HalfEdge, NO_PLANE, NO_TRIANGLE, RimEdge, Shell, half_edge, next, triangle_of};
+use super::storage::{HalfEdge, NO_PLANE, NO_TRIANGLE, Polytope, RimEdge, half_edge, next, triangle_of};
 use crate::base::math::Vector;
 use crate::base::simd::{Lanes, Work};
 use std::marker::PhantomData;
@@ -10,7 +10,7 @@ use std::marker::PhantomData;
 /// What new triangles have to be.
 #[derive(Debug, Clone, Copy)]
 pub struct Demand {
-    /// The point inside from which the shell is looked at.
+    /// The point inside from which the polytope is looked at.
     pub centre: Vector,
     /// Whether they are to look away from the origin instead of from the centre.
     pub about_origin: bool,
@@ -28,7 +28,7 @@ const LARGEST_REGION: usize = 200;
 /// Triangles of a region beyond which it does not grow for triangles that are not as demanded.
 const LARGEST_GROWN: usize = 60;
 
-impl<const V: usize, const T: usize> Shell<V, T> {
+impl<const V: usize, const T: usize> Polytope<V, T> {
     /// Begins a region.
     #[inline(always)]
     pub fn begin_region(&mut self) -> Region {
@@ -94,7 +94,7 @@ impl<const V: usize, const T: usize> Shell<V, T> {
                     let mut triangle = NO_TRIANGLE;
                     apexes += u32::from(tail == apex);
                     if tail != apex && head != apex {
-                        // A vertex of the shell must not come to be on both sides of an edge.
+                        // A vertex of the polytope must not come to be on both sides of an edge.
                         if is_known && self.corners_of(triangle_of(outer)).contains(&apex) {
                             return Rim::Grow(triangle_of(outer));
                         }
@@ -241,18 +241,18 @@ impl<const V: usize, const T: usize> Shell<V, T> {
 /// is changed, but for the vertex itself, and the answer is no.
 #[inline(always)]
 pub fn replace<L: Lanes, const V: usize, const T: usize>(
-    shell: &mut Shell<V, T>,
+    polytope: &mut Polytope<V, T>,
     region: Region,
     apex: u8,
     rounding: &Rounding,
     demand: &Demand,
 ) -> bool {
-    L::out_of_line(&mut Replacement { shell, region, apex, rounding, demand, lanes: PhantomData::<L> })
+    L::out_of_line(&mut Replacement { polytope, region, apex, rounding, demand, lanes: PhantomData::<L> })
 }
 
 /// Out of line, since it is much and asked for in two places.
 struct Replacement<'a, L, const V: usize, const T: usize> {
-    shell: &'a mut Shell<V, T>,
+    polytope: &'a mut Polytope<V, T>,
     region: Region,
     apex: u8,
     rounding: &'a Rounding,
@@ -265,13 +265,13 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
 
     #[inline(always)]
     fn run(&mut self) -> bool {
-        let Replacement { shell, region, apex, rounding, demand, .. } = self;
-        let is_known = shell.uses[usize::from(*apex)] > 0;
+        let Replacement { polytope, region, apex, rounding, demand, .. } = self;
+        let is_known = polytope.uses[usize::from(*apex)] > 0;
         loop {
-            let verdict = match shell.walk_rim(region, *apex, is_known) {
-                Rim::Closed { edges, triangles } => match shell.judge::<L>(edges, triangles, rounding, demand) {
+            let verdict = match polytope.walk_rim(region, *apex, is_known) {
+                Rim::Closed { edges, triangles } => match polytope.judge::<L>(edges, triangles, rounding, demand) {
                     Verdict::AsDemanded => {
-                        shell.link(region, edges, triangles, *apex);
+                        polytope.link(region, edges, triangles, *apex);
                         return true;
                     }
                     // Where the region has become large, growing on does not help.
@@ -284,9 +284,9 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
             // What is left has to be a surface, and the region is to fit in its list.
             match verdict {
                 Verdict::Grow(triangle)
-                    if demand.grows && region.size + 4 < shell.triangle_count && region.size < LARGEST_REGION =>
+                    if demand.grows && region.size + 4 < polytope.triangle_count && region.size < LARGEST_REGION =>
                 {
-                    shell.add_to_region(region, triangle);
+                    polytope.add_to_region(region, triangle);
                 }
                 _ => return false,
             }
@@ -294,7 +294,7 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
     }
 }
 
-/// A set of triangles: the first so many of [`Shell::region`].
+/// A set of triangles: the first so many of [`Polytope::region`].
 #[derive(Debug, Clone, Copy)]
 pub struct Region {
     pub(super) size: usize,
