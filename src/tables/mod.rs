@@ -96,6 +96,16 @@ pub fn table(polyhedron: &Polyhedron) -> &Table {
     }
 }
 
+/// A vertex nearly farthest in a direction, by the table of a body that has one.
+#[inline(always)]
+pub fn farthest(polyhedron: &Polyhedron, towards: &Vector) -> Option<u32> {
+    match table(polyhedron) {
+        Table::Shells(table) => Some(table.farthest([towards.x as f32, towards.y as f32, towards.z as f32])),
+        Table::Spherical(table) => Some(table.towards(towards)),
+        Table::None => None,
+    }
+}
+
 /// The tables of two bodies if they are of one kind; else none is made.
 #[inline(always)]
 pub fn tables(polyhedra: [&Polyhedron; 2]) -> Option<[&Table; 2]> {

@@ -21,6 +21,7 @@ use crate::pair::ladder::climb;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
 use crate::solve::state::FeatureId;
+use crate::tables;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::{Corner, common_part};
@@ -249,7 +250,7 @@ fn facing(polyhedron: &Polyhedron, pose: &Pose, body: usize, normal: &Vector, be
     let cosine = |face: u32| Facing { face, parallel: polyhedron.faces[face as usize].normal.dot(&towards) };
     let better = |a: Facing, b: Facing| if b.parallel > a.parallel { b } else { a };
     let first = polyhedron.edges.first()?.tail();
-    let (vertex, _) = polyhedron.support(&towards, first);
+    let (vertex, _) = polyhedron.support(&towards, tables::farthest(polyhedron, &towards).unwrap_or(first));
     let around = polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
     let best = around.map(cosine).reduce(better)?;
     let [last_body, last_face] = *before;

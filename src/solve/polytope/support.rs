@@ -3,7 +3,6 @@
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
-use crate::polyhedron::lookup::Table;
 use crate::polyhedron::{Polyhedron, clear_slope};
 use crate::solve::certificate;
 use crate::solve::exact::VertexPair;
@@ -59,7 +58,7 @@ fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -
     if polyhedron.vertices.len() <= FEW {
         return farthest_of_few(polyhedron, towards);
     }
-    let mut vertex = start.unwrap_or_else(|| look_up(polyhedron, &towards.to_vector()));
+    let mut vertex = start.unwrap_or_else(|| tables::farthest(polyhedron, &towards.to_vector()).unwrap_or(0));
     // Each step leads up for sure, so that no vertex comes twice.
     for _ in 0..=polyhedron.vertices.len() {
         let Some(corner) = Corner::of(polyhedron, vertex) else { break };
@@ -147,14 +146,4 @@ fn farthest_of_few<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) 
     }
     let rounding = HEIGHTS * polyhedron.radius;
     (best, if highest - second > rounding { 0.0 } else { rounding })
-}
-
-/// Where the look-up tables say.
-#[inline(always)]
-fn look_up(polyhedron: &Polyhedron, towards: &Vector) -> u32 {
-    match tables::table(polyhedron) {
-        Table::Shells(table) => table.farthest([towards.x as f32, towards.y as f32, towards.z as f32]),
-        Table::Spherical(table) => table.towards(towards),
-        Table::None => 0,
-    }
 }
