@@ -160,7 +160,7 @@ impl Shape {
             None if mesh.single_precision => SINGLE_PRECISION_CONVEXITY_TOLERANCE,
             None => CONVEXITY_TOLERANCE,
         };
-        let tolerance = tolerance * half_diagonal(&mesh.vertices) * 2.0;
+        let tolerance = tolerance * eighth_diagonal(&mesh.vertices) * 8.0;
         check_points(&mesh.vertices)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
@@ -489,13 +489,13 @@ fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progres
     Ok(images)
 }
 
-/// Half the diagonal of the bounding box, which cannot overflow where the whole one would; 0 without points.
-fn half_diagonal(points: &[Vector]) -> f64 {
+/// An eighth of the diagonal of the bounding box, which cannot overflow where half of it might; 0 without points.
+fn eighth_diagonal(points: &[Vector]) -> f64 {
     let corner = |pick: fn(f64, f64) -> f64| points.iter().copied().reduce(|a, b| a.zip_map(&b, pick));
     match (corner(f64::min), corner(f64::max)) {
         (Some(lower), Some(upper)) => {
-            let half = 0.5 * upper - 0.5 * lower;
-            half.x.hypot(half.y).hypot(half.z)
+            let eighth = 0.125 * upper - 0.125 * lower;
+            eighth.x.hypot(eighth.y).hypot(eighth.z)
         }
         _ => 0.0,
     }

@@ -116,6 +116,23 @@ fn convex_meshes_are_accepted() {
     }
 }
 
+/// Beside the largest coordinates those of the others are so small that squares of areas underflow. From fuzzing.
+#[test]
+fn a_needle_without_area_is_accepted_at_any_tolerance() {
+    let (largest, least) = (f64::MAX, f64::from_bits(1));
+    let points = [
+        Vector::new(-32.0, -least, least),
+        Vector::new(-least, least, 1.4e-309),
+        Vector::new(largest, -largest, largest),
+        Vector::new(-largest, largest, -largest),
+        Vector::new(31.0, 1.0, -3.75),
+        Vector::new(-1.0, -32.0, -32.0),
+    ];
+    for tolerance in [0.0, 1.0, 1e300, largest, f64::INFINITY] {
+        accepted(&hull_mesh(&points), tolerance);
+    }
+}
+
 #[test]
 fn polygons_of_any_valence() {
     let n = 1000_u32;

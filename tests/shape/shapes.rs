@@ -41,6 +41,26 @@ fn with(input: InputPolicy) -> ShapeOptions {
     ShapeOptions { input, ..Default::default() }
 }
 
+/// The default tolerance is relative to the diagonal, which overflows here.
+#[test]
+fn a_dent_in_the_largest_of_bodies_is_refused() {
+    for size in [1.0, f64::MAX] {
+        for (depth, is_convex) in [(0.0, true), (0.5, false)] {
+            let mut corners = cube();
+            corners.vertices.iter_mut().for_each(|v| *v = v.map(|x| (2.0 * x - 1.0) * size));
+            let top: Vec<u32> = corners.face(1).to_vec();
+            let dent = corners.vertices.len() as u32;
+            corners.vertices.push(Vector::new(0.0, 0.0, corners.vertices[top[0] as usize].z * (1.0 - depth)));
+            let mut faces: Vec<Vec<u32>> = (0..6).filter(|&f| f != 1).map(|f| corners.face(f).to_vec()).collect();
+            faces.extend((0..4).map(|k| vec![top[k], top[(k + 1) % 4], dent]));
+            let counts: Vec<u32> = faces.iter().map(|face| face.len() as u32).collect();
+            let mesh = PolygonMesh::new(corners.vertices, faces.concat(), Some(&counts)).unwrap();
+            let shape = Shape::from_mesh(&mesh, &with(InputPolicy::Strict));
+            assert_eq!(shape.is_ok(), is_convex, "{size:e} {depth}: {:?}", shape.err());
+        }
+    }
+}
+
 #[test]
 fn a_convex_mesh_passes_every_policy_and_keeps_its_labels() {
     for policy in [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull] {

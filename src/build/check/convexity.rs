@@ -19,6 +19,9 @@ use crate::mesh::PolygonMesh;
 /// scalar product: 3u).
 const ROUNDING: f64 = 64.0 * UNIT_ROUNDOFF;
 
+/// A tolerance of this in scaled units, twice the size, allows everything; an infinite one times an area that underflows is NaN.
+const WHOLE: f64 = 8.0;
+
 /// How many supporting planes are tried for a face whose own is not good enough. A hull that is
 /// flat up to rounding somewhere may have dozens of triangles too narrow for a normal next to each
 /// other there.
@@ -83,7 +86,7 @@ pub fn check_convexity(
     if hull.dimension == 3 && surface.volume < -surface.volume_rounding() {
         return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
     }
-    let allowed = exact.to_scaled(tolerance) + ROUNDING;
+    let allowed = exact.to_scaled(tolerance).min(WHOLE) + ROUNDING;
     let mut search = boundary.search();
     let of_faces = &mut progress.part(0.3, 0.9);
     for f in 0..mesh.face_count() {
