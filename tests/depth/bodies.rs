@@ -245,6 +245,51 @@ fn witness_points_of_bodies_of_very_different_sizes_hold() {
     check(pair, placed, &cache, &answer);
 }
 
+/// A body whose coordinates are small numbers and large ones.
+fn of_near_and_far(random: &mut Random, large: f64, kind: usize) -> Option<Shape> {
+    let mut point = || {
+        let reach = random.pick(&[large, 30.0]);
+        Vector::from_fn(|_, _| {
+            let size = match (kind, random.below(4)) {
+                (0, 0) => 0.0,
+                (0, 1) => 1.0 + random.below(30) as f64,
+                (1, _) => reach * random.signed(),
+                (2, 0) => large * random.signed(),
+                (2, 1) => random.signed(),
+                _ => large,
+            };
+            size * random.pick(&[-1.0, 1.0])
+        })
+    };
+    let points: Vec<Vector> = (0..24).map(|_| point()).collect();
+    let count = random.pick(&[1, 2, 4, 6, 8, 20]) + random.below(4);
+    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    Shape::from_points(&points[..count], &options).ok()
+}
+
+/// The least direction meets triangles next to one corner with the others far out, and in the middle of slivers 10¹² times as long
+/// as they are wide. From fuzzing.
+#[test]
+fn witness_points_on_slivers_hold() {
+    let mut random = Random::new(40);
+    let mut overlapping = 0;
+    for _ in 0..40_000 {
+        let (large, kind) = (random.pick(&[1e6, 1e9, 1e13, 17_592_186_044_416.0, 1e15]), random.below(3));
+        let shapes = [(); 2].map(|()| of_near_and_far(&mut random, large, kind));
+        let [Some(first), Some(second)] = &shapes else { continue };
+        let poses = [(); 2].map(|()| {
+            let turn = if random.below(2) == 0 { Matrix::identity() } else { random.rotation() };
+            Pose::new(&turn, &random.lattice(5))
+        });
+        let (pair, placed) = ([first, second], [&poses[0], &poses[1]]);
+        let mut cache = DepthCache::default();
+        let answer = query(pair, placed, &mut cache);
+        check(pair, placed, &cache, &answer);
+        overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+    }
+    assert!(overlapping > 20_000, "{overlapping}");
+}
+
 /// A body beyond the range of the search, and a pose that shrinks it: the common point is farther from the feature in the object's
 /// frame than the interval is wide. From fuzzing.
 #[test]

@@ -2,7 +2,7 @@
 
 use super::storage::Polytope;
 use super::{Expansion, Rounding};
-use crate::base::math::{Matrix, UNIT_ROUNDOFF as U, Vector, clamp, divisor};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp, divisor};
 use crate::base::simd::Lanes;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
@@ -39,13 +39,14 @@ pub fn witness<L: Lanes, const V: usize, const T: usize>(
             }
         }
     }
-    let (mut point, mut misses) = on_triangle(polytope, best.1, direction);
+    let enough = 16.0 * U * (frame.size + frame.separation);
+    let (mut point, mut misses) = on_triangle(polytope, best.1, direction, enough);
     // The sides of slivers are noise: there the distances tell.
-    if misses > 16.0 * U * (frame.size + frame.separation) {
+    if misses > enough {
         for triangle in 0..polytope.triangle_count {
             let near = polytope.distances[triangle] <= found.upper + 2.0 * rounding.plane;
             if near && polytope.normal(triangle).dot(direction) > 0.0 {
-                let (other, distance) = on_triangle(polytope, triangle, direction);
+                let (other, distance) = on_triangle(polytope, triangle, direction, enough);
                 if distance < misses {
                     (point, misses, best.1) = (other, distance, triangle);
                 }
@@ -64,33 +65,48 @@ fn least_side([p, q, r]: &[Vector; 3], ray: &Vector) -> f64 {
     least / divisor((sides[0] + sides[1] + sides[2]).abs())
 }
 
-/// Rounds of refinement of the weights: each gains the digits that the inverse has, and a triangle 10⁻⁸ times as wide as it is long
-/// leaves it eight.
-const REFINEMENTS: usize = 3;
+/// The most rounds of refinement of the weights: each gains the digits that an area has, and a triangle 10⁻¹² times as wide as it is
+/// long leaves it four.
+const REFINEMENTS: usize = 8;
 
-/// Where the ray meets a triangle, and by how much it misses it: p + w₁(q − p) + w₂(r − p) = s·ray.
+/// Where the ray meets a triangle, and by how much it misses it: refined until that is `enough`.
+///
+/// Seen along the ray, a corner's weight is twice the area that the ray spans with the other two, and computed from those alone: they
+/// may be near it, and the corner 10¹² times as far out.
 fn on_triangle<const V: usize, const T: usize>(
     polytope: &Polytope<V, T>,
     triangle: usize,
     ray: &Vector,
+    enough: f64,
 ) -> (Witness, f64) {
-    let pairs = polytope.pairs_of(triangle);
-    let corners @ [p, q, r] = polytope.positions_of(triangle);
-    let (e, g) = (q - p, r - p);
-    let mut solution = Vector::new(0.0, 0.0, 0.0);
-    // Columns of one length: the triangle may be small, or thin.
-    let scales = Vector::new(1.0 / divisor(e.norm()), 1.0 / divisor(g.norm()), 1.0);
-    let matrix = Matrix::from_columns(&[e * scales.x, g * scales.y, -ray]);
-    if let Some(inverse) = matrix.try_inverse() {
+    let corners = polytope.positions_of(triangle);
+    let seen @ [p, q, r] = corners.map(|corner| corner - ray * corner.dot(ray));
+    let areas = [ray.dot(&q.cross(&r)), ray.dot(&r.cross(&p)), ray.dot(&p.cross(&q))];
+    let area: f64 = areas.iter().sum();
+    let mut weights = [1.0, 0.0, 0.0];
+    if area.abs() > f64::MIN_POSITIVE {
+        weights = areas.map(|part| part / area);
         for _ in 0..REFINEMENTS {
-            let residual = p + e * solution.x + g * solution.y - ray * solution.z;
-            solution -= (inverse * residual).component_mul(&scales);
+            let off = weighted(&seen, &weights);
+            if off.norm() <= enough {
+                break;
+            }
+            let across = ray.cross(&off);
+            for (weight, side) in weights.iter_mut().zip([r - q, p - r, q - p]) {
+                *weight += across.dot(&side) / area;
+            }
         }
     }
-    let positive = [1.0 - solution.x - solution.y, solution.x, solution.y].map(|weight| clamp(weight, 0.0, 1.0));
+    let positive = weights.map(|weight| clamp(weight, 0.0, 1.0));
     let sum: f64 = positive.iter().sum();
-    let [a, b, c] = positive.map(|weight| weight / sum);
-    let point = corners[0] * a + corners[1] * b + corners[2] * c;
-    let misses = (point - ray * point.dot(ray)).norm();
-    (Witness { pairs, count: 3, weights: [a, b, c, 0.0], depth: point.dot(ray) }, misses)
+    let weights @ [a, b, c] = positive.map(|weight| weight / sum);
+    let depth = weighted(&corners, &weights).dot(ray);
+    let witness = Witness { pairs: polytope.pairs_of(triangle), count: 3, weights: [a, b, c, 0.0], depth };
+    (witness, weighted(&seen, &weights).norm())
+}
+
+/// The point of these weights.
+#[inline(always)]
+fn weighted([p, q, r]: &[Vector; 3], [a, b, c]: &[f64; 3]) -> Vector {
+    p * *a + q * *b + r * *c
 }
