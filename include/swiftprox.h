@@ -1026,15 +1026,15 @@ typedef struct swiftprox_scene_options {
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /**
-   * How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
-   * those without a tolerance over many objects and those over few pairs stay in the caller's thread. More than 256 count as
-   * 256. Default: 0, which means 1.
+   * How many threads may work on a query or on poses that are set together, the caller's among them. It changes no bit of any
+   * answer. Queries that stop early, those without a tolerance over many objects, and few pairs or objects stay in the caller's
+   * thread. More than 256 count as 256. Default: 0, which means 1.
    */
   uint32_t worker_count;
   /**
    * Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
-   * own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
-   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+   * own, which wait between calls. swiftprox_scene_create starts them, and does without those that cannot be started;
+   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its calls stay in the caller's
    * thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
    */
   swiftprox_enqueue_task_callback enqueue_task;
@@ -1241,8 +1241,9 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
  * Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
  * pose counts. On failure all stay where they are.
  *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused. The message says which.
- * SWIFTPROX_ERROR_NULL_POINTER: scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+ * Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
+ * pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
+ * scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
@@ -1254,18 +1255,16 @@ swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
  * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
  * stay where they are.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFTPROX_ERROR_POSE: a pose is
- * refused; the message names it. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
+ * Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
+ * SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+ * poses is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_all_poses(struct swiftprox_scene *scene,
                                                const double *poses,
                                                size_t count);
 
-/**
- * As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFTPROX_ERROR_MEMORY,
- * too.
- */
+/** As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object. */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scene,
                                                     const double *rotations,

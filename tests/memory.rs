@@ -450,7 +450,8 @@ fn scenes() {
 /// without workers says.
 #[test]
 fn shared_queries() {
-    const SIDE: usize = 8;
+    // So many that boxes and cells are shared as well.
+    const SIDE: usize = 13;
     let shape = Arc::new(testkit::shapes::cuboid([0.5; 3]));
     let lattice = |workers: Option<Workers>| {
         let mut scene = Scene::new(&SceneOptions::default()).unwrap();
@@ -487,6 +488,36 @@ fn shared_queries() {
         assert!(matches!(said, Err(Error::Memory(_))), "block {number}: {said:?}");
     }
     assert!(refusals > 20, "{refusals}");
+}
+
+/// Many poses at once, by one thread and by several: each block is refused once, and all objects stay where they are.
+#[test]
+fn many_poses() {
+    const COUNT: usize = 2_100;
+    let in_turn = |parts: usize, work: &(dyn Fn(usize) + Sync)| (0..parts).for_each(work);
+    let shape = Arc::new(testkit::shapes::cuboid([0.5; 3]));
+    let poses = |step: f64| (0..COUNT).map(move |k| Pose::new(&Matrix::identity(), &Vector::new(k as f64, step, 0.0)));
+    let moved: Vec<Pose> = poses(3.0).collect();
+    for (workers, fewest_refusals) in [(Workers::new(1, in_turn), 1), (Workers::new(40, in_turn), 3)] {
+        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        scene.set_workers(Some(workers));
+        for pose in poses(0.0) {
+            scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap();
+        }
+        let mut refusals = 0;
+        for number in numbers() {
+            let (said, came_to_that) = without(number, false, || scene.set_all_poses(&moved));
+            if !came_to_that {
+                assert_eq!(said, Ok(()));
+                break;
+            }
+            refusals += 1;
+            assert!(matches!(said, Err(Error::Memory(_))), "block {number}: {said:?}");
+            assert!(scene.objects().zip(poses(0.0)).all(|(object, pose)| *object.pose() == pose), "block {number}");
+        }
+        assert!(refusals >= fewest_refusals, "{refusals}");
+        assert!(scene.objects().zip(&moved).all(|(object, pose)| object.pose() == pose));
+    }
 }
 
 /// Depths, their memory and the points of manifolds: each block is refused once, and the next query says all of it.

@@ -35,7 +35,7 @@ static const char HELP[] =
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
-    "  --workers K           let K threads work on each query (default: 1); it changes no bit of any answer\n"
+    "  --workers K           let K threads share poses and queries (default: 1); it changes no bit of any answer\n"
     "  --verify              check each answer against the shapes alone, and the answers to recorded queries against the\n"
     "                        recorded ones; the first that does not hold ends the program\n"
     "  --bench PASSES        print times instead of answers, see below\n"

@@ -4,9 +4,10 @@
 //! here: a refusal is [`Error::Memory`]. What is small whatever the input is need not ask; `docs/conventions.md` lists that.
 
 use std::collections::{BinaryHeap, TryReserveError};
-use std::sync::{Mutex, MutexGuard, OnceLock, PoisonError};
+use std::sync::{Mutex, OnceLock};
 
 use crate::base::error::{Error, Result};
+use crate::base::locks::locked;
 
 /// An empty vector with room for `count`.
 #[inline]
@@ -139,7 +140,7 @@ impl<T> OnNeed<T> {
     #[cold]
     #[inline(never)]
     pub fn make(&self, make: impl FnOnce() -> Result<T>) -> Option<&T> {
-        let mut lacked = self.lock();
+        let mut lacked = locked(&self.lacked);
         if !*lacked && self.get().is_none() {
             match make() {
                 Ok(made) => drop(self.made.set(made)),
@@ -154,7 +155,7 @@ impl<T> OnNeed<T> {
     /// # Errors
     /// What `make` says, usually [`Error::Memory`]; it is not made then.
     pub fn insist(&self, make: impl FnOnce() -> Result<T>) -> Result<()> {
-        let mut lacked = self.lock();
+        let mut lacked = locked(&self.lacked);
         if self.get().is_none() {
             let _ = self.made.set(make()?);
             *lacked = false;
@@ -165,11 +166,6 @@ impl<T> OnNeed<T> {
     /// Made elsewhere; dropped if another was first.
     pub fn set(&self, made: T) {
         let _ = self.made.set(made);
-    }
-
-    /// Nothing is left half done behind this lock.
-    fn lock(&self) -> MutexGuard<'_, bool> {
-        self.lacked.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

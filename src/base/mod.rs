@@ -2,6 +2,7 @@
 //! arithmetic whose signs and last bits are known. It knows nothing of polyhedra.
 
 pub mod error;
+pub(crate) mod locks;
 pub(crate) mod memory;
 pub mod files;
 pub(crate) mod binary;

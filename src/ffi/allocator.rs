@@ -7,10 +7,11 @@
 use std::alloc::{GlobalAlloc, Layout, System};
 use std::ffi::c_void;
 use std::ptr::null_mut;
+use std::sync::Mutex;
 use std::sync::atomic::{AtomicPtr, Ordering};
-use std::sync::{Mutex, PoisonError};
 
 use super::{Failure, StatusCode, guard, must_return};
+use crate::base::locks::locked;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
 /// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
@@ -201,7 +202,7 @@ fn set(functions: Option<Functions>) {
 
 /// The source that these functions are, a new one the first time.
 fn source_of(functions: Functions) -> &'static Source {
-    let mut sources = SOURCES.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut sources = locked(&SOURCES);
     let mut known = *sources;
     while let Some(source) = known {
         if source.functions.are(&functions) {

@@ -1,27 +1,30 @@
-//! Threads of a scene's own, which wait between queries. They stand here because they are lent what lives shorter than they do:
+//! Threads of a scene's own, which wait between calls. They stand here because they are lent what lives shorter than they do:
 //! that no type can say.
 //!
 //! | what happens | what becomes of it |
 //! |---|---|
 //! | a thread cannot be started | the others, at least the caller's, do its part |
-//! | a part panics in a thread | the thread lives on; the query panics in the caller's when all have stopped |
+//! | a part panics in a thread | the thread lives on; the call panics in the caller's when all have stopped |
 //! | the scene ends, or gets other workers | the threads are told so and waited for |
 //! | the process forks | the child has none of them: there the caller's thread does all parts, and none is waited for |
-//! | the process exits | nobody waits for them; they touch nothing between queries |
+//! | the process exits | nobody waits for them; between calls they touch their own lock at most |
 
 use std::any::Any;
+use std::hint::spin_loop;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
+use std::time::{Duration, Instant};
 
+use crate::base::locks::locked;
 use crate::scene::Workers;
 
 /// No more threads are started, whatever count is asked for: more only wait for each other.
-const MOST_THREADS: usize = 256;
+pub(super) const MOST_THREADS: usize = 256;
 
 impl Workers {
-    /// Threads of the standard library, started now, which wait between queries and end with the last owner of this; the caller's
+    /// Threads of the standard library, started now, which wait between calls and end with the last owner of this; the caller's
     /// is one of the `count`, and more than 256 are taken as 256.
     pub fn threads(count: usize) -> Workers {
         let count = count.min(MOST_THREADS);
@@ -139,6 +142,8 @@ impl<T: Copy> Handover<T> {
 /// What the threads and the caller share.
 struct Shared {
     handover: Mutex<Handover<Loan>>,
+    /// How long somebody looks again and again before he sleeps.
+    patience: Duration,
     /// There is a task, or the end.
     posted: Condvar,
     /// The last thread has left.
@@ -153,22 +158,14 @@ struct ParkedThreads {
     process: u32,
 }
 
-/// A lock that no panic can spoil: none happens while it is held.
-fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
-}
-
-fn wait<'a, T>(condition: &Condvar, guard: MutexGuard<'a, T>) -> MutexGuard<'a, T> {
-    condition.wait(guard).unwrap_or_else(PoisonError::into_inner)
-}
-
 impl Shared {
     fn serve(&self) {
         let mut handover = locked(&self.handover);
+        let mut waits_since = None;
         loop {
             match handover.next() {
                 Next::End => return,
-                Next::Wait => handover = wait(&self.posted, handover),
+                Next::Wait => handover = self.look_later(&self.posted, &mut waits_since, handover),
                 Next::Join(Loan(task)) => {
                     drop(handover);
                     // SAFETY: the task lives until all that have joined have left: see `ParkedThreads::run`.
@@ -177,17 +174,43 @@ impl Shared {
                     if handover.leave() {
                         self.left.notify_one();
                     }
+                    waits_since = None;
                 }
             }
         }
     }
+
+    /// Waits a moment, or once patience has ended until the condition is told.
+    fn look_later<'a>(
+        &'a self,
+        condition: &Condvar,
+        since: &mut Option<Instant>,
+        handover: MutexGuard<'a, Handover<Loan>>,
+    ) -> MutexGuard<'a, Handover<Loan>> {
+        if since.get_or_insert_with(Instant::now).elapsed() >= self.patience {
+            return condition.wait(handover).unwrap_or_else(PoisonError::into_inner);
+        }
+        drop(handover);
+        (0..SPINS).for_each(|_| spin_loop());
+        locked(&self.handover)
+    }
 }
+
+/// One call makes several tasks one after the other. Who waits for the next, or for the last part of one, looks for it so long
+/// before it sleeps: to be woken takes about as long.
+const PATIENCE: Duration = Duration::from_micros(50);
+
+/// So many turns of a loop between two looks, about a microsecond.
+const SPINS: usize = 32;
 
 impl ParkedThreads {
     /// Up to `count` threads; those that cannot be started are done without.
     fn new(count: usize) -> ParkedThreads {
-        let shared =
-            Arc::new(Shared { handover: Mutex::new(Handover::IDLE), posted: Condvar::new(), left: Condvar::new() });
+        // Where threads share processors, who looks keeps others from working.
+        let has_room = std::thread::available_parallelism().is_ok_and(|processors| count < processors.get());
+        let patience = if has_room { PATIENCE } else { Duration::ZERO };
+        let (handover, posted, left) = (Mutex::new(Handover::IDLE), Condvar::new(), Condvar::new());
+        let shared = Arc::new(Shared { handover, patience, posted, left });
         let start = |_| {
             let shared = shared.clone();
             Builder::new().name("swiftprox".into()).spawn(move || shared.serve()).ok()
@@ -230,8 +253,9 @@ impl Drop for Lent<'_> {
     fn drop(&mut self) {
         let mut handover = locked(&self.0.handover);
         handover.withdraw();
+        let mut waits_since = None;
         while !handover.is_done() {
-            handover = wait(&self.0.left, handover);
+            handover = self.0.look_later(&self.0.left, &mut waits_since, handover);
         }
     }
 }

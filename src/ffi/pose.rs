@@ -43,8 +43,9 @@ pub unsafe extern "C" fn swiftprox_scene_set_transform(
 /// Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
 /// pose counts. On failure all stay where they are.
 ///
-/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused. The message says which.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+/// Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
+/// pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
+/// scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_poses(
     scene: *mut SceneHandle,
@@ -108,8 +109,9 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece_pose(
 /// Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
 /// stay where they are.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed. SWIFTPROX_ERROR_POSE: a pose is
-/// refused; the message names it. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
+/// Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
+/// SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+/// poses is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_all_poses(
     scene: *mut SceneHandle,
@@ -125,8 +127,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_all_poses(
     }
 }
 
-/// As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object; SWIFTPROX_ERROR_MEMORY,
-/// too.
+/// As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_all_transforms(
     scene: *mut SceneHandle,

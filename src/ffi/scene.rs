@@ -4,6 +4,7 @@ use std::cell::UnsafeCell;
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use super::parked_threads::MOST_THREADS;
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
 use super::{
     Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, log, output, read_struct,
@@ -101,13 +102,13 @@ pub struct CSceneOptions {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// How many threads may work on a query, the caller's among them. It changes no bit of any answer. Queries that stop early,
-    /// those without a tolerance over many objects and those over few pairs stay in the caller's thread. More than 256 count as
-    /// 256. Default: 0, which means 1.
+    /// How many threads may work on a query or on poses that are set together, the caller's among them. It changes no bit of any
+    /// answer. Queries that stop early, those without a tolerance over many objects, and few pairs or objects stay in the caller's
+    /// thread. More than 256 count as 256. Default: 0, which means 1.
     pub worker_count: u32,
     /// Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
-    /// own, which wait between queries. swiftprox_scene_create starts them, and does without those that cannot be started;
-    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its queries stay in the caller's
+    /// own, which wait between calls. swiftprox_scene_create starts them, and does without those that cannot be started;
+    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its calls stay in the caller's
     /// thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
     pub enqueue_task: EnqueueTaskCallback,
     /// Waits for what enqueue_task has shared out. Default: null.
@@ -296,9 +297,9 @@ pub(super) fn new_scene(options: &SceneOptions, workers: &CSceneOptions) -> Chec
     Ok(Box::into_raw(Box::new(handle)))
 }
 
-/// Who works on the queries of a scene.
+/// Who works for a scene.
 fn read_workers(options: &CSceneOptions) -> Checked<Option<Workers>> {
-    let count = options.worker_count as usize;
+    let count = (options.worker_count as usize).min(MOST_THREADS);
     match (options.enqueue_task, options.finish_task) {
         (None, None) => Ok((count > 1).then(|| Workers::threads(count))),
         (Some(enqueue), Some(finish)) => Ok((count > 1).then(|| workers(count, enqueue, finish, options.task_user))),

@@ -1,4 +1,4 @@
-//! A program's own threads that work on queries.
+//! A program's own threads that work for a scene.
 
 use std::ffi::c_void;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -36,7 +36,7 @@ type FinishTask = unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_vo
 /// What goes with the callbacks from call to call.
 struct User(*mut c_void);
 
-// SAFETY: the pointer is only ever handed back to the callbacks, in the thread that queries.
+// SAFETY: the pointer is only ever handed back to the callbacks, in the thread that calls.
 unsafe impl Send for User {}
 // SAFETY: as above.
 unsafe impl Sync for User {}
@@ -73,6 +73,6 @@ pub(super) fn workers(count: usize, enqueue: EnqueueTask, finish: FinishTask, us
             // SAFETY: as above; it gets what it returned.
             must_return(|| unsafe { finish(task, *user) });
         }
-        assert!(!context.failed.load(Ordering::Relaxed), "a task of a query met a bug");
+        assert!(!context.failed.load(Ordering::Relaxed), "a task of a scene met a bug");
     })
 }

@@ -1,7 +1,10 @@
 //! How deep listed pairs are in each other and where they meet: what a query of contacts says beside its answers, and what pairs
 //! remember of it. Depths are remembered of pairs that intersect alone, in a pool.
 
+use std::sync::Mutex;
+
 use crate::base::error::{Result, check_range};
+use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{extend, push, reserve, with_capacity};
 use crate::pair::{
     self, DepthCache, DepthConfig, DepthEnding, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
@@ -145,7 +148,7 @@ impl Contacts {
 pub(crate) struct ContactMemory {
     pairs: Vec<Remembered>,
     /// Of pairs that intersected when they were last looked at, in no order.
-    depths: Vec<DepthCache>,
+    depths: Vec<Mutex<DepthCache>>,
     /// Depths without a pair; with room for all.
     free: Vec<u32>,
 }
@@ -174,7 +177,7 @@ impl ContactMemory {
     }
 
     /// For reading: the reference, and the depth if there is one.
-    pub fn peek(&self, place: u32) -> (Reference, Option<&DepthCache>) {
+    pub fn peek(&self, place: u32) -> (Reference, Option<&Mutex<DepthCache>>) {
         let pair = self.pairs.get(place as usize).copied().unwrap_or(NOTHING);
         (pair.reference, self.depths.get(pair.depth as usize))
     }
@@ -194,13 +197,13 @@ impl ContactMemory {
                 Some(free) => free,
                 None => {
                     reserve(&mut self.free, self.depths.len() + 1)?;
-                    push(&mut self.depths, DepthCache::default())?;
+                    push(&mut self.depths, Mutex::default())?;
                     (self.depths.len() - 1) as u32
                 }
             };
-            self.depths[*depth as usize] = DepthCache::default();
+            *unlocked(&mut self.depths[*depth as usize]) = DepthCache::default();
         }
-        Ok((reference, &mut self.depths[*depth as usize]))
+        Ok((reference, unlocked(&mut self.depths[*depth as usize])))
     }
 
     /// A pair is no more.
@@ -238,7 +241,7 @@ impl ContactMemory {
             match depth {
                 Some(depth) => {
                     let (own, cache) = packed.of_intersecting(new)?;
-                    (*own, *cache) = (reference, *depth);
+                    (*own, *cache) = (reference, *locked(depth));
                 }
                 None => *packed.reference(new) = reference,
             }

@@ -8,8 +8,8 @@ use crate::scene::activation::Activation;
 use crate::scene::broad_phase::near_pairs::Testing;
 use crate::scene::findings::{Before, Findings};
 use crate::scene::object::{Entry, ObjectId, ObjectTable};
-use crate::scene::proxies::Label;
 use crate::scene::recording::format::Record;
+use crate::scene::rows::Label;
 
 impl Scene {
     // --- Activation --------------------------------------------------------------------------------------------------------------
@@ -163,7 +163,7 @@ impl Scene {
                 if !is_small {
                     self.broad_phase.end_of_all_pairs(tolerance);
                 }
-                self.broad_phase.update(&mut self.proxies, tolerance, testing)?;
+                self.broad_phase.update(&mut self.proxies, tolerance, &self.workers, testing)?;
             }
             Some(given) => {
                 let rows = |id: ObjectId| objects.get(id).map_or(0..0, Entry::proxies);

@@ -155,14 +155,13 @@ impl Findings {
         }
     }
 
-    /// Adds those of another part behind; gives how many are listed before them.
+    /// Adds those of another part behind, but for the results, which go to its [room](Findings::rooms); gives how many are listed
+    /// before them.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn append(&mut self, part: &Findings) -> Result<u32> {
         let (written, listed) = (self.written, self.listed);
-        make_room(&mut self.slots, written + part.written)?;
-        self.slots[written..written + part.written].copy_from_slice(part.results());
         extend(&mut self.runs, part.runs.iter().map(|run| run.behind(written)))?;
         self.written += part.written;
         self.listed += part.listed;
@@ -170,6 +169,20 @@ impl Findings {
         self.intersecting |= part.intersecting;
         self.statistics.add(&part.statistics);
         Ok(listed as u32)
+    }
+
+    /// Where the results of all parts go that have been added, so many of each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn rooms(&mut self, written: impl Iterator<Item = usize>) -> Result<impl Iterator<Item = &mut [PairResult]>> {
+        make_room(&mut self.slots, self.written)?;
+        let mut rest = &mut self.slots[..];
+        Ok(written.map(move |count| {
+            let (room, behind) = std::mem::take(&mut rest).split_at_mut(count);
+            rest = behind;
+            room
+        }))
     }
 
     /// Sum of `upper − lower` over the results.
@@ -233,6 +246,9 @@ mod tests {
             }
             for part in &parts {
                 findings.append(part).unwrap();
+            }
+            for (room, part) in findings.rooms(parts.iter().map(|part| part.written)).unwrap().zip(&parts) {
+                room.copy_from_slice(part.results());
             }
             findings.join(&mut before).unwrap();
             assert_eq!(findings.results().iter().map(|result| result.user_data1).collect::<Vec<_>>(), expected);

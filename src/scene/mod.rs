@@ -15,13 +15,15 @@ mod activation;
 mod query;
 mod statistics;
 mod boxes;
+mod workers;
+mod rows;
 mod proxies;
 mod object_view;
 mod contacts;
 mod broad_phase;
 mod findings;
 mod narrow_phase;
-mod workers;
+mod parts;
 pub(crate) mod recording;
 mod poses;
 mod filters;
@@ -50,10 +52,11 @@ use crate::scene::events::Events;
 use crate::scene::findings::{Before, Findings};
 use crate::scene::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::object_view::Objects;
-use crate::scene::proxies::{Label, NewProxy, Proxies};
+use crate::scene::parts::PartFindings;
+use crate::scene::proxies::{NewProxy, Proxies};
 use crate::scene::recording::Recording;
 use crate::scene::recording::format::Record;
-use crate::scene::workers::PartFindings;
+use crate::scene::rows::Label;
 use crate::shape::Shape;
 
 pub use crate::pair::Query;
@@ -103,8 +106,8 @@ pub struct Scene {
     /// The results of the query before, or what is left of them.
     before: Before,
     events: Events,
-    /// Who shares the work on near pairs, and what each part found.
-    workers: Option<Workers>,
+    /// Who works on poses and queries, and what each part of a pass found.
+    workers: Workers,
     parts: Vec<PartFindings>,
     recording: Recording,
     statistics: SceneStatistics,
@@ -150,17 +153,18 @@ impl Scene {
             findings: Findings::default(),
             before: Before::default(),
             events: Events::default(),
-            workers: None,
+            workers: Workers::none(),
             parts: Vec::new(),
             recording: Recording::Off,
             statistics: SceneStatistics::default(),
         })
     }
 
-    /// Lets several threads work on a query, or one again. It changes no bit of any answer. Queries that stop early, those without
-    /// a tolerance over many objects and those over few pairs are answered in the caller's thread alone.
+    /// Lets several threads work on a query and on poses that are set together, or one again. It changes no bit of any answer.
+    /// Queries that stop early, those without a tolerance over many objects, and few pairs or objects are left to the caller's
+    /// thread.
     pub fn set_workers(&mut self, workers: Option<Workers>) {
-        self.workers = workers.filter(|workers| workers.count() > 1);
+        self.workers = workers.unwrap_or_else(Workers::none);
     }
 
     // --- Objects ---

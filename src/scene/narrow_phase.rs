@@ -10,15 +10,19 @@
 //! Only the first and the last list pairs. The last is a function of the poses, and an answer given again is the one that the
 //! same query gave there: what is listed, and with what outcome, does not depend on the past.
 
+use std::sync::Mutex;
+
 use crate::base::error::Result;
+use crate::base::locks::unlocked;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Placed, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
 use crate::scene::contacts::{ContactMemory, Details};
 use crate::scene::findings::{Before, Findings, make_room};
-use crate::scene::proxies::{Proxies, are_far_apart, overlap_inside};
+use crate::scene::proxies::Proxies;
 use crate::scene::query::PairResult;
+use crate::scene::rows::{are_far_apart, overlap_inside};
 use crate::scene::statistics::{SceneStatistics, Settled, level_of};
 
 /// Pairs that are looked at before the first of them is tested.
@@ -62,8 +66,8 @@ pub(crate) struct Pass<'a> {
 
 /// What pairs remember, by place.
 pub(crate) trait Caches {
-    /// For reading.
-    fn peek(&self, place: u32) -> &PairCache;
+    /// Asks for the memory of one.
+    fn prefetch(&self, place: u32);
     /// Changes one.
     ///
     /// # Errors
@@ -83,20 +87,20 @@ pub(crate) trait Caches {
 
 /// Nobody else uses them.
 pub(crate) struct Own<'a> {
-    pub caches: &'a mut [PairCache],
+    pub caches: &'a mut [Mutex<PairCache>],
     /// None for pairs that are forgotten.
     pub contacts: Option<&'a mut ContactMemory>,
 }
 
 impl Caches for Own<'_> {
     #[inline(always)]
-    fn peek(&self, place: u32) -> &PairCache {
-        &self.caches[place as usize]
+    fn prefetch(&self, place: u32) {
+        prefetch(&self.caches[place as usize]);
     }
 
     #[inline(always)]
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
-        change(&mut self.caches[place as usize])
+        change(unlocked(&mut self.caches[place as usize]))
     }
 
     fn change_contact(
@@ -259,7 +263,7 @@ impl Pass<'_> {
             }
         }
         if let Look::Test = look {
-            prefetch(caches.peek(pair.cache));
+            caches.prefetch(pair.cache);
         }
     }
 

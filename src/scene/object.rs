@@ -134,12 +134,12 @@ impl Entry {
         let first = self.first_proxy as usize;
         first..first + self.piece_count.get() as usize
     }
-}
 
-impl Arrangement {
-    /// Where a piece is in the world.
-    pub fn in_world(&self, piece: usize) -> Pose {
-        composed(&self.pose, &self.piece_poses[piece])
+    /// Where it is from now on, if its pieces have poses of their own; else those of the pieces say so.
+    pub fn stand_at(&mut self, pose: &Pose) {
+        if let Some(arrangement) = &mut self.arrangement {
+            arrangement.pose = *pose;
+        }
     }
 }
 

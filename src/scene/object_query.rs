@@ -1,19 +1,20 @@
 //! What touches or comes near one object: of the scene, or a shape that is put somewhere for the question alone.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use super::filters::testing;
 use super::{Asked, Scene};
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::base::memory::{collected, filled, push};
-use crate::pair::{PairCache, Query};
+use crate::base::memory::{collected, push};
+use crate::pair::Query;
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs, Testing};
 use crate::scene::narrow_phase::Own;
 use crate::scene::object::ObjectId;
-use crate::scene::proxies::{Label, NewProxy};
+use crate::scene::proxies::NewProxy;
 use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::scene::recording::format::Subject;
+use crate::scene::rows::Label;
 use crate::shape::Shape;
 
 impl Scene {
@@ -116,7 +117,7 @@ impl Scene {
 
     /// Pairs that remember nothing.
     fn ask_cold(&mut self, pairs: &mut [NearPair], asked: &Asked, early_exit: bool) -> Result<bool> {
-        let mut caches = filled(PairCache::default(), pairs.len())?;
+        let mut caches = collected(pairs.iter().map(|_| Mutex::default()))?;
         let pass = asked.pass(&self.proxies, early_exit, None);
         let stopped = pass.run(pairs, &mut Own { caches: &mut caches, contacts: None }, &mut self.findings)?;
         self.statistics.add(&self.findings.statistics);

@@ -5,7 +5,8 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::scene::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
-use crate::scene::proxies::{Label, Proxies};
+use crate::scene::proxies::Proxies;
+use crate::scene::rows::Label;
 use crate::shape::Shape;
 
 /// All of a scene.

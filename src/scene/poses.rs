@@ -1,13 +1,16 @@
 //! Objects and their pieces put elsewhere.
 
+use std::ops::Range;
+
 use super::Scene;
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
-use crate::base::memory::filled;
+use crate::base::memory::{filled, with_capacity};
 use crate::base::simd::environment::with_default;
-use crate::scene::object::{Arrangement, Entry, ObjectId, composed};
+use crate::scene::object::{Arrangement, Entry, ObjectId, ObjectTable, composed};
 use crate::scene::proxies::Proxies;
 use crate::scene::recording::format::Record;
+use crate::scene::rows::Rows;
 
 impl Scene {
     /// Moves an object, a fixed one too. For twelve numbers see [`Pose::from_row_major`], for R and T [`Pose::new`].
@@ -20,68 +23,102 @@ impl Scene {
         let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
         with_default(|| {
             let defect = check(object, pose, limit)?;
-            place(object, pose, defect, proxies, passes);
+            put(object, pose, defect, proxies, passes);
             Ok(())
         })?;
         self.note(|notes| notes.write(&Record::Pose(notes.number(id)?, *pose)));
         Ok(())
     }
 
-    /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts.
+    /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts. Several threads
+    /// share the work if ids are in order of creation.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless there is one pose for each, and as [`Scene::set_pose`]; all objects then stay where they are.
+    /// [`Error::Argument`] unless there is one pose for each, as [`Scene::set_pose`], and [`Error::Memory`]; all objects then stay
+    /// where they are.
     pub fn set_poses(&mut self, ids: &[ObjectId], poses: &[Pose]) -> Result<()> {
         if ids.len() != poses.len() {
             return Err(Error::Argument(format!("{} poses for {} objects", poses.len(), ids.len())));
         }
-        let of = |k: usize| format!("pose {k} of {}", poses.len());
-        for (k, (id, pose)) in ids.iter().zip(poses).enumerate() {
-            let object = self.objects.get(*id).map_err(|e| Error::Handle(format!("{}: {}", of(k), e.message())))?;
-            with_default(|| check(object, pose, self.rotation_limit)).map_err(|e| in_pose(&of(k), &e))?;
-        }
-        let (proxies, passes) = (&mut self.proxies, self.passes);
-        let objects = &mut self.objects;
-        with_default(|| {
-            ids.iter().zip(poses).try_for_each(|(id, pose)| {
-                place(objects.get_mut(*id)?, pose, pose.rotation_defect(), proxies, passes);
-                Ok(())
-            })
-        })?;
+        self.put_all(&Batch { ids, poses, first: 0, count: ids.len() })?;
         self.note(|notes| notes.write(&Record::Poses(notes.numbers(ids)?.into(), poses.into())));
         Ok(())
     }
 
-    /// Moves all objects that are not fixed, in order of creation.
+    /// Moves all objects that are not fixed, in order of creation. Several threads share the work.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless there is one pose for each, [`Error::Pose`] for a pose that is not accepted; all objects then
-    /// stay where they are.
+    /// [`Error::Argument`] unless there is one pose for each, [`Error::Pose`] for a pose that is not accepted, [`Error::Memory`];
+    /// all objects then stay where they are.
     pub fn set_all_poses(&mut self, poses: &[Pose]) -> Result<()> {
-        let count = self.objects().filter(|object| !object.fixed()).count();
+        let mut ids = with_capacity(self.objects.len())?;
+        let first_rows = (0..self.proxies.len()).filter(|&row| self.proxies.leads_movable(row));
+        ids.extend(first_rows.map(|row| self.proxies.labels[row].object));
+        let count = ids.len();
         if poses.len() != count {
             return Err(Error::Argument(format!("{} poses for {count} objects that are not fixed", poses.len())));
         }
-        let moving = self.objects().filter(|object| !object.fixed());
-        for (k, (object, pose)) in moving.zip(poses).enumerate() {
-            with_default(|| check(object.entry, pose, self.rotation_limit))
-                .map_err(|e| in_pose(&format!("pose {k} of {count}"), &e))?;
-        }
-        let passes = self.passes;
-        with_default(|| {
-            let mut proxy = 0;
-            for pose in poses {
-                while !self.proxies.leads_movable(proxy) {
-                    proxy += 1;
-                }
-                let object = self.objects.get_mut(self.proxies.labels[proxy].object)?;
-                place(object, pose, pose.rotation_defect(), &mut self.proxies, passes);
-                proxy += 1;
-            }
-            Ok(())
-        })?;
+        self.put_all(&Batch { ids: &ids, poses, first: 0, count })?;
         self.note(|notes| notes.write(&Record::AllPoses(poses.into())));
         Ok(())
+    }
+
+    /// Moves all objects of a batch, or none.
+    fn put_all(&mut self, batch: &Batch) -> Result<()> {
+        if self.workers.share(batch.count) {
+            if let Some(parts) = self.checked_parts(batch)? {
+                return self.put_in_parts(batch, &parts);
+            }
+        } else {
+            with_default(|| batch.check(&self.objects, self.rotation_limit))?;
+        }
+        let (objects, proxies, passes) = (&mut self.objects, &mut self.proxies, self.passes);
+        with_default(|| {
+            batch.ids.iter().zip(batch.poses).try_for_each(|(id, pose)| {
+                put(objects.get_mut(*id)?, pose, pose.rotation_defect(), proxies, passes);
+                Ok(())
+            })
+        })
+    }
+
+    /// A batch in parts if none of it is refused; none where their objects are not in order of creation.
+    fn checked_parts<'a>(&self, batch: &Batch<'a>) -> Result<Option<Vec<Part<'a>>>> {
+        let size = self.workers.part_size(batch.count);
+        let check = |batch: Batch| batch.check(&self.objects, self.rotation_limit);
+        let checked = self.workers.map(batch.cut(size), check)?;
+        let mut parts: Vec<Part> = with_capacity(checked.len())?;
+        let mut are_in_order = true;
+        for (batch, rows) in batch.cut(size).zip(checked) {
+            match rows? {
+                Some(rows) if parts.last().is_none_or(|last| last.rows.end <= rows.start) => {
+                    parts.push(Part { batch, rows });
+                }
+                _ => are_in_order = false,
+            }
+        }
+        Ok(are_in_order.then_some(parts))
+    }
+
+    /// Moves all objects of a batch, checked and in parts.
+    fn put_in_parts(&mut self, batch: &Batch, parts: &[Part]) -> Result<()> {
+        let (objects, passes) = (&self.objects, self.passes);
+        // Said first, as a panic of the program's threads may end the call.
+        self.proxies.misses_escaped = true;
+        let rows = self.proxies.rows();
+        let ends = parts.iter().skip(1).map(|next| next.rows.start).chain([rows.len()]);
+        let put = |(part, mut rows): (&Part, Rows)| {
+            part.batch.ids.iter().zip(part.batch.poses).try_for_each(|(id, pose)| {
+                // Which have left their boxes is listed later.
+                let place = |proxy, pose: &Pose, defect| _ = rows.place(proxy, pose, defect, passes);
+                for_each_piece(objects.get(*id)?, pose, pose.rotation_defect(), place);
+                Ok(())
+            })
+        };
+        self.workers.map(parts.iter().zip(rows.cut_at_each(ends)), put)?.into_iter().collect::<Result<()>>()?;
+        batch.ids.iter().zip(batch.poses).try_for_each(|(id, pose)| {
+            self.objects.get_mut(*id)?.stand_at(pose);
+            Ok(())
+        })
     }
 
     /// Moves one piece within its object: its place in the world is that of the object times `pose`, each of the twelve numbers
@@ -124,16 +161,50 @@ impl Scene {
             return Ok(());
         }
         let object = self.objects.get_mut(id)?;
-        let (proxies, passes) = (&mut self.proxies, self.passes);
-        let pose = proxies.poses[object.first_proxy as usize];
+        let pose = self.proxies.poses[object.first_proxy as usize];
         object.arrangement = Some(Box::new(Arrangement { pose, piece_poses }));
-        with_default(|| place(object, &pose, pose.rotation_defect(), proxies, passes));
+        with_default(|| put(object, &pose, pose.rotation_defect(), &mut self.proxies, self.passes));
         Ok(())
     }
 }
 
-fn in_pose(which: &str, error: &Error) -> Error {
-    Error::Pose(format!("{which}: {error}"))
+/// Objects and where each is to go, some of `count`, of which number `first` is the first.
+struct Batch<'a> {
+    ids: &'a [ObjectId],
+    poses: &'a [Pose],
+    first: usize,
+    count: usize,
+}
+
+/// A batch whose objects are in order of creation, and in which rows they are.
+struct Part<'a> {
+    batch: Batch<'a>,
+    rows: Range<usize>,
+}
+
+impl<'a> Batch<'a> {
+    /// Batches of this size.
+    fn cut(&self, size: usize) -> impl Iterator<Item = Batch<'a>> {
+        let (first, count) = (self.first, self.count);
+        let parts = self.ids.chunks(size).zip(self.poses.chunks(size));
+        (first..).step_by(size).zip(parts).map(move |(first, (ids, poses))| Batch { ids, poses, first, count })
+    }
+
+    /// Refuses what is not accepted; gives the rows of all objects if these are in order of creation.
+    fn check(&self, objects: &ObjectTable, limit: f64) -> Result<Option<Range<usize>>> {
+        let mut rows = None;
+        let mut are_in_order = true;
+        for (k, (id, pose)) in (self.first..).zip(self.ids.iter().zip(self.poses)) {
+            let of = || format!("pose {k} of {}", self.count);
+            let object = objects.get(*id).map_err(|e| Error::Handle(format!("{}: {}", of(), e.message())))?;
+            check(object, pose, limit).map_err(|e| Error::Pose(format!("{}: {e}", of())))?;
+            let own = object.proxies();
+            let Range { start, end } = rows.unwrap_or(own.start..own.start);
+            are_in_order &= end <= own.start;
+            rows = Some(start..own.end);
+        }
+        Ok(rows.filter(|_| are_in_order))
+    }
 }
 
 /// Refuses a pose that is not accepted, also of one of the pieces, for which the rotation of both is rounded; gives its defect.
@@ -149,15 +220,19 @@ fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
 }
 
 /// Puts all pieces of an object elsewhere. `defect` is that of the pose.
-fn place(object: &mut Entry, pose: &Pose, defect: f64, proxies: &mut Proxies, passes: u64) {
-    let own = object.proxies();
-    match &mut object.arrangement {
-        None => own.for_each(|proxy| proxies.place(proxy, pose, defect, passes)),
+fn put(object: &mut Entry, pose: &Pose, defect: f64, proxies: &mut Proxies, passes: u64) {
+    object.stand_at(pose);
+    for_each_piece(object, pose, defect, |proxy, pose, defect| proxies.place(proxy, pose, defect, passes));
+}
+
+/// Calls `place` with each piece of an object that goes to a pose, with the piece's own, and with the defect of that.
+fn for_each_piece(object: &Entry, pose: &Pose, defect: f64, mut place: impl FnMut(usize, &Pose, f64)) {
+    match &object.arrangement {
+        None => object.proxies().for_each(|proxy| place(proxy, pose, defect)),
         Some(arrangement) => {
-            arrangement.pose = *pose;
-            for (k, proxy) in own.enumerate() {
-                let world = arrangement.in_world(k);
-                proxies.place(proxy, &world, world.rotation_defect(), passes);
+            for (proxy, piece_pose) in object.proxies().zip(&arrangement.piece_poses) {
+                let world = composed(pose, piece_pose);
+                place(proxy, &world, world.rotation_defect());
             }
         }
     }

@@ -1,75 +1,15 @@
-//! What the scene knows of each placed convex piece: one row of several arrays, in the order of results. Spheres, boxes and bounds
-//! of motion err on the safe side.
+//! The placed convex pieces of a scene: a row of several arrays for each, in the order of results.
 
 use std::ops::Range;
 use std::sync::Arc;
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::math::Pose;
 use crate::base::memory::{reserve_sparingly, with_capacity};
-use crate::scene::boxes::{Aabb, above, below};
+use crate::scene::boxes::Aabb;
 use crate::scene::object::ObjectId;
+use crate::scene::rows::{Label, Motion, Rows, Spheres, placed};
 use crate::shape::Shape;
-
-const U: f64 = UNIT_ROUNDOFF;
-
-/// Rotations of which no entry of RᵀR − I exceeds this count as rigid in bounds of motion.
-const RIGID: f64 = 16.0 * U;
-
-/// So many steps of motion a box leaves room for …
-const STEPS_OF_ROOM: f32 = 4.0;
-/// … but no more than this part of the radius …
-const MOST_ROOM: f32 = 0.5;
-/// … and this part of it before the first step, which would else leave the box.
-const FIRST_ROOM: f32 = 0.04;
-
-/// The limit of a piece that has no box yet, or none that leaves room.
-const NO_BOX: f64 = f64::NEG_INFINITY;
-
-/// Below this lengths are taken for nothing: their squares may underflow.
-const TINY: f64 = 1e-150;
-
-/// Balls about one centre: the piece is in the outer one, the inner one in the piece.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Spheres {
-    pub centre: [f64; 3],
-    /// Radius, rounded up.
-    pub outer: f32,
-    /// Radius, rounded down; −∞ where there is none.
-    pub inner: f32,
-}
-
-/// How a piece has moved.
-#[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
-    /// No point of the piece has travelled farther in all its moves.
-    pub odometer: f64,
-    /// While the odometer is not above this, the piece is in its box.
-    pub limit: f64,
-    /// The number of passes over the pairs before the last move.
-    pub moved: u64,
-    /// How far it goes in a step, smoothed, but for jumps; 0 before the first. What brings it to where it gets its first box is
-    /// no step.
-    rate: f32,
-    /// No entry of RᵀR − I is above [`RIGID`].
-    rigid: bool,
-    /// Stands in `escaped`.
-    pub has_escaped: bool,
-}
-
-/// Whose piece it is.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Label {
-    /// Null: the piece is gone.
-    pub object: ObjectId,
-    pub user_data: u64,
-    pub piece: u32,
-    /// Two fixed ones are never tested.
-    pub fixed: bool,
-    /// See [`ObjectOptions`](crate::scene::object::ObjectOptions).
-    pub groups: u32,
-    pub mask: u32,
-}
 
 /// A piece to be added.
 pub(crate) struct NewProxy {
@@ -91,6 +31,8 @@ pub(crate) struct Proxies {
     pub firsts: Vec<u32>,
     /// Those that may be out of their boxes, and those whose pairs must be looked for anew.
     pub escaped: Vec<u32>,
+    /// Some may be missing there: [`Proxies::list_escaped`].
+    pub misses_escaped: bool,
     /// How many are gone.
     pub gone: usize,
     /// Some have come or gone or may meet others than before, since anybody asked.
@@ -122,7 +64,7 @@ impl Proxies {
         self.shapes.push(new.shape);
         self.poses.push(new.pose);
         self.spheres.push(spheres);
-        self.motions.push(Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false });
+        self.motions.push(Motion::new(rigid));
         self.boxes.push(Aabb::EVERYWHERE);
         self.firsts.push(self.labels.len() as u32 - new.label.piece);
         self.labels.push(new.label);
@@ -152,14 +94,7 @@ impl Proxies {
     /// It may meet others than before: its pairs are to be looked for anew.
     pub fn look_for_pairs_of(&mut self, proxy: usize) {
         self.has_news = true;
-        self.escape(proxy);
-    }
-
-    /// It may be out of its box.
-    fn escape(&mut self, proxy: usize) {
-        let motion = &mut self.motions[proxy];
-        if !motion.has_escaped {
-            motion.has_escaped = true;
+        if self.motions[proxy].escape() {
             self.escaped.push(proxy as u32);
         }
     }
@@ -183,7 +118,7 @@ impl Proxies {
     }
 
     pub fn is_gone(&self, proxy: usize) -> bool {
-        self.labels[proxy].object == ObjectId::NULL
+        self.labels[proxy].is_gone()
     }
 
     /// Ends a piece; its row stays until they are renumbered.
@@ -193,58 +128,30 @@ impl Proxies {
         self.look_for_pairs_of(proxy);
     }
 
-    /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs.
+    /// All of them, for moving.
+    pub fn rows(&mut self) -> Rows<'_> {
+        let Proxies { shapes, poses, spheres, motions, boxes, labels, .. } = self;
+        Rows { first: 0, shapes, labels, poses, spheres, motions, boxes }
+    }
+
+    /// Puts a piece elsewhere: [`Rows::place`].
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
-        let old = self.poses[proxy];
-        if old == *pose {
-            return;
-        }
-        let shape = &self.shapes[proxy];
-        let lever = shape.extent().lever;
-        let motion = &mut self.motions[proxy];
-        let (spheres, rigid) = placed(shape, pose, defect);
-        let way = way_bound(&old, pose, lever, motion.rigid & rigid);
-        motion.rigid = rigid;
-        motion.moved = passes;
-        // Never below the exact sum; infinite sums say that nothing is known.
-        motion.odometer = (motion.odometer + way).next_up();
-        motion.rate = match (motion.rate, way as f32) {
-            _ if motion.limit == NO_BOX => 0.0,
-            (rate, way) if rate == 0.0 || rate.max(way) > MOST_ROOM * spheres.outer => way,
-            (rate, way) => 0.75 * rate + 0.25 * way,
-        };
-        self.poses[proxy] = *pose;
-        self.spheres[proxy] = spheres;
-        // An infinite odometer is above every limit but an infinite one, which only boxes without end have.
-        if motion.odometer > motion.limit {
-            self.escape(proxy);
+        if self.rows().place(proxy, pose, defect, passes) {
+            self.escaped.push(proxy as u32);
         }
     }
 
-    /// Gives a piece a new box, which two pieces share if they are `tolerance` apart or less.
+    /// Completes the list of those that have escaped. There is room for all.
+    pub fn list_escaped(&mut self) {
+        if std::mem::take(&mut self.misses_escaped) {
+            self.escaped.clear();
+            self.escaped.extend((0..).zip(&self.motions).filter(|(_, motion)| motion.has_escaped).map(|(k, _)| k));
+        }
+    }
+
+    /// Gives a piece a new box: [`Rows::refit`].
     pub fn refit(&mut self, proxy: usize, tolerance: f64) {
-        let motion = &mut self.motions[proxy];
-        let Spheres { centre, outer, .. } = self.spheres[proxy];
-        let most = MOST_ROOM * outer;
-        let can_move = !self.labels[proxy].fixed;
-        let room = match motion.rate {
-            0.0 if can_move => FIRST_ROOM * outer,
-            rate if rate > most => 0.0,
-            rate => (STEPS_OF_ROOM * rate).min(most),
-        };
-        let limit = motion.odometer + f64::from(room);
-        // The limit is rounded: it, not the room, says how far the piece may go. ∞ − ∞ is no room, and every move is then too far.
-        let room = (limit - motion.odometer).next_up();
-        let is_counted = room < f64::INFINITY;
-        let grown = 0.5 * tolerance + if is_counted { room } else { 0.0 };
-        motion.limit = match (grown == f64::INFINITY, is_counted) {
-            (true, _) => f64::INFINITY,
-            (false, true) => limit,
-            (false, false) => NO_BOX,
-        };
-        let reach = self.shapes[proxy].extent().reach(&self.poses[proxy], outer.into());
-        let centre_error = centre_error(&self.shapes[proxy], &self.poses[proxy]);
-        self.boxes[proxy] = Aabb::around(centre, &reach, grown + centre_error);
+        self.rows().refit(proxy, tolerance);
     }
 
     /// Whether two pieces may make a pair.
@@ -295,104 +202,7 @@ impl Proxies {
         self.firsts.clear();
         self.firsts.extend((0..).zip(&self.labels).map(|(proxy, label)| proxy - label.piece));
         self.gone = 0;
-        self.escaped.clear();
-        self.escaped.extend((0..).zip(&self.motions).filter(|(_, motion)| motion.has_escaped).map(|(k, _)| k));
-    }
-}
-
-/// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
-///
-/// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
-/// d ≤ 1e-2; d as computed is off by at most 4u.
-fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool) {
-    let polyhedron = shape.polyhedron();
-    let stretch = 2.0 * (defect + 8.0 * U);
-    let error = centre_error(shape, pose);
-    let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
-    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
-    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
-    (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
-}
-
-/// How far rounding may move a placed body's centre T + R·c: three products and three sums in each component.
-fn centre_error(shape: &Shape, pose: &Pose) -> f64 {
-    let centre = shape.polyhedron().centre;
-    if centre == Vector::zeros() {
-        return 0.0;
-    }
-    16.0 * U * (pose.translation().amax() + 2.0 * centre.amax()) + TINY
-}
-
-/// No point of a body within `lever` of its local origin travels farther than this: |ΔT| + ‖ΔR‖·lever, rounded up.
-///
-/// ‖ΔR‖ is at most the root of the sum of squares ‖ΔR‖_F; for rotations, whose difference has the singular values 2 sin θ/2, twice,
-/// and 0, it is ‖ΔR‖_F/√2. Rotations within [`RIGID`] are within 24u of exact ones (in norm; 42u in ‖·‖_F), which costs less than
-/// 2e-14.
-fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
-    let (mut turned, mut shifted) = (0.0, 0.0);
-    for (old, new) in old.rows.iter().zip(&new.rows) {
-        let [x, y, z, t] = [0, 1, 2, 3].map(|k| new[k] - old[k]);
-        turned += x * x + y * y + z * z;
-        shifted += t * t;
-    }
-    let norm = f64::sqrt(turned) * if rigid { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 } + 2e-14;
-    (f64::sqrt(shifted) + norm * lever) * (1.0 + 32.0 * U) + TINY
-}
-
-/// Whether two pieces are certainly farther apart than `tolerance`.
-///
-/// The squares are off by less than 8u of themselves; below [`TINY`] they may underflow.
-#[inline(always)]
-pub(crate) fn are_far_apart(one: &Spheres, other: &Spheres, tolerance: f64) -> bool {
-    let radii = (f64::from(one.outer) + f64::from(other.outer) + tolerance) * (1.0 + 16.0 * U) + TINY;
-    square_distance(one, other) > radii * radii
-}
-
-/// Whether balls in two pieces certainly overlap.
-#[inline(always)]
-pub(crate) fn overlap_inside(one: &Spheres, other: &Spheres) -> bool {
-    let inner = f64::from(one.inner) + f64::from(other.inner);
-    inner > TINY && square_distance(one, other) * (1.0 + 32.0 * U) < inner * inner
-}
-
-#[inline(always)]
-fn square_distance(one: &Spheres, other: &Spheres) -> f64 {
-    let [x, y, z] = [0, 1, 2].map(|k| one.centre[k] - other.centre[k]);
-    x * x + y * y + z * z
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::base::math::Matrix;
-    use swiftprox::random::Random;
-
-    /// Random motions, rigid and skewed, of points on a sphere: none travels farther than the bound, which is not far off.
-    #[test]
-    fn no_point_travels_farther_than_said() {
-        let mut random = Random::new(0x0d0);
-        for round in 0..2_000 {
-            let skew = if round % 3 == 0 { random.vector() * 2e-3 } else { Vector::zeros() };
-            let skewed = Matrix::identity() + Matrix::from_diagonal(&skew);
-            let small = random.power(-40, 0);
-            let old = Pose::new(&(random.rotation() * skewed), &(random.vector() * 10.0));
-            let turn = if round % 2 == 0 { random.rotation() } else { small_turn(&mut random, small) };
-            let new = Pose::new(&(turn * old.rotation()), &(old.translation() + random.vector() * small));
-            let rigid = [&old, &new].iter().all(|pose| pose.rotation_defect() <= RIGID);
-            let way = way_bound(&old, &new, 2.0, rigid);
-            let mut longest = 0.0_f64;
-            for _ in 0..20 {
-                let point = random.direction() * 2.0 * (1.0 - 4.0 * U);
-                longest = longest.max((new.transform(&point) - old.transform(&point)).norm());
-            }
-            // What is compared is rounded itself, by a few u of 12.
-            assert!(longest <= way + 1e-14, "{longest:e} {way:e}");
-            assert!(way <= 3.0 * longest + 1e-13, "{longest:e} {way:e}");
-        }
-    }
-
-    fn small_turn(random: &mut Random, angle: f64) -> Matrix {
-        let axis = random.direction();
-        *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle).matrix()
+        self.misses_escaped = true;
+        self.list_escaped();
     }
 }

@@ -3,11 +3,12 @@
 use std::collections::HashMap;
 use std::io::Read;
 use std::path::Path;
-use std::sync::{Arc, Mutex, MutexGuard, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use super::{Scene, SceneOptions};
 use crate::base::error::{Error, Result};
 use crate::base::files::open_to_read;
+use crate::base::locks::locked;
 use crate::base::memory::{lacking, push};
 use crate::pair::Query;
 use crate::scene::filters::PairFilter;
@@ -304,14 +305,14 @@ impl Replay {
                 Ok(())
             }
             Record::Filter(is_set) => {
-                lock(&self.decisions).known.clear();
+                locked(&self.decisions).known.clear();
                 let decisions = self.decisions.clone();
-                let says = move |object1, object2| lock(&decisions).say([object1, object2]);
+                let says = move |object1, object2| locked(&decisions).say([object1, object2]);
                 scene.set_pair_filter(is_set.then(|| PairFilter::new(says)));
                 Ok(())
             }
             Record::FilterAgain => {
-                lock(&self.decisions).known.clear();
+                locked(&self.decisions).known.clear();
                 scene.filter_again();
                 Ok(())
             }
@@ -345,7 +346,7 @@ impl Replay {
 
     /// Takes what the recorded filter has decided.
     fn learn(&self, scene: &mut Scene, decisions: &[Decision]) -> Result<()> {
-        let mut all = lock(&self.decisions);
+        let mut all = locked(&self.decisions);
         for Decision { pair: [object1, object2], is_tested } in decisions {
             let pair = [self.id(*object1)?, self.id(*object2)?];
             let count = all.known.len() + 1;
@@ -410,8 +411,4 @@ impl Decisions {
         self.has_guessed |= said.is_none();
         said.unwrap_or(true)
     }
-}
-
-fn lock(decisions: &Mutex<Decisions>) -> MutexGuard<'_, Decisions> {
-    decisions.lock().unwrap_or_else(PoisonError::into_inner)
 }

@@ -1,11 +1,12 @@
 //! How a query runs: over the near pairs, or where everything is near over all pairs.
 
 use std::ops::Range;
-use std::sync::Arc;
+use std::sync::{Arc, Mutex};
 
 use super::filters::testing;
 use super::{Asked, Scene};
 use crate::base::error::{Result, check_range};
+use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{collected, with_capacity};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, PairCache, PairConfig, Query};
@@ -14,10 +15,11 @@ use crate::scene::contacts::Details;
 use crate::scene::findings::{Before, Findings};
 use crate::scene::narrow_phase::{BLOCK, Own, Pass};
 use crate::scene::object::ObjectId;
-use crate::scene::proxies::{Label, Proxies};
+use crate::scene::parts::run_in_parts;
+use crate::scene::proxies::Proxies;
 use crate::scene::query::{SceneAnswer, SceneQuery};
 use crate::scene::recording::format::Subject;
-use crate::scene::workers::{FEWEST_SHARED, run_in_parts};
+use crate::scene::rows::Label;
 use crate::shape::Shape;
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, beyond that none is.
@@ -102,15 +104,12 @@ impl Scene {
             near.contacts.make_room(near.caches.len())?;
         }
         let stopped = if keeps_list {
-            match &self.workers {
-                Some(workers) if !early_exit && near.pairs.len() >= FEWEST_SHARED => {
-                    run_in_parts(workers, &pass, near, &mut self.parts, &mut self.findings)?;
-                    false
-                }
-                _ => {
-                    let NearPairs { pairs, caches, contacts, .. } = near;
-                    pass.run(pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?
-                }
+            if self.workers.share(near.pairs.len()) && !early_exit {
+                run_in_parts(&self.workers, &mut self.parts, &pass, near, &mut self.findings)?;
+                false
+            } else {
+                let NearPairs { pairs, caches, contacts, .. } = near;
+                pass.run(pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?
             }
         } else {
             let (objects, activation, filter) = (&self.objects, &self.activation, &mut self.filter);
@@ -237,7 +236,7 @@ fn ask_all(
 /// Pairs to be looked at together.
 struct Block {
     pairs: Vec<NearPair>,
-    caches: Vec<PairCache>,
+    caches: Vec<Mutex<PairCache>>,
     /// Those that near pairs have.
     kept: Vec<Option<u32>>,
 }
@@ -245,15 +244,16 @@ struct Block {
 impl Block {
     fn add(&mut self, pair: NearPair, kept: Option<u32>, near: &NearPairs) {
         self.pairs.push(NearPair { cache: self.caches.len() as u32, ..pair });
-        self.caches.push(kept.map_or_else(PairCache::default, |kept| near.caches[kept as usize]));
+        let known = kept.map(|kept| *locked(&near.caches[kept as usize]));
+        self.caches.push(Mutex::new(known.unwrap_or_default()));
         self.kept.push(kept);
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
         let stopped = pass.run(&mut self.pairs, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
-        for (kept, cache) in self.kept.iter().zip(&self.caches) {
+        for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
             if let Some(kept) = kept {
-                near.caches[*kept as usize] = *cache;
+                *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);
             }
         }
         self.pairs.clear();

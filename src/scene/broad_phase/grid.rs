@@ -125,33 +125,38 @@ impl Grid {
         Ok(true)
     }
 
-    /// Calls `found` with all pairs of proxies in the cells whose boxes overlap, each once.
+    pub fn cell_count(&self) -> usize {
+        self.counts.iter().product()
+    }
+
+    /// Calls `found` with all pairs of proxies whose boxes overlap, one in these cells and the other one there or behind, each
+    /// once.
     ///
     /// # Errors
     /// Those of `found`.
-    pub fn for_each_pair(&self, mut found: impl FnMut(u32, u32) -> Result<()>) -> Result<()> {
+    pub fn for_each_pair(&self, cells: Range<usize>, mut found: impl FnMut(u32, u32) -> Result<()>) -> Result<()> {
         let [width, height, depth] = self.counts;
-        for z in 0..depth {
-            for y in 0..height {
-                for x in 0..width {
-                    let own = self.cells(x..x + 1, y, z);
-                    if own.is_empty() {
-                        continue;
-                    }
-                    // Half of the neighbours: the other half meets this cell as theirs. Those of one row are next to each other.
-                    let behind = self.cells(x..(x + 2).min(width), y, z).end;
-                    let beside = x.saturating_sub(1)..(x + 2).min(width);
-                    let row = |y: usize, z: usize| {
-                        if y < height && z < depth { self.cells(beside.clone(), y, z) } else { 0..0 }
-                    };
-                    let rows = [row(y + 1, z), row(y.wrapping_sub(1), z + 1), row(y, z + 1), row(y + 1, z + 1)];
-                    for at in own {
-                        let (bounds, proxy) = &self.sorted[at];
-                        for others in std::iter::once(at + 1..behind).chain(rows.clone()) {
-                            for (other, other_proxy) in &self.sorted[others] {
-                                if bounds.overlaps(other) {
-                                    found(*proxy, *other_proxy)?;
-                                }
+        for row in cells.start / width..cells.end.div_ceil(width) {
+            let (y, z, first) = (row % height, row / height, row * width);
+            for x in cells.start.max(first) - first..cells.end.min(first + width) - first {
+                let own = self.cells(x..x + 1, y, z);
+                if own.is_empty() {
+                    continue;
+                }
+                // Half of the neighbours: the other half meets this cell as theirs. Those of one row are next to each other.
+                let behind = self.cells(x..(x + 2).min(width), y, z).end;
+                let beside = x.saturating_sub(1)..(x + 2).min(width);
+                let in_row = |y: usize, z: usize| {
+                    if y < height && z < depth { self.cells(beside.clone(), y, z) } else { 0..0 }
+                };
+                let neighbours =
+                    [in_row(y + 1, z), in_row(y.wrapping_sub(1), z + 1), in_row(y, z + 1), in_row(y + 1, z + 1)];
+                for at in own {
+                    let (bounds, proxy) = &self.sorted[at];
+                    for others in std::iter::once(at + 1..behind).chain(neighbours.clone()) {
+                        for (other, other_proxy) in &self.sorted[others] {
+                            if bounds.overlaps(other) {
+                                found(*proxy, *other_proxy)?;
                             }
                         }
                     }
@@ -230,7 +235,11 @@ mod tests {
             }
             fills += 1;
             let mut found = Vec::new();
-            grid.for_each_pair(|a, b| push(&mut found, (a.min(b), a.max(b)))).unwrap();
+            let count = grid.cell_count();
+            let cut = random.below(count + 1);
+            for cells in [0..cut, cut..count] {
+                grid.for_each_pair(cells, |a, b| push(&mut found, (a.min(b), a.max(b)))).unwrap();
+            }
             found.sort_unstable();
             let is_inside = |k: &&u32| !grid.large.contains(k);
             let mut expected = Vec::new();

@@ -13,7 +13,9 @@ use std::ops::Range;
 use crate::base::error::Result;
 use crate::base::memory::{extend, reserve_sparingly};
 use crate::scene::object::ObjectId;
-use crate::scene::proxies::{Label, Proxies};
+use crate::scene::proxies::Proxies;
+use crate::scene::rows::Label;
+use crate::scene::workers::Workers;
 use grid::Grid;
 use near_pairs::{Candidates, NearPairs, Testing};
 use tree::{NONE, Scratch, Tree};
@@ -97,8 +99,10 @@ impl BroadPhase {
         &mut self,
         proxies: &mut Proxies,
         tolerance: f64,
+        workers: &Workers,
         mut testing: impl FnMut([&Label; 2]) -> Testing,
     ) -> Result<()> {
+        proxies.list_escaped();
         let refits_all = self.follow_tolerance(tolerance) | self.is_broken;
         if proxies.escaped.is_empty() && !refits_all {
             return Ok(());
@@ -109,8 +113,8 @@ impl BroadPhase {
         }
         self.candidates.clear();
         if refits_all || proxies.escaped.len() * MANY_ESCAPED > proxies.len() - proxies.gone {
-            self.refit_all(proxies);
-            self.find_all(proxies)?;
+            self.refit_all(proxies, workers)?;
+            self.find_all(proxies, workers)?;
             let is_tested = |pair: [u32; 2]| testing(pair.map(|proxy| &proxies.labels[proxy as usize]));
             self.near.update(&mut self.candidates, &proxies.firsts, |_| true, is_tested)?;
         } else {
@@ -210,20 +214,25 @@ impl BroadPhase {
 
     // --- All pieces --------------------------------------------------------------------------------------------------------------
 
-    fn refit_all(&mut self, proxies: &mut Proxies) {
-        for proxy in 0..proxies.len() {
-            if !proxies.is_gone(proxy) {
-                proxies.refit(proxy, self.tolerance);
-            }
-        }
+    fn refit_all(&mut self, proxies: &mut Proxies, workers: &Workers) -> Result<()> {
         self.is_stale = [true; 2];
+        let mut rows = proxies.rows();
+        let count = rows.len();
+        if workers.share(count) {
+            let size = workers.part_size(count);
+            let ends = (size..count).step_by(size).chain([count]);
+            workers.map(rows.cut_at_each(ends), |mut rows| rows.refit_all(self.tolerance))?;
+        } else {
+            rows.refit_all(self.tolerance);
+        }
+        Ok(())
     }
 
-    fn find_all(&mut self, proxies: &Proxies) -> Result<()> {
+    fn find_all(&mut self, proxies: &Proxies, workers: &Workers) -> Result<()> {
         self.fit_tree(true, proxies)?;
         self.list_tree(false, proxies)?;
         if self.grid.fill(&proxies.boxes, &self.scratch.proxies)? {
-            return self.find_by_grid(proxies);
+            return self.find_by_grid(proxies, workers);
         }
         self.fit_tree(false, proxies)?;
         let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
@@ -234,12 +243,28 @@ impl BroadPhase {
     }
 
     /// Moving pieces meet each other in the grid, but for large ones, and fixed ones in their tree.
-    fn find_by_grid(&mut self, proxies: &Proxies) -> Result<()> {
+    fn find_by_grid(&mut self, proxies: &Proxies, workers: &Workers) -> Result<()> {
         if !self.grid.large.is_empty() {
             self.fit_tree(false, proxies)?;
         }
+        let count = self.grid.cell_count();
+        let find = |cells, candidates: &mut Candidates| {
+            self.grid.for_each_pair(cells, |a, b| candidates.add_if_meeting(proxies, a, b))
+        };
         let (candidates, scratch) = (&mut self.candidates, &mut self.scratch);
-        self.grid.for_each_pair(|a, b| candidates.add_if_meeting(proxies, a, b))?;
+        if workers.share(proxies.len()) {
+            let size = workers.part_size(count);
+            let parts = (0..count).step_by(size).map(|first| first..(first + size).min(count));
+            let find_part = |cells| {
+                let mut candidates = Candidates::default();
+                find(cells, &mut candidates).map(|()| candidates)
+            };
+            for part in workers.map(parts, find_part)? {
+                candidates.append(&part?)?;
+            }
+        } else {
+            find(0..count, candidates)?;
+        }
         let [moving, fixed] = &self.trees;
         for &large in &self.grid.large {
             let found = |other: u32| candidates.add_if_meeting(proxies, large, other);

@@ -1,11 +1,15 @@
 //! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the
 //! sorted candidates says which come and which go.
 
+use std::sync::Mutex;
+
 use crate::base::error::Result;
+use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
 use crate::pair::PairCache;
 use crate::scene::contacts::ContactMemory;
-use crate::scene::proxies::{Label, Proxies};
+use crate::scene::proxies::Proxies;
+use crate::scene::rows::Label;
 
 /// Whether a near pair is tested.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -101,6 +105,11 @@ impl Candidates {
         if proxies.may_meet(a as usize, b as usize) { self.add(a, b) } else { Ok(()) }
     }
 
+    /// Adds those that another part has found.
+    pub fn append(&mut self, part: &Candidates) -> Result<()> {
+        extend(&mut self.pairs, part.pairs.iter().copied())
+    }
+
     /// Sorts them, each once.
     fn sort(&mut self, firsts: &[u32]) -> Result<()> {
         if self.pairs.len() < firsts.len() / 4 {
@@ -159,8 +168,9 @@ fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize 
 #[derive(Debug, Default)]
 pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
-    /// What each pair's queries remember, in no order: pairs move when others come and go, this does not.
-    pub caches: Vec<PairCache>,
+    /// What each pair's queries remember, in no order: pairs move when others come and go, this does not. Several threads may
+    /// change theirs at once: [`locked`].
+    pub caches: Vec<Mutex<PairCache>>,
     /// … and of contacts, at the same places.
     pub contacts: ContactMemory,
     /// Caches without a pair; with room for all.
@@ -236,8 +246,8 @@ impl NearPairs {
         for pair in arrivals.iter_mut() {
             pair.cache = self.free.pop().unwrap_or(self.caches.len() as u32);
             match self.caches.get_mut(pair.cache as usize) {
-                Some(cache) => *cache = PairCache::default(),
-                None => self.caches.push(PairCache::default()),
+                Some(cache) => *unlocked(cache) = PairCache::default(),
+                None => self.caches.push(Mutex::default()),
             }
         }
         let (mut old, mut new) = (self.pairs.len(), arrivals.len());
@@ -275,7 +285,7 @@ impl NearPairs {
     /// [`Error::Memory`](crate::base::error::Error::Memory) if there is none for smaller lists; nothing has changed then.
     pub fn shrink(&mut self) -> Result<()> {
         let mut pairs = copied(&self.pairs)?;
-        let caches = collected(pairs.iter().map(|pair| self.caches[pair.cache as usize]))?;
+        let caches = collected(pairs.iter().map(|pair| Mutex::new(*locked(&self.caches[pair.cache as usize]))))?;
         let contacts = self.contacts.packed(pairs.iter().map(|pair| pair.cache))?;
         let free = with_capacity(caches.len())?;
         for (place, pair) in (0..).zip(&mut pairs) {

@@ -20,7 +20,8 @@ pub struct Ours {
     workers: usize,
     scene: Scene,
     ids: Vec<ObjectId>,
-    steps: Vec<Vec<(ObjectId, Pose)>>,
+    /// Who moves in each step, and where to.
+    steps: Vec<(Vec<ObjectId>, Vec<Pose>)>,
 }
 
 impl Ours {
@@ -46,13 +47,12 @@ impl Crowd for Ours {
 
     fn load(&mut self, steps: &[Step]) {
         let pose = |step: &Step, i: u32| (self.ids[i as usize], Pose::from_row_major(&step.poses[i as usize]));
-        self.steps = steps.iter().map(|step| step.moved.iter().map(|&i| pose(step, i)).collect()).collect();
+        self.steps = steps.iter().map(|step| step.moved.iter().map(|&i| pose(step, i)).unzip()).collect();
     }
 
     fn step(&mut self, k: usize) -> Found {
-        for (id, pose) in &self.steps[k] {
-            self.scene.set_pose(*id, pose).expect("a rigid pose");
-        }
+        let (ids, poses) = &self.steps[k];
+        self.scene.set_poses(ids, poses).expect("rigid poses");
         let near = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
         let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
         let answer = match self.question {

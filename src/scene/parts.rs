@@ -1,0 +1,124 @@
+//! The near pairs of one pass in parts, for several threads. Each pair's answer rests on its poses and its own memory alone, so
+//! results, their order and what pairs remember are bit for bit those of one thread.
+
+use std::sync::Mutex;
+
+use crate::base::error::Result;
+use crate::base::locks::locked;
+use crate::base::memory::{push, reserve, with_capacity};
+use crate::base::simd::prefetch;
+use crate::pair::{DepthCache, PairCache, Reference};
+use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
+use crate::scene::contacts::ContactMemory;
+use crate::scene::findings::Findings;
+use crate::scene::narrow_phase::{BLOCK, Caches, Pass};
+use crate::scene::workers::Workers;
+
+/// What a part found, kept from pass to pass.
+#[derive(Debug, Default)]
+pub(crate) struct PartFindings {
+    findings: Findings,
+    written: Written,
+}
+
+/// What a part has changed of contacts, by places: put there once no other part reads them.
+#[derive(Debug, Default)]
+struct Written {
+    references: Vec<(u32, Reference)>,
+    /// Of pairs that had none.
+    depths: Vec<(u32, DepthCache)>,
+}
+
+impl Written {
+    fn clear(&mut self) {
+        self.references.clear();
+        self.depths.clear();
+    }
+
+    fn put(&self, contacts: &mut ContactMemory) -> Result<()> {
+        for (place, reference) in &self.references {
+            *contacts.reference(*place) = *reference;
+        }
+        for (place, cache) in &self.depths {
+            *contacts.of_intersecting(*place)?.1 = *cache;
+        }
+        Ok(())
+    }
+}
+
+/// What pairs remember while several threads look at them. Each pair is looked at by one: no lock is waited for.
+struct Shared<'a> {
+    caches: &'a [Mutex<PairCache>],
+    contacts: &'a ContactMemory,
+    written: &'a mut Written,
+}
+
+impl Caches for Shared<'_> {
+    #[inline(always)]
+    fn prefetch(&self, place: u32) {
+        prefetch(&self.caches[place as usize]);
+    }
+
+    #[inline(always)]
+    fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
+        change(&mut locked(&self.caches[place as usize]))
+    }
+
+    fn change_contact(
+        &mut self,
+        place: u32,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> Result<()>,
+    ) -> Result<()> {
+        let (mut reference, cache) = self.contacts.peek(place);
+        match cache {
+            _ if !intersects => change(&mut reference, None)?,
+            Some(cache) => change(&mut reference, Some(&mut locked(cache)))?,
+            None => {
+                let mut cache = DepthCache::default();
+                change(&mut reference, Some(&mut cache))?;
+                push(&mut self.written.depths, (place, cache))?;
+            }
+        }
+        push(&mut self.written.references, (place, reference))
+    }
+}
+
+/// As [`Pass::run`] over all near pairs, which never stops early, by several threads.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory).
+pub(crate) fn run_in_parts(
+    workers: &Workers,
+    kept: &mut Vec<PartFindings>,
+    pass: &Pass,
+    near: &mut NearPairs,
+    findings: &mut Findings,
+) -> Result<()> {
+    let NearPairs { pairs, caches, contacts, .. } = near;
+    let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
+    let count = pairs.len().div_ceil(size);
+    reserve(kept, count.saturating_sub(kept.len()))?;
+    kept.resize_with(count.max(kept.len()), PartFindings::default);
+    let kept = &mut kept[..count];
+    let run = |(pairs, found): (&mut [NearPair], &mut PartFindings)| {
+        let PartFindings { findings, written } = found;
+        findings.clear();
+        written.clear();
+        pass.run(pairs, &mut Shared { caches, contacts, written }, findings)
+    };
+    let results = workers.map(pairs.chunks_mut(size).zip(kept.iter_mut()), run)?;
+    let mut firsts = with_capacity(count)?;
+    for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
+        result?;
+        firsts.push(findings.append(found)?);
+        written.put(contacts)?;
+    }
+    let rooms = findings.rooms(kept.iter().map(|part| part.findings.written))?;
+    let parts = pairs.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
+    workers.map(parts, |(((pairs, first), room), part)| {
+        room.copy_from_slice(part.findings.results());
+        pairs.iter_mut().for_each(|pair| pair.shift_result(first));
+    })?;
+    Ok(())
+}

@@ -1,0 +1,297 @@
+//! What the scene knows of a placed convex piece, one row of several arrays, and how it moves. Spheres, boxes and bounds of motion
+//! err on the safe side.
+
+use std::sync::Arc;
+
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::scene::boxes::{Aabb, above, below};
+use crate::scene::object::ObjectId;
+use crate::shape::Shape;
+
+const U: f64 = UNIT_ROUNDOFF;
+
+/// Rotations of which no entry of RᵀR − I exceeds this count as rigid in bounds of motion.
+const RIGID: f64 = 16.0 * U;
+
+/// So many steps of motion a box leaves room for …
+const STEPS_OF_ROOM: f32 = 4.0;
+/// … but no more than this part of the radius …
+const MOST_ROOM: f32 = 0.5;
+/// … and this part of it before the first step, which would else leave the box.
+const FIRST_ROOM: f32 = 0.04;
+
+/// The limit of a piece that has no box yet, or none that leaves room.
+const NO_BOX: f64 = f64::NEG_INFINITY;
+
+/// Below this lengths are taken for nothing: their squares may underflow.
+const TINY: f64 = 1e-150;
+
+/// Balls about one centre: the piece is in the outer one, the inner one in the piece.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Spheres {
+    pub centre: [f64; 3],
+    /// Radius, rounded up.
+    pub outer: f32,
+    /// Radius, rounded down; −∞ where there is none.
+    pub inner: f32,
+}
+
+/// How a piece has moved.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Motion {
+    /// No point of the piece has travelled farther in all its moves.
+    pub odometer: f64,
+    /// While the odometer is not above this, the piece is in its box.
+    pub limit: f64,
+    /// The number of passes over the pairs before the last move.
+    pub moved: u64,
+    /// How far it goes in a step, smoothed, but for jumps; 0 before the first. What brings it to where it gets its first box is
+    /// no step.
+    rate: f32,
+    /// No entry of RᵀR − I is above [`RIGID`].
+    rigid: bool,
+    /// Stands in the list of those that have left their boxes.
+    pub has_escaped: bool,
+}
+
+impl Motion {
+    /// Of a piece that has no box yet.
+    pub fn new(rigid: bool) -> Motion {
+        Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false }
+    }
+
+    /// It may be out of its box; false if that was known.
+    pub fn escape(&mut self) -> bool {
+        !std::mem::replace(&mut self.has_escaped, true)
+    }
+}
+
+/// Whose piece it is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) struct Label {
+    /// Null: the piece is gone.
+    pub object: ObjectId,
+    pub user_data: u64,
+    pub piece: u32,
+    /// Two fixed ones are never tested.
+    pub fixed: bool,
+    /// See [`ObjectOptions`](crate::scene::object::ObjectOptions).
+    pub groups: u32,
+    pub mask: u32,
+}
+
+impl Label {
+    pub fn is_gone(&self) -> bool {
+        self.object == ObjectId::NULL
+    }
+}
+
+/// Some rows next to each other: whoever has them may move their pieces.
+pub(crate) struct Rows<'a> {
+    /// The number of the first.
+    pub first: usize,
+    pub shapes: &'a [Arc<Shape>],
+    pub labels: &'a [Label],
+    pub poses: &'a mut [Pose],
+    pub spheres: &'a mut [Spheres],
+    pub motions: &'a mut [Motion],
+    pub boxes: &'a mut [Aabb],
+}
+
+impl<'a> Rows<'a> {
+    pub fn len(&self) -> usize {
+        self.labels.len()
+    }
+
+    /// Those before a row, and those from it on.
+    fn cut_at(self, proxy: usize) -> (Rows<'a>, Rows<'a>) {
+        let at = proxy - self.first;
+        let (shapes, shapes_behind) = self.shapes.split_at(at);
+        let (labels, labels_behind) = self.labels.split_at(at);
+        let (poses, poses_behind) = self.poses.split_at_mut(at);
+        let (spheres, spheres_behind) = self.spheres.split_at_mut(at);
+        let (motions, motions_behind) = self.motions.split_at_mut(at);
+        let (boxes, boxes_behind) = self.boxes.split_at_mut(at);
+        let behind = Rows {
+            first: proxy,
+            shapes: shapes_behind,
+            labels: labels_behind,
+            poses: poses_behind,
+            spheres: spheres_behind,
+            motions: motions_behind,
+            boxes: boxes_behind,
+        };
+        (Rows { first: self.first, shapes, labels, poses, spheres, motions, boxes }, behind)
+    }
+
+    /// Those before the first of some rows, those from it and before the next, and so on, up to the last.
+    pub fn cut_at_each(self, proxies: impl Iterator<Item = usize>) -> impl Iterator<Item = Rows<'a>> {
+        let mut rest = Some(self);
+        proxies.filter_map(move |proxy| {
+            let (before, behind) = rest.take()?.cut_at(proxy);
+            rest = Some(behind);
+            Some(before)
+        })
+    }
+
+    /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs. True if
+    /// it has just left its box.
+    pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) -> bool {
+        let at = proxy - self.first;
+        let old = self.poses[at];
+        if old == *pose {
+            return false;
+        }
+        self.poses[at] = *pose;
+        let shape = &self.shapes[at];
+        let lever = shape.extent().lever;
+        let motion = &mut self.motions[at];
+        let (spheres, rigid) = placed(shape, pose, defect);
+        let way = way_bound(&old, pose, lever, motion.rigid & rigid);
+        motion.rigid = rigid;
+        motion.moved = passes;
+        // Never below the exact sum; infinite sums say that nothing is known.
+        motion.odometer = (motion.odometer + way).next_up();
+        motion.rate = match (motion.rate, way as f32) {
+            _ if motion.limit == NO_BOX => 0.0,
+            (rate, way) if rate == 0.0 || rate.max(way) > MOST_ROOM * spheres.outer => way,
+            (rate, way) => 0.75 * rate + 0.25 * way,
+        };
+        self.spheres[at] = spheres;
+        // An infinite odometer is above every limit but an infinite one, which only boxes without end have.
+        motion.odometer > motion.limit && motion.escape()
+    }
+
+    /// Gives each piece that is there a new box, which two pieces share if they are `tolerance` apart or less.
+    pub fn refit_all(&mut self, tolerance: f64) {
+        for at in 0..self.len() {
+            if !self.labels[at].is_gone() {
+                self.refit(self.first + at, tolerance);
+            }
+        }
+    }
+
+    /// The same of one.
+    pub fn refit(&mut self, proxy: usize, tolerance: f64) {
+        let at = proxy - self.first;
+        let motion = &mut self.motions[at];
+        let Spheres { centre, outer, .. } = self.spheres[at];
+        let most = MOST_ROOM * outer;
+        let can_move = !self.labels[at].fixed;
+        let room = match motion.rate {
+            0.0 if can_move => FIRST_ROOM * outer,
+            rate if rate > most => 0.0,
+            rate => (STEPS_OF_ROOM * rate).min(most),
+        };
+        let limit = motion.odometer + f64::from(room);
+        // The limit is rounded: it, not the room, says how far the piece may go. ∞ − ∞ is no room, and every move is then too far.
+        let room = (limit - motion.odometer).next_up();
+        let is_counted = room < f64::INFINITY;
+        let grown = 0.5 * tolerance + if is_counted { room } else { 0.0 };
+        motion.limit = match (grown == f64::INFINITY, is_counted) {
+            (true, _) => f64::INFINITY,
+            (false, true) => limit,
+            (false, false) => NO_BOX,
+        };
+        let (shape, pose) = (&self.shapes[at], &self.poses[at]);
+        let reach = shape.extent().reach(pose, outer.into());
+        self.boxes[at] = Aabb::around(centre, &reach, grown + centre_error(shape, pose));
+    }
+}
+
+/// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
+///
+/// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
+/// d ≤ 1e-2; d as computed is off by at most 4u.
+pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool) {
+    let polyhedron = shape.polyhedron();
+    let stretch = 2.0 * (defect + 8.0 * U);
+    let error = centre_error(shape, pose);
+    let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
+    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
+    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
+    (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
+}
+
+/// How far rounding may move a placed body's centre T + R·c: three products and three sums in each component.
+fn centre_error(shape: &Shape, pose: &Pose) -> f64 {
+    let centre = shape.polyhedron().centre;
+    if centre == Vector::zeros() {
+        return 0.0;
+    }
+    16.0 * U * (pose.translation().amax() + 2.0 * centre.amax()) + TINY
+}
+
+/// No point of a body within `lever` of its local origin travels farther than this: |ΔT| + ‖ΔR‖·lever, rounded up.
+///
+/// ‖ΔR‖ is at most the root of the sum of squares ‖ΔR‖_F; for rotations, whose difference has the singular values 2 sin θ/2, twice,
+/// and 0, it is ‖ΔR‖_F/√2. Rotations within [`RIGID`] are within 24u of exact ones (in norm; 42u in ‖·‖_F), which costs less than
+/// 2e-14.
+fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
+    let (mut turned, mut shifted) = (0.0, 0.0);
+    for (old, new) in old.rows.iter().zip(&new.rows) {
+        let [x, y, z, t] = [0, 1, 2, 3].map(|k| new[k] - old[k]);
+        turned += x * x + y * y + z * z;
+        shifted += t * t;
+    }
+    let norm = f64::sqrt(turned) * if rigid { std::f64::consts::FRAC_1_SQRT_2 } else { 1.0 } + 2e-14;
+    (f64::sqrt(shifted) + norm * lever) * (1.0 + 32.0 * U) + TINY
+}
+
+/// Whether two pieces are certainly farther apart than `tolerance`.
+///
+/// The squares are off by less than 8u of themselves; below [`TINY`] they may underflow.
+#[inline(always)]
+pub(crate) fn are_far_apart(one: &Spheres, other: &Spheres, tolerance: f64) -> bool {
+    let radii = (f64::from(one.outer) + f64::from(other.outer) + tolerance) * (1.0 + 16.0 * U) + TINY;
+    square_distance(one, other) > radii * radii
+}
+
+/// Whether balls in two pieces certainly overlap.
+#[inline(always)]
+pub(crate) fn overlap_inside(one: &Spheres, other: &Spheres) -> bool {
+    let inner = f64::from(one.inner) + f64::from(other.inner);
+    inner > TINY && square_distance(one, other) * (1.0 + 32.0 * U) < inner * inner
+}
+
+#[inline(always)]
+fn square_distance(one: &Spheres, other: &Spheres) -> f64 {
+    let [x, y, z] = [0, 1, 2].map(|k| one.centre[k] - other.centre[k]);
+    x * x + y * y + z * z
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Matrix;
+    use swiftprox::random::Random;
+
+    /// Random motions, rigid and skewed, of points on a sphere: none travels farther than the bound, which is not far off.
+    #[test]
+    fn no_point_travels_farther_than_said() {
+        let mut random = Random::new(0x0d0);
+        for round in 0..2_000 {
+            let skew = if round % 3 == 0 { random.vector() * 2e-3 } else { Vector::zeros() };
+            let skewed = Matrix::identity() + Matrix::from_diagonal(&skew);
+            let small = random.power(-40, 0);
+            let old = Pose::new(&(random.rotation() * skewed), &(random.vector() * 10.0));
+            let turn = if round % 2 == 0 { random.rotation() } else { small_turn(&mut random, small) };
+            let new = Pose::new(&(turn * old.rotation()), &(old.translation() + random.vector() * small));
+            let rigid = [&old, &new].iter().all(|pose| pose.rotation_defect() <= RIGID);
+            let way = way_bound(&old, &new, 2.0, rigid);
+            let mut longest = 0.0_f64;
+            for _ in 0..20 {
+                let point = random.direction() * 2.0 * (1.0 - 4.0 * U);
+                longest = longest.max((new.transform(&point) - old.transform(&point)).norm());
+            }
+            // What is compared is rounded itself, by a few u of 12.
+            assert!(longest <= way + 1e-14, "{longest:e} {way:e}");
+            assert!(way <= 3.0 * longest + 1e-13, "{longest:e} {way:e}");
+        }
+    }
+
+    fn small_turn(random: &mut Random, angle: f64) -> Matrix {
+        let axis = random.direction();
+        *nalgebra::Rotation3::from_axis_angle(&nalgebra::Unit::new_normalize(axis), angle).matrix()
+    }
+}
