@@ -258,3 +258,24 @@ fn any_cache_gives_the_same_depth() {
     assert!(again.lower <= clean.upper && clean.lower <= again.upper);
     assert_eq!(points.len(), 4);
 }
+
+/// Where squares of lengths overflow the manifold is the pair of witness points; no number is NaN. From fuzzing.
+#[test]
+fn any_magnitude_has_a_manifold() {
+    for scale in [1e-300, 1e-160, 1e-100, 1e100, 1e149, 1e160, 1e300] {
+        let shapes = [cuboid([scale, scale, 0.25 * scale]), cuboid([2.0 * scale, 2.0 * scale, 0.5 * scale])];
+        for gap in [-0.125, 0.0, 0.125] {
+            let above = Pose::new(&Matrix::identity(), &Vector::new(0.0, 0.0, (0.75 + gap) * scale));
+            let config = ManifoldConfig { margin: 0.2 * scale, ..ALL };
+            let placed = [&above, &Pose::IDENTITY];
+            let (answer, points) = query([&shapes[0], &shapes[1]], placed, &mut ManifoldCache::default(), &config);
+            assert_eq!(answer.found_count, if scale > 1e150 { 1 } else { 4 }, "{scale:e} {gap} {answer:?}");
+            for point in &points {
+                let (expected, slack) = (gap * scale, 1e-12 * scale);
+                assert!(point.gap_lower <= expected + slack && point.gap_upper >= expected - slack, "{point:?}");
+                let places = [point.local1, point.local2, point.world1, point.world2];
+                assert!(places.as_flattened().iter().all(|x| x.is_finite()), "{point:?}");
+            }
+        }
+    }
+}

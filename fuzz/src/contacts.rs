@@ -58,16 +58,20 @@ fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment
     let (answer, after) = ask(before);
     let told = inside(environment, || ask(before));
     assert_eq!(format!("{told:?}"), format!("{:?}", (answer, after)), "{environment:?}");
-    let (cold, _) = ask(DepthCache::default());
-    for answer in [&answer, &cold] {
+    let (cold, after_cold) = ask(DepthCache::default());
+    for (answer, own) in [(&answer, after), (&cold, after_cold)] {
         assert_eq!(answer.outcome, known.outcome, "{answer:?}\n{known:?}");
         assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{answer:?}");
         // Deeper than the largest double: there is nothing to check.
-        let proofs = if answer.upper == f64::INFINITY { vec![] } else { vec![after, DepthCache::default()] };
-        for proof in &proofs {
-            match verify_depth(bodies, proof, answer) {
+        if answer.upper == f64::INFINITY {
+            continue;
+        }
+        for proof in [own, DepthCache::default()] {
+            match verify_depth(bodies, &proof, answer) {
                 // What is too large or too far apart.
                 Ok(()) | Err(Error::Argument(_)) => {}
+                // Of very long bodies a proof need not be found from nothing.
+                Err(Error::Unverified(text)) if proof != own && text.contains("is not proved") => {}
                 Err(error) => panic!("{error}: {answer:?} {}", description(bodies)),
             }
         }

@@ -277,17 +277,20 @@ fn witness_points_on_slivers_hold() {
         let (large, kind) = (random.pick(&[1e6, 1e9, 1e13, 17_592_186_044_416.0, 1e15]), random.below(3));
         let shapes = [(); 2].map(|()| of_near_and_far(&mut random, large, kind));
         let [Some(first), Some(second)] = &shapes else { continue };
-        let poses = [(); 2].map(|()| {
+        let mut poses = [(); 2].map(|()| {
             let turn = if random.below(2) == 0 { Matrix::identity() } else { random.rotation() };
             Pose::new(&turn, &random.lattice(5))
         });
-        let (pair, placed) = ([first, second], [&poses[0], &poses[1]]);
         let mut cache = DepthCache::default();
-        let answer = query(pair, placed, &mut cache);
-        check(pair, placed, &cache, &answer);
-        overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+        for _ in 0..2 {
+            let (pair, placed) = ([first, second], [&poses[0], &poses[1]]);
+            let answer = query(pair, placed, &mut cache);
+            check(pair, placed, &cache, &answer);
+            overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+            poses[1] = Pose::new(&poses[1].rotation(), &(poses[1].translation() + random.vector() * 0.25));
+        }
     }
-    assert!(overlapping > 20_000, "{overlapping}");
+    assert!(overlapping > 40_000, "{overlapping}");
 }
 
 /// A body beyond the range of the search, and a pose that shrinks it: the common point is farther from the feature in the object's

@@ -271,6 +271,9 @@ fn keep_reference(best: usize, faces: &[Option<Facing>; 2], before: &Reference) 
     }
 }
 
+/// Larger objects are not clipped, and their manifold is the pair of witness points: squares of lengths must not overflow.
+const LARGEST: f64 = 1e150;
+
 /// Writes the points that both faces have in common; how many there are.
 fn clip(
     polyhedra: [&Polyhedron; 2],
@@ -283,7 +286,12 @@ fn clip(
 ) -> usize {
     let between = (poses[0].translation() - poses[1].translation())
         + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre));
-    let rounding = 64.0 * U * (polyhedra[0].radius + polyhedra[1].radius + between.norm());
+    let size = polyhedra[0].radius + polyhedra[1].radius + between.norm();
+    // False for a NaN.
+    if !(size < LARGEST) {
+        return 0;
+    }
+    let rounding = 64.0 * U * size;
     let beside = faces[reference].map_or_else(Vector::zeros, |facing| {
         let polyhedron = polyhedra[reference];
         let edge = &polyhedron.edges[polyhedron.faces[facing.face as usize].first_sides[0] as usize];
