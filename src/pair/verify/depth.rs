@@ -31,8 +31,9 @@ use std::cmp::Ordering;
 /// `lower` ≤ `depth` ≤ `upper` holds. What else is said is rounded, so it holds up to the allowance of [`super::verify`]: points
 /// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
 ///
-/// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one. For
-/// bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the answer may hold.
+/// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
+/// For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the answer may
+/// hold.
 ///
 /// # Errors
 /// As of [`super::verify`].

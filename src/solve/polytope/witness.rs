@@ -65,14 +65,14 @@ fn least_side([p, q, r]: &[Vector; 3], ray: &Vector) -> f64 {
     least / divisor((sides[0] + sides[1] + sides[2]).abs())
 }
 
-/// The most rounds of refinement of the weights: each gains the digits that an area has, and a triangle 10⁻¹² times as wide as it is
-/// long leaves it four.
+/// The most rounds of refinement of the weights: each gains the digits that an area has, and a triangle 10⁻¹² times as wide as it
+/// is long leaves it four.
 const REFINEMENTS: usize = 8;
 
 /// Where the ray meets a triangle, and by how much it misses it: refined until that is `enough`.
 ///
-/// Seen along the ray, a corner's weight is twice the area that the ray spans with the other two, and computed from those alone: they
-/// may be near it, and the corner 10¹² times as far out.
+/// Seen along the ray, a corner's weight is twice the area that the ray spans with the other two, and computed from those alone:
+/// they may be near it, and the corner 10¹² times as far out.
 fn on_triangle<const V: usize, const T: usize>(
     polytope: &Polytope<V, T>,
     triangle: usize,
