@@ -1,5 +1,5 @@
-//! What every stage stands on: errors, memory and files that may be refused, progress, vectors and poses, vector units, and
-//! arithmetic whose signs and last bits are known. It knows nothing of polyhedra.
+//! What every stage stands on: errors, memory and files that may be refused, progress, vectors and poses, vector units,
+//! arithmetic whose signs and last bits are known, and threads. It knows nothing of polyhedra.
 
 pub mod error;
 pub(crate) mod locks;
@@ -19,3 +19,4 @@ pub(crate) mod extended_range;
 #[doc(hidden)]
 pub mod predicates;
 pub(crate) mod normal;
+pub(crate) mod workers;

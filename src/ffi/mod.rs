@@ -20,7 +20,7 @@ pub mod shape;
 pub mod level;
 pub mod pair;
 pub mod depth;
-mod parked_threads;
+mod task_loan;
 pub mod workers;
 pub mod scene;
 pub mod object;

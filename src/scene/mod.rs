@@ -15,7 +15,6 @@ mod activation;
 mod query;
 mod statistics;
 mod boxes;
-mod workers;
 mod rows;
 mod proxies;
 mod object_view;
@@ -59,6 +58,7 @@ use crate::scene::recording::format::Record;
 use crate::scene::rows::Label;
 use crate::shape::Shape;
 
+pub use crate::base::workers::Workers;
 pub use crate::pair::Query;
 pub use events::{ObjectPair, SceneEvents};
 pub use filters::PairFilter;
@@ -66,7 +66,6 @@ pub use object_view::Object;
 pub use query::{Contact, ContactDetail, PairResult, SceneAnswer, SceneContacts, SceneQuery};
 pub use replay::{Replay, ReplayAnswer, ReplayStep};
 pub use statistics::SceneStatistics;
-pub use workers::Workers;
 
 /// How a scene is made.
 #[derive(Debug, Clone, Copy, PartialEq)]

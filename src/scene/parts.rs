@@ -7,12 +7,12 @@ use crate::base::error::Result;
 use crate::base::locks::locked;
 use crate::base::memory::{push, reserve, with_capacity};
 use crate::base::simd::prefetch;
+use crate::base::workers::Workers;
 use crate::pair::{DepthCache, PairCache, Reference};
 use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
 use crate::scene::contacts::ContactMemory;
 use crate::scene::findings::Findings;
 use crate::scene::narrow_phase::{BLOCK, Caches, Pass};
-use crate::scene::workers::Workers;
 
 /// What a part found, kept from pass to pass.
 #[derive(Debug, Default)]

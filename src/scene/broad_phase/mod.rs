@@ -12,10 +12,10 @@ use std::ops::Range;
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, reserve_sparingly};
+use crate::base::workers::Workers;
 use crate::scene::object::ObjectId;
 use crate::scene::proxies::Proxies;
 use crate::scene::rows::Label;
-use crate::scene::workers::Workers;
 use grid::Grid;
 use near_pairs::{Candidates, NearPairs, Testing};
 use tree::{NONE, Scratch, Tree};

@@ -1,5 +1,8 @@
-//! Who works on a scene: its caller's thread, or several. What is to be done is cut into parts of what belongs together, each with
-//! what it alone may change, and put together again in order: no bit of it depends on who did what.
+//! Who shares in a long work: the caller's thread, or several. What is to be done is cut into parts of what belongs together, each
+//! with what it alone may change, and put together again in order: no bit of it depends on who did what.
+
+mod handover;
+pub(crate) mod parked;
 
 use std::fmt;
 use std::sync::Mutex;
@@ -15,7 +18,7 @@ const FEWEST_SHARED: usize = 2048;
 /// So many parts for each thread, as some take longer than others.
 const PARTS_EACH: usize = 4;
 
-/// Who works for a scene.
+/// Who shares in the work of a scene.
 pub struct Workers {
     count: usize,
     run: Box<RunParts>,

@@ -1,0 +1,275 @@
+//! How a task is handed over to threads and given back: the states between a caller and threads that wait, and every interleaving of
+//! their steps tried in a model.
+
+/// Who works on what. Threads change it one at a time, each step as a whole.
+///
+/// ```text
+/// caller: offer ─► takes parts ─► withdraw ─► waits until is_done          (at the end of all: end)
+/// thread: next = Join ─► takes parts ─► leave ─► next …       next = Wait ─► waits until posted ─► next …
+/// ```
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) struct Handover<T> {
+    /// What may be joined.
+    task: Option<T>,
+    /// Threads that have joined and not left.
+    active: usize,
+    ended: bool,
+}
+
+/// What a thread is to do.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub(super) enum Next<T> {
+    Wait,
+    Join(T),
+    End,
+}
+
+impl<T: Clone> Handover<T> {
+    pub const IDLE: Handover<T> = Handover { task: None, active: 0, ended: false };
+
+    /// The caller lets threads join; false if there is a task already. All that wait are to be told.
+    pub fn offer(&mut self, task: T) -> bool {
+        let is_free = self.task.is_none() && self.active == 0;
+        if is_free {
+            self.task = Some(task);
+        }
+        is_free
+    }
+
+    /// What a thread is to do that does nothing.
+    pub fn next(&mut self) -> Next<T> {
+        match &self.task {
+            _ if self.ended => Next::End,
+            Some(task) => {
+                self.active += 1;
+                Next::Join(task.clone())
+            }
+            None => Next::Wait,
+        }
+    }
+
+    /// A thread has found no more parts: nobody else need join. True if the caller is to be told that it was the last.
+    pub fn leave(&mut self) -> bool {
+        self.task = None;
+        self.active -= 1;
+        self.active == 0
+    }
+
+    /// The caller has found no more parts.
+    pub fn withdraw(&mut self) {
+        self.task = None;
+    }
+
+    /// Whether the task is given back.
+    pub fn is_done(&self) -> bool {
+        self.active == 0
+    }
+
+    /// There will be no more tasks. All that wait are to be told.
+    pub fn end(&mut self) {
+        self.ended = true;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    /// Where a thread of the model is.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    enum At {
+        /// About to look what is next, told or woken by chance.
+        Looking,
+        /// Waits until it is told.
+        Waiting,
+        /// Has joined this task, and is about to take a part of it.
+        Taking(usize),
+        /// Does a part of it.
+        Working(usize, usize),
+        /// About to leave.
+        Leaving,
+        Gone,
+    }
+
+    /// Where the caller is.
+    #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+    enum Caller {
+        Offering(usize),
+        Telling(usize),
+        Taking(usize),
+        Working(usize, usize),
+        Withdrawing(usize),
+        /// About to look whether all have left.
+        Checking(usize),
+        /// Waits until it is told so.
+        Waiting(usize),
+        Ending,
+        TellingEnd,
+        Joining,
+        Finished,
+    }
+
+    const TASKS: usize = 2;
+    const PARTS: usize = 2;
+
+    #[derive(Debug, Clone, PartialEq, Eq, Hash)]
+    struct World<const THREADS: usize> {
+        handover: Handover<usize>,
+        caller: Caller,
+        threads: [At; THREADS],
+        /// Of each task the next part, how often each was done, and whether the task still lives.
+        next: [usize; TASKS],
+        done: [[u8; PARTS]; TASKS],
+        lives: [bool; TASKS],
+    }
+
+    impl<const THREADS: usize> World<THREADS> {
+        fn tell_all(&mut self) {
+            for thread in &mut self.threads {
+                if *thread == At::Waiting {
+                    *thread = At::Looking;
+                }
+            }
+        }
+
+        /// Takes a part of a task that must still live.
+        fn take(&mut self, task: usize) -> Option<usize> {
+            assert!(self.lives[task], "a task is used after it is given back: {self:?}");
+            self.next[task] += 1;
+            Some(self.next[task] - 1).filter(|&part| part < PARTS)
+        }
+
+        /// The world after the caller's next step, if it can make one.
+        fn after_caller(&self) -> Option<Self> {
+            let mut world = self.clone();
+            world.caller = match self.caller {
+                Caller::Offering(task) => {
+                    world.lives[task] = true;
+                    assert!(world.handover.offer(task), "the last task was given back: {self:?}");
+                    Caller::Telling(task)
+                }
+                Caller::Telling(task) => {
+                    world.tell_all();
+                    Caller::Taking(task)
+                }
+                Caller::Taking(task) => match world.take(task) {
+                    Some(part) => Caller::Working(task, part),
+                    None => Caller::Withdrawing(task),
+                },
+                Caller::Working(task, part) => {
+                    world.done[task][part] += 1;
+                    Caller::Taking(task)
+                }
+                Caller::Withdrawing(task) => {
+                    world.handover.withdraw();
+                    // Under the same lock it looks whether it is done.
+                    world.check(task)
+                }
+                Caller::Checking(task) => world.check(task),
+                Caller::Ending => {
+                    world.handover.end();
+                    Caller::TellingEnd
+                }
+                Caller::TellingEnd => {
+                    world.tell_all();
+                    Caller::Joining
+                }
+                Caller::Joining if self.threads == [At::Gone; THREADS] => Caller::Finished,
+                Caller::Waiting(_) | Caller::Joining | Caller::Finished => return None,
+            };
+            Some(world)
+        }
+
+        fn check(&mut self, task: usize) -> Caller {
+            if !self.handover.is_done() {
+                return Caller::Waiting(task);
+            }
+            assert_eq!(self.done[task], [1; PARTS], "a part is left: {self:?}");
+            self.lives[task] = false;
+            if task + 1 < TASKS { Caller::Offering(task + 1) } else { Caller::Ending }
+        }
+
+        /// The same of a thread.
+        fn after_thread(&self, k: usize) -> Option<Self> {
+            let mut world = self.clone();
+            world.threads[k] = match self.threads[k] {
+                At::Looking => match world.handover.next() {
+                    Next::Wait => At::Waiting,
+                    Next::Join(task) => At::Taking(task),
+                    Next::End => At::Gone,
+                },
+                At::Taking(task) => match world.take(task) {
+                    Some(part) => At::Working(task, part),
+                    None => At::Leaving,
+                },
+                At::Working(task, part) => {
+                    assert!(world.lives[task]);
+                    world.done[task][part] += 1;
+                    At::Taking(task)
+                }
+                At::Leaving => {
+                    if world.handover.leave()
+                        && let Caller::Waiting(task) = world.caller
+                    {
+                        world.caller = Caller::Checking(task);
+                    }
+                    At::Looking
+                }
+                At::Waiting | At::Gone => return None,
+            };
+            Some(world)
+        }
+
+        /// All worlds that one step leads to; with `chance` a thread or the caller may also wake without being told.
+        fn steps(&self, chance: bool) -> Vec<Self> {
+            let mut steps: Vec<Self> = (0..THREADS).filter_map(|k| self.after_thread(k)).collect();
+            steps.extend(self.after_caller());
+            assert!(!steps.is_empty() || self.caller == Caller::Finished, "nobody can go on: {self:?}");
+            if chance {
+                for k in (0..THREADS).filter(|&k| self.threads[k] == At::Waiting) {
+                    let mut world = self.clone();
+                    world.threads[k] = At::Looking;
+                    steps.push(world);
+                }
+                if let Caller::Waiting(task) = self.caller {
+                    steps.push(World { caller: Caller::Checking(task), ..self.clone() });
+                }
+            }
+            steps
+        }
+    }
+
+    /// Every world that can be reached: in each somebody can go on or all is finished, tasks are used only while they live, and
+    /// each part is done once. Without wakes by chance a lost notice would leave a world in which nobody can go on.
+    fn explore<const THREADS: usize>(chance: bool) -> usize {
+        let first = World {
+            handover: Handover::IDLE,
+            caller: Caller::Offering(0),
+            threads: [At::Looking; THREADS],
+            next: [0; TASKS],
+            done: [[0; PARTS]; TASKS],
+            lives: [false; TASKS],
+        };
+        let (mut seen, mut open, mut ends) = (HashSet::from([first.clone()]), vec![first], 0);
+        while let Some(world) = open.pop() {
+            ends += usize::from(world.caller == Caller::Finished);
+            for next in world.steps(chance) {
+                if seen.insert(next.clone()) {
+                    open.push(next);
+                }
+            }
+        }
+        assert!(ends > 0);
+        seen.len()
+    }
+
+    #[test]
+    #[cfg_attr(miri, ignore = "long")]
+    fn every_interleaving_ends_with_each_part_done_once() {
+        for chance in [false, true] {
+            let sizes = [explore::<1>(chance), explore::<2>(chance), explore::<3>(chance)];
+            assert!(sizes[0] > 50 && sizes[1] > 10 * sizes[0] / 2 && sizes[2] > 3 * sizes[1], "{sizes:?}");
+        }
+    }
+}
