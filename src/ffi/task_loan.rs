@@ -1,4 +1,5 @@
-//! Threads of a scene's own. Only lending them a task stands here: they live longer than what they are lent, and that no type can say.
+//! Threads of a scene's own. Only lending them a task stands here: they live longer than what they are lent, and that no type can
+//! say.
 
 use crate::base::workers::Workers;
 use crate::base::workers::parked::{MOST_THREADS, ParkedThreads, Parts, Task};

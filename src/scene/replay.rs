@@ -5,18 +5,19 @@ use std::io::Read;
 use std::path::Path;
 use std::sync::{Arc, Mutex};
 
-use super::{Scene, SceneOptions};
 use crate::base::error::{Error, Result};
 use crate::base::files::open_to_read;
 use crate::base::locks::locked;
 use crate::base::memory::{lacking, push};
 use crate::pair::Query;
-use crate::scene::filters::PairFilter;
-use crate::scene::object::ObjectId;
-use crate::scene::query::{SceneAnswer, SceneQuery};
+use crate::scene::change::{Change, Numbers, Rename, Themselves};
+use crate::scene::door::{Scene, SceneOptions};
 use crate::scene::recording::digest::Digest;
-use crate::scene::recording::format::{Decision, Record, Subject};
+use crate::scene::recording::format::{Decision, Record};
 use crate::scene::recording::reader::{Next, RecordReader};
+use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
+use crate::scene::world::object::ObjectId;
+use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
 
 /// Does again what was [recorded](Scene::record) of a scene.
@@ -274,55 +275,14 @@ impl Replay {
 
     fn change_one(&mut self, scene: &mut Scene, record: Record) -> Result<()> {
         match record {
-            Record::Object { pieces, options } => {
-                let mut shapes = Vec::new();
-                pieces.iter().try_for_each(|piece| push(&mut shapes, self.shape(*piece)?.clone()))?;
-                let id = scene.add_object(shapes, &options)?;
-                push(&mut self.ids, id)
+            Record::Change(change) => {
+                if let Change::Filter(_) | Change::FilterAgain = change {
+                    locked(&self.decisions).known.clear();
+                }
+                let Replay { shapes, ids, decisions, .. } = self;
+                let change = change.renamed(&mut Known { shapes, ids, decisions })?;
+                scene.change(change)?.map_or(Ok(()), |id| push(&mut self.ids, id))
             }
-            Record::Copy(original) => {
-                let id = scene.copy_object(self.id(original)?)?;
-                push(&mut self.ids, id)
-            }
-            Record::Remove(object) => scene.remove_object(self.id(object)?),
-            Record::Fixed(object, fixed) => scene.set_fixed(self.id(object)?, fixed),
-            Record::Groups { object, groups, mask } => scene.set_filter(self.id(object)?, groups, mask),
-            Record::UserData(object, user_data) => scene.set_user_data(self.id(object)?, user_data),
-            Record::Pose(object, pose) => scene.set_pose(self.id(object)?, &pose),
-            Record::Poses(objects, poses) => {
-                let mut ids = Vec::new();
-                objects.iter().try_for_each(|object| push(&mut ids, self.id(*object)?))?;
-                scene.set_poses(&ids, &poses)
-            }
-            Record::AllPoses(poses) => scene.set_all_poses(&poses),
-            Record::PiecePose { object, piece, pose } => scene.set_piece_pose(self.id(object)?, piece, &pose),
-            Record::PairActive([object1, object2], active) => {
-                scene.set_pair_active(self.id(object1)?, self.id(object2)?, active)
-            }
-            Record::ObjectActive(object, active) => scene.set_object_active(self.id(object)?, active),
-            Record::AllActive(active) => {
-                scene.set_all_active(active);
-                Ok(())
-            }
-            Record::Filter(is_set) => {
-                locked(&self.decisions).known.clear();
-                let decisions = self.decisions.clone();
-                let says = move |object1, object2| locked(&decisions).say([object1, object2]);
-                scene.set_pair_filter(is_set.then(|| PairFilter::new(says)));
-                Ok(())
-            }
-            Record::FilterAgain => {
-                locked(&self.decisions).known.clear();
-                scene.filter_again();
-                Ok(())
-            }
-            Record::Pairs(pairs) => {
-                let mut ids = Vec::new();
-                let list = pairs.as_deref().unwrap_or_default();
-                list.iter().try_for_each(|[a, b]| push(&mut ids, [self.id(*a)?, self.id(*b)?]))?;
-                scene.set_pairs(pairs.is_some().then_some(&ids))
-            }
-            Record::Shrink => scene.shrink(),
             Record::Decisions(decisions) => self.learn(scene, &decisions),
             // The others are no changes.
             Record::End
@@ -334,21 +294,11 @@ impl Replay {
         }
     }
 
-    fn id(&self, number: u32) -> Result<ObjectId> {
-        let absent = || Error::File(format!("object {number} of {}", self.ids.len()));
-        self.ids.get(number as usize).copied().ok_or_else(absent)
-    }
-
-    fn shape(&self, number: u32) -> Result<&Arc<Shape>> {
-        let absent = || Error::File(format!("shape {number} of {}", self.shapes.len()));
-        self.shapes.get(number as usize).ok_or_else(absent)
-    }
-
     /// Takes what the recorded filter has decided.
     fn learn(&self, scene: &mut Scene, decisions: &[Decision]) -> Result<()> {
         let mut all = locked(&self.decisions);
         for Decision { pair: [object1, object2], is_tested } in decisions {
-            let pair = [self.id(*object1)?, self.id(*object2)?];
+            let pair = [id(&self.ids, *object1)?, id(&self.ids, *object2)?];
             let count = all.known.len() + 1;
             all.known.try_reserve(1).map_err(|e| lacking::<([ObjectId; 2], bool)>(count, &e))?;
             all.known.insert(pair, *is_tested);
@@ -372,22 +322,16 @@ impl Replay {
             return Err(Error::Argument("the step has no query, or has not been done".into()));
         };
         query.distance_tolerance = tolerance.unwrap_or(query.distance_tolerance);
-        let stopped = match subject {
-            Subject::AllPairs => match kind {
-                Query::Intersection => scene.query_intersection(&query),
-                Query::Distance => scene.query_exact_distance(&query),
-                Query::Contact => scene.query_contacts(&query),
-                Query::Approximate => scene.query_approximate_distance(&query),
+        match subject {
+            Subject::AllPairs => scene.ask(&Subject::AllPairs, kind, &query).map(drop)?,
+            Subject::Object(object) => scene.query_object(id(&self.ids, object)?, kind, &query).map(drop)?,
+            Subject::Placed(number, pose) => {
+                scene.query_placed(shape(&self.shapes, number)?, &pose, kind, &query).map(drop)?;
             }
-            .map(|answer| answer.found.is_some())?,
-            Subject::Object(object) => scene.query_object(self.id(object)?, kind, &query)?.found.is_some(),
-            Subject::Placed(shape, pose) => {
-                scene.query_placed(self.shape(shape)?, &pose, kind, &query)?.found.is_some()
-            }
-            Subject::Events => scene.query_events(query.distance_tolerance).map(|_| false)?,
-        };
+            Subject::Events => scene.query_events(query.distance_tolerance).map(drop)?,
+        }
         let scene = &*scene;
-        let answer = scene.said(stopped);
+        let answer = scene.search.answer();
         let digest = Digest::of(&answer, |id| self.number(scene, id).unwrap_or(u32::MAX));
         let (Recorded::Answer(recorded), None) = (outcome, tolerance) else {
             return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
@@ -401,7 +345,7 @@ impl Replay {
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn number(&self, scene: &Scene, id: ObjectId) -> Result<u32> {
-        Ok(scene.objects.get(id)?.serial() as u32)
+        Ok(scene.world.objects.get(id)?.serial() as u32)
     }
 }
 
@@ -411,4 +355,36 @@ impl Decisions {
         self.has_guessed |= said.is_none();
         said.unwrap_or(true)
     }
+}
+
+/// What a replay has for the numbers of a recording.
+struct Known<'a> {
+    shapes: &'a [Arc<Shape>],
+    ids: &'a [ObjectId],
+    decisions: &'a Arc<Mutex<Decisions>>,
+}
+
+impl Rename<Numbers, Themselves> for Known<'_> {
+    fn object(&mut self, object: u32) -> Result<ObjectId> {
+        id(self.ids, object)
+    }
+
+    fn shape(&mut self, number: &u32) -> Result<Arc<Shape>> {
+        shape(self.shapes, *number).cloned()
+    }
+
+    fn filter(&mut self, (): &()) -> PairFilter {
+        let decisions = self.decisions.clone();
+        PairFilter::new(move |object1, object2| locked(&decisions).say([object1, object2]))
+    }
+}
+
+fn id(ids: &[ObjectId], number: u32) -> Result<ObjectId> {
+    let absent = || Error::File(format!("object {number} of {}", ids.len()));
+    ids.get(number as usize).copied().ok_or_else(absent)
+}
+
+fn shape(shapes: &[Arc<Shape>], number: u32) -> Result<&Arc<Shape>> {
+    let absent = || Error::File(format!("shape {number} of {}", shapes.len()));
+    shapes.get(number as usize).ok_or_else(absent)
 }

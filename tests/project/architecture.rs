@@ -76,31 +76,69 @@ fn a_folder_uses_only_folders_above_it() {
     }
 }
 
+/// All folders with files of their own, each with its `mod.rs`.
+fn all_folders() -> Vec<String> {
+    let mut found = Vec::new();
+    let mut open = folders();
+    while let Some(folder) = open.pop() {
+        let nested = |module: &String| source(&folder).join(module).is_dir();
+        open.extend(
+            modules(source(&folder).join("mod.rs")).iter().filter(|m| nested(m)).map(|m| format!("{folder}/{m}")),
+        );
+        found.push(folder);
+    }
+    found
+}
+
+/// Folders in which `mod.rs` and files of its own still use each other. No other may come to them.
+const STILL_IN_CIRCLES: [&str; 10] = [
+    "build/check",
+    "build/hull",
+    "build/merge",
+    "ffi",
+    "levels/dobkin_kirkpatrick",
+    "levels/hierarchy",
+    "pair/start",
+    "pair/verify",
+    "solve/exact",
+    "solve/marching",
+];
+
+/// Whatever way it names them: `crate::`, `super::`, in braces, or by a name that `mod.rs` passes on. What stands in `mod.rs` itself
+/// is used only by files that it does not use.
 #[test]
 fn a_file_uses_only_files_of_its_folder_that_stand_above_it() {
-    let mut folders = folders();
-    while let Some(folder) = folders.pop() {
+    let mut found = Vec::new();
+    for folder in all_folders() {
         let modules = modules(source(&folder).join("mod.rs"));
-        for (place, module) in modules.iter().enumerate() {
-            let nested = source(&folder).join(module);
-            if nested.is_dir() {
-                folders.push(format!("{folder}/{module}"));
-            }
-            let module_files =
-                if nested.is_dir() { files(&nested) } else { vec![source(&folder).join(format!("{module}.rs"))] };
-            for file in module_files {
-                let own_folder = format!("crate::{}::", folder.replace('/', "::"));
-                let check = |line: usize, path: &str| {
-                    let below = modules[place + 1..].iter().any(|other| other == first(path));
-                    assert!(!below, "{}:{line}: `{module}` stands above `{}`", file.display(), first(path));
-                };
-                for_each_path(&file, &own_folder, check);
-                if !nested.is_dir() {
-                    for_each_path(&file, "super::", check);
-                }
+        let (_, used) = passed_on_and_used(&folder, &modules);
+        let place = |module: &str| modules.iter().position(|other| other == module);
+        for (from, to, file) in graph(&folder) {
+            let climbs = match (place(&from), place(&to)) {
+                (Some(from), Some(to)) => from < to,
+                (Some(_), None) => used.contains(&from) && !STILL_IN_CIRCLES.contains(&folder.as_str()),
+                (None, _) => false,
+            };
+            if climbs {
+                found.push(format!("{}: `{from}` uses `{to}`, which stands below it in `{folder}`", file.display()));
             }
         }
     }
+    found.dedup();
+    assert!(found.is_empty(), "{}", found.join("\n"));
+}
+
+/// The scene's folders and files at the top, and the imports between them; 22 and 99 where each method lay beside the others.
+#[test]
+fn a_scene_is_a_few_stages() {
+    let modules = modules("src/scene/mod.rs");
+    let (passed_on, _) = passed_on_and_used("scene", &modules);
+    let mut imports: Vec<(String, String)> = graph("scene").into_iter().map(|(from, to, _)| (from, to)).collect();
+    imports.extend(passed_on.into_iter().map(|(_, module)| ("mod".into(), module)));
+    imports.sort();
+    imports.dedup();
+    println!("{} files and folders, {} imports", modules.len() + 1, imports.len());
+    assert!(modules.len() < 12 && imports.len() <= 45, "{modules:?}\n{imports:?}");
 }
 
 #[test]
@@ -142,4 +180,129 @@ fn the_architecture_page_lists_the_folders_and_their_files_in_order() {
         }));
     }
     assert_eq!(listed, expected);
+}
+
+// --- Imports between the files of a folder ---------------------------------------------------------------------------------------
+
+/// Where a file uses a path: both from the root of the crate.
+struct Import {
+    file: PathBuf,
+    /// The module that the file is.
+    from: Vec<String>,
+    to: Vec<String>,
+}
+
+/// The module that a source file is: `scene/near/mod.rs` is `scene::near`.
+fn module_of(file: &Path) -> Vec<String> {
+    let relative = file.strip_prefix(source("")).unwrap().with_extension("");
+    let mut module: Vec<String> = relative.iter().map(|part| part.to_str().unwrap().to_string()).collect();
+    module.pop_if(|last| last == "mod");
+    module
+}
+
+/// The code of a file without comments, without its tests, and without imports for the documentation alone.
+fn code(file: &Path) -> String {
+    let text = read(file);
+    let mut is_for_docs = false;
+    let lines = text.lines().take_while(|line| *line != "#[cfg(test)]").filter(|line| {
+        let skips = is_for_docs || line.trim_start().starts_with("//") || *line == "#[cfg(doc)]";
+        // It goes on until the statement ends.
+        is_for_docs = *line == "#[cfg(doc)]" || is_for_docs && !line.ends_with(';');
+        !skips
+    });
+    lines.collect::<Vec<_>>().join("\n")
+}
+
+/// All paths that a piece of code begins with: of `{a, b::c}` two.
+fn paths(code: &str) -> Vec<Vec<String>> {
+    let code = code.trim_start();
+    if let Some(mut group) = code.strip_prefix('{') {
+        let mut found = Vec::new();
+        loop {
+            found.extend(paths(group));
+            let mut depth = 0;
+            let end = group.find(|c: char| {
+                depth += i32::from(c == '{') - i32::from(c == '}');
+                depth < 0 || depth == 0 && c == ','
+            });
+            match end.map(|end| group.split_at(end)) {
+                Some((_, rest)) if rest.starts_with(',') => group = rest[1..].trim_start(),
+                _ => return found,
+            }
+        }
+    }
+    let name = first(code);
+    if name.is_empty() {
+        return Vec::new();
+    }
+    let behind = code[name.len()..].strip_prefix("::").map(paths).unwrap_or_default();
+    let joined = |path: Vec<String>| [vec![name.to_string()], path].concat();
+    if behind.is_empty() { vec![joined(Vec::new())] } else { behind.into_iter().map(joined).collect() }
+}
+
+/// All imports below a folder, by `crate::`, `super::` and `self::`.
+fn imports(folder: &Path) -> Vec<Import> {
+    let mut found = Vec::new();
+    for file in files(folder) {
+        let (from, code) = (module_of(&file), code(&file));
+        for start in ["crate::", "super::", "self::"] {
+            for (at, _) in code.match_indices(start) {
+                if code[..at].ends_with(|c: char| c.is_alphanumeric() || c == '_' || c == ':') {
+                    continue;
+                }
+                for path in paths(&code[at..]) {
+                    let mut to = if path[0] == "crate" { Vec::new() } else { from.clone() };
+                    for name in &path {
+                        match name.as_str() {
+                            "crate" | "self" => {}
+                            "super" => drop(to.pop()),
+                            name => to.push(name.to_string()),
+                        }
+                    }
+                    found.push(Import { file: file.clone(), from: from.clone(), to });
+                }
+            }
+        }
+    }
+    found
+}
+
+/// The names that a folder's `mod.rs` passes on, each with the file or folder that has it; and of which files it uses something.
+fn passed_on_and_used(folder: &str, modules: &[String]) -> (Vec<(String, String)>, Vec<String>) {
+    let (mut passed_on, mut used) = (Vec::new(), Vec::new());
+    let code = code(&source(folder).join("mod.rs"));
+    for statement in code.split_inclusive([';', '}']) {
+        let Some((before, path)) = statement.split_once("use ") else { continue };
+        for path in paths(path) {
+            let inside: Vec<&String> = path.iter().skip_while(|name| !modules.contains(name)).collect();
+            match inside[..] {
+                [module, .., name] if before.trim_start().starts_with("pub") => {
+                    passed_on.push((name.clone(), module.clone()));
+                }
+                [module, ..] => used.push(module.clone()),
+                [] => {}
+            }
+        }
+    }
+    (passed_on, used)
+}
+
+/// Between the files and folders of a folder: who uses whom, where; `mod` is the folder's own file.
+fn graph(folder: &str) -> Vec<(String, String, PathBuf)> {
+    let modules = modules(source(folder).join("mod.rs"));
+    let (passed_on, _) = passed_on_and_used(folder, &modules);
+    let own: Vec<String> = folder.split('/').map(str::to_string).collect();
+    let inside = |path: &[String]| path.strip_prefix(&own[..]).and_then(|rest| rest.first()).cloned();
+    let mut graph = Vec::new();
+    for Import { file, from, to } in imports(&source(folder)) {
+        let Some(from) = inside(&from) else { continue };
+        if let Some(to) = inside(&to) {
+            let known = passed_on.iter().find(|(name, _)| *name == to).map(|(_, module)| module.clone());
+            let to = if modules.contains(&to) { to } else { known.unwrap_or("mod".into()) };
+            if from != to {
+                graph.push((from, to, file));
+            }
+        }
+    }
+    graph
 }

@@ -1,5 +1,5 @@
-//! How a task is handed over to threads and given back: the states between a caller and threads that wait, and every interleaving of
-//! their steps tried in a model.
+//! How a task is handed over to threads and given back: the states between a caller and threads that wait, and every interleaving
+//! of their steps tried in a model.
 
 /// Who works on what. Threads change it one at a time, each step as a whole.
 ///

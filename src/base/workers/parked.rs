@@ -97,8 +97,8 @@ impl<T: Task> ParkedThreads<T> {
         ParkedThreads { parking, threads, process: std::process::id() }
     }
 
-    /// Has all parts of a task done by this thread and the others, and returns or panics when all of these have left it: none of them
-    /// holds a clone of it any more. A panic in any of them goes on in this one.
+    /// Has all parts of a task done by this thread and the others, and returns or panics when all of these have left it: none of
+    /// them holds a clone of it any more. A panic in any of them goes on in this one.
     pub fn run(&self, task: &T) {
         if self.threads.is_empty() || !self.are_in_this_process() || !locked(&self.parking.handover).offer(task.clone())
         {

@@ -3,8 +3,8 @@
 use crate::base::binary::{CHECKSUM_PRIME, EMPTY_CHECKSUM, Reader, Writer};
 use crate::base::error::{Error, Result};
 use crate::base::math::UNIT_ROUNDOFF as U;
-use crate::scene::object::ObjectId;
-use crate::scene::query::{Contact, PairResult, SceneAnswer};
+use crate::scene::search::query::{Contact, PairResult, SceneAnswer};
+use crate::scene::world::object::ObjectId;
 
 /// Of one answer.
 #[derive(Debug, Clone, Copy, PartialEq)]

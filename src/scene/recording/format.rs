@@ -8,9 +8,10 @@ use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::pair::Query;
-use crate::scene::object::ObjectOptions;
-use crate::scene::query::SceneQuery;
+use crate::scene::change::{Change, Numbers};
 use crate::scene::recording::digest::Digest;
+use crate::scene::search::query::{SceneQuery, Subject};
+use crate::scene::world::object::ObjectOptions;
 use crate::shape::Shape;
 use crate::shape::file::{from_bytes, to_bytes};
 
@@ -77,16 +78,6 @@ enumerator!(Kind {
     Failed
 });
 
-/// What a query is about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Subject<Object, Shape> {
-    AllPairs,
-    Object(Object),
-    Placed(Shape, Pose),
-    /// What has changed since the last query of this kind; its distance is the query's tolerance.
-    Events,
-}
-
 /// A filter's word on a pair of objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Decision {
@@ -95,7 +86,7 @@ pub(crate) struct Decision {
 }
 
 /// One record. Objects and shapes are numbers.
-#[derive(Debug, Clone, PartialEq)]
+#[derive(Debug)]
 pub(crate) enum Record<'a> {
     /// The recording was ended.
     End,
@@ -106,37 +97,7 @@ pub(crate) enum Record<'a> {
     },
     /// The next number's.
     Shape(Arc<Shape>),
-    /// The next number's.
-    Object {
-        pieces: Cow<'a, [u32]>,
-        options: ObjectOptions,
-    },
-    /// The next number's.
-    Copy(u32),
-    Remove(u32),
-    Fixed(u32, bool),
-    Groups {
-        object: u32,
-        groups: u32,
-        mask: u32,
-    },
-    UserData(u32, u64),
-    Pose(u32, Pose),
-    Poses(Cow<'a, [u32]>, Cow<'a, [Pose]>),
-    AllPoses(Cow<'a, [Pose]>),
-    PiecePose {
-        object: u32,
-        piece: u32,
-        pose: Pose,
-    },
-    PairActive([u32; 2], bool),
-    ObjectActive(u32, bool),
-    AllActive(bool),
-    /// A filter was set, or none.
-    Filter(bool),
-    FilterAgain,
-    Pairs(Option<Cow<'a, [[u32; 2]]>>),
-    Shrink,
+    Change(Change<'a, Numbers>),
     Question {
         subject: Subject<u32, u32>,
         kind: Query,
@@ -156,23 +117,7 @@ impl Record<'_> {
             Record::End => Kind::End,
             Record::Scene { .. } => Kind::Scene,
             Record::Shape(_) => Kind::Shape,
-            Record::Object { .. } => Kind::Object,
-            Record::Copy(_) => Kind::Copy,
-            Record::Remove(_) => Kind::Remove,
-            Record::Fixed(..) => Kind::Fixed,
-            Record::Groups { .. } => Kind::Groups,
-            Record::UserData(..) => Kind::UserData,
-            Record::Pose(..) => Kind::Pose,
-            Record::Poses(..) => Kind::Poses,
-            Record::AllPoses(_) => Kind::AllPoses,
-            Record::PiecePose { .. } => Kind::PiecePose,
-            Record::PairActive(..) => Kind::PairActive,
-            Record::ObjectActive(..) => Kind::ObjectActive,
-            Record::AllActive(_) => Kind::AllActive,
-            Record::Filter(_) => Kind::Filter,
-            Record::FilterAgain => Kind::FilterAgain,
-            Record::Pairs(_) => Kind::Pairs,
-            Record::Shrink => Kind::Shrink,
+            Record::Change(change) => kind_of(change),
             Record::Question { .. } => Kind::Question,
             Record::Decisions(_) => Kind::Decisions,
             Record::Answer(_) => Kind::Answer,
@@ -186,58 +131,13 @@ impl Record<'_> {
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn write(&self, to: &mut Writer) -> Result<()> {
         match self {
-            Record::End | Record::FilterAgain | Record::Shrink | Record::Failed => Ok(()),
+            Record::End | Record::Failed => Ok(()),
             Record::Scene { rotation_limit, is_whole } => {
                 to.real(*rotation_limit)?;
                 to.flag(*is_whole)
             }
             Record::Shape(shape) => crate::base::memory::extend(&mut to.bytes, to_bytes(shape)?),
-            Record::Object { pieces, options } => {
-                let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
-                to.numbers(pieces)?;
-                to.pose(pose)?;
-                to.flag(*fixed)?;
-                to.raw(user_data.to_le_bytes())?;
-                to.number(*groups)?;
-                to.number(*mask)
-            }
-            Record::Copy(object) | Record::Remove(object) => to.number(*object),
-            Record::Fixed(object, flag) | Record::ObjectActive(object, flag) => {
-                to.number(*object)?;
-                to.flag(*flag)
-            }
-            Record::Groups { object, groups, mask } => {
-                [object, groups, mask].iter().try_for_each(|number| to.number(**number))
-            }
-            Record::UserData(object, user_data) => {
-                to.number(*object)?;
-                to.raw(user_data.to_le_bytes())
-            }
-            Record::Pose(object, pose) => {
-                to.number(*object)?;
-                to.pose(pose)
-            }
-            Record::Poses(objects, poses) => {
-                to.numbers(objects)?;
-                to.poses(poses)
-            }
-            Record::AllPoses(poses) => to.poses(poses),
-            Record::PiecePose { object, piece, pose } => {
-                to.number(*object)?;
-                to.number(*piece)?;
-                to.pose(pose)
-            }
-            Record::PairActive(pair, flag) => {
-                to.pair(pair)?;
-                to.flag(*flag)
-            }
-            Record::AllActive(flag) | Record::Filter(flag) => to.flag(*flag),
-            Record::Pairs(pairs) => {
-                to.flag(pairs.is_some())?;
-                let pairs = pairs.as_deref().unwrap_or_default();
-                to.number(pairs.len() as u32)?;
-                pairs.iter().try_for_each(|pair| to.pair(pair))
-            }
+            Record::Change(change) => write_change(change, to),
             Record::Question { subject, kind, query } => {
                 to.subject(subject)?;
                 to.number(*kind as u32)?;
@@ -263,35 +163,6 @@ impl Record<'_> {
             Kind::End => Record::End,
             Kind::Scene => Record::Scene { rotation_limit: from.real()?, is_whole: from.flag()? },
             Kind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
-            Kind::Object => Record::Object {
-                pieces: from.numbers()?.into(),
-                options: ObjectOptions {
-                    pose: from.pose()?,
-                    fixed: from.flag()?,
-                    user_data: u64::from_le_bytes(from.raw()?),
-                    groups: from.number()?,
-                    mask: from.number()?,
-                },
-            },
-            Kind::Copy => Record::Copy(from.number()?),
-            Kind::Remove => Record::Remove(from.number()?),
-            Kind::Fixed => Record::Fixed(from.number()?, from.flag()?),
-            Kind::Groups => Record::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
-            Kind::UserData => Record::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
-            Kind::Pose => Record::Pose(from.number()?, from.pose()?),
-            Kind::Poses => Record::Poses(from.numbers()?.into(), from.poses()?.into()),
-            Kind::AllPoses => Record::AllPoses(from.poses()?.into()),
-            Kind::PiecePose => Record::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? },
-            Kind::PairActive => Record::PairActive(from.pair()?, from.flag()?),
-            Kind::ObjectActive => Record::ObjectActive(from.number()?, from.flag()?),
-            Kind::AllActive => Record::AllActive(from.flag()?),
-            Kind::Filter => Record::Filter(from.flag()?),
-            Kind::FilterAgain => Record::FilterAgain,
-            Kind::Pairs => {
-                let (is_some, pairs) = (from.flag()?, from.list(8, Reader::pair)?);
-                Record::Pairs(is_some.then_some(pairs.into()))
-            }
-            Kind::Shrink => Record::Shrink,
             Kind::Question => Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? },
             Kind::Decisions => {
                 let decision = |from: &mut Reader| Ok(Decision { pair: from.pair()?, is_tested: from.flag()? });
@@ -299,10 +170,126 @@ impl Record<'_> {
             }
             Kind::Answer => Record::Answer(Digest::read(from)?),
             Kind::Failed => Record::Failed,
+            of_change => Record::Change(read_change(of_change, from)?),
         };
         if from.rest.is_empty() { Ok(record) } else { from.damaged("there is more behind its end") }
     }
 }
+
+// --- Changes -----------------------------------------------------------------------------------------------------------------
+
+fn kind_of(change: &Change<Numbers>) -> Kind {
+    match change {
+        Change::Object { .. } => Kind::Object,
+        Change::Copy(..) => Kind::Copy,
+        Change::Remove(..) => Kind::Remove,
+        Change::Fixed(..) => Kind::Fixed,
+        Change::Groups { .. } => Kind::Groups,
+        Change::UserData(..) => Kind::UserData,
+        Change::Pose(..) => Kind::Pose,
+        Change::Poses(..) => Kind::Poses,
+        Change::AllPoses(..) => Kind::AllPoses,
+        Change::PiecePose { .. } => Kind::PiecePose,
+        Change::PairActive(..) => Kind::PairActive,
+        Change::ObjectActive(..) => Kind::ObjectActive,
+        Change::AllActive(..) => Kind::AllActive,
+        Change::Filter(..) => Kind::Filter,
+        Change::FilterAgain => Kind::FilterAgain,
+        Change::Pairs(..) => Kind::Pairs,
+        Change::Shrink => Kind::Shrink,
+    }
+}
+
+fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
+    match change {
+        Change::Object { pieces, options } => {
+            let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
+            to.numbers(pieces)?;
+            to.pose(pose)?;
+            to.flag(*fixed)?;
+            to.raw(user_data.to_le_bytes())?;
+            to.number(*groups)?;
+            to.number(*mask)
+        }
+        Change::Copy(object) | Change::Remove(object) => to.number(*object),
+        Change::Fixed(object, flag) | Change::ObjectActive(object, flag) => {
+            to.number(*object)?;
+            to.flag(*flag)
+        }
+        Change::Groups { object, groups, mask } => {
+            [object, groups, mask].iter().try_for_each(|number| to.number(**number))
+        }
+        Change::UserData(object, user_data) => {
+            to.number(*object)?;
+            to.raw(user_data.to_le_bytes())
+        }
+        Change::Pose(object, pose) => {
+            to.number(*object)?;
+            to.pose(pose)
+        }
+        Change::Poses(objects, poses) => {
+            to.numbers(objects)?;
+            to.poses(poses)
+        }
+        Change::AllPoses(poses) => to.poses(poses),
+        Change::PiecePose { object, piece, pose } => {
+            to.number(*object)?;
+            to.number(*piece)?;
+            to.pose(pose)
+        }
+        Change::PairActive(pair, flag) => {
+            to.pair(pair)?;
+            to.flag(*flag)
+        }
+        Change::AllActive(flag) => to.flag(*flag),
+        Change::Filter(filter) => to.flag(filter.is_some()),
+        Change::FilterAgain | Change::Shrink => Ok(()),
+        Change::Pairs(pairs) => {
+            to.flag(pairs.is_some())?;
+            let pairs = pairs.as_deref().unwrap_or_default();
+            to.number(pairs.len() as u32)?;
+            pairs.iter().try_for_each(|pair| to.pair(pair))
+        }
+    }
+}
+
+/// The change of a kind of record; other kinds are none.
+fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>> {
+    Ok(match kind {
+        Kind::Object => Change::Object {
+            pieces: from.numbers()?.into(),
+            options: ObjectOptions {
+                pose: from.pose()?,
+                fixed: from.flag()?,
+                user_data: u64::from_le_bytes(from.raw()?),
+                groups: from.number()?,
+                mask: from.number()?,
+            },
+        },
+        Kind::Copy => Change::Copy(from.number()?),
+        Kind::Remove => Change::Remove(from.number()?),
+        Kind::Fixed => Change::Fixed(from.number()?, from.flag()?),
+        Kind::Groups => Change::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
+        Kind::UserData => Change::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
+        Kind::Pose => Change::Pose(from.number()?, from.pose()?),
+        Kind::Poses => Change::Poses(from.numbers()?.into(), from.poses()?.into()),
+        Kind::AllPoses => Change::AllPoses(from.poses()?.into()),
+        Kind::PiecePose => Change::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? },
+        Kind::PairActive => Change::PairActive(from.pair()?, from.flag()?),
+        Kind::ObjectActive => Change::ObjectActive(from.number()?, from.flag()?),
+        Kind::AllActive => Change::AllActive(from.flag()?),
+        Kind::Filter => Change::Filter(from.flag()?.then_some(())),
+        Kind::FilterAgain => Change::FilterAgain,
+        Kind::Pairs => {
+            let (is_some, pairs) = (from.flag()?, from.list(8, Reader::pair)?);
+            Change::Pairs(is_some.then_some(pairs.into()))
+        }
+        Kind::Shrink => Change::Shrink,
+        _ => return from.damaged("it is no change"),
+    })
+}
+
+// --- What records are made of ------------------------------------------------------------------------------------------------
 
 impl Writer {
     pub(super) fn flag(&mut self, flag: bool) -> Result<()> {

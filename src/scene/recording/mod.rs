@@ -23,22 +23,20 @@ pub(crate) mod recorder;
 pub(crate) mod reader;
 
 use std::io::Write;
-use std::path::Path;
 use std::sync::Arc;
 
-use super::Scene;
 use crate::base::error::{Error, Result};
-use crate::base::files;
 use crate::base::memory::{collected, push};
 use crate::pair::Query;
-use crate::scene::activation::Word;
-use crate::scene::broad_phase::near_pairs::Testing;
-use crate::scene::object::ObjectId;
-use crate::scene::object_view::Objects;
-use crate::scene::query::{SceneAnswer, SceneQuery};
+use crate::scene::change::{Change, Numbers, Rename, Themselves};
+use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
+use crate::scene::world::activation::Word;
+use crate::scene::world::content::World;
+use crate::scene::world::object::{ObjectId, ObjectTable};
+use crate::scene::world::testing::{Decided, PairFilter};
 use crate::shape::Shape;
 use digest::Digest;
-use format::{Decision, Record, Subject};
+use format::{Decision, Record};
 use recorder::Recorder;
 
 /// Whether what is done to a scene is written down.
@@ -51,250 +49,185 @@ pub(crate) enum Recording {
     Failed(Error),
 }
 
-/// What a record is made with.
-pub(crate) struct Notes<'a> {
-    recorder: &'a mut Recorder,
-    objects: Objects<'a>,
-}
-
-impl Notes<'_> {
-    pub fn write(&mut self, record: &Record) -> Result<()> {
-        self.recorder.write(record)
+impl Recording {
+    /// Begins with what a scene holds, whose filter has decided so of the pairs that are near.
+    ///
+    /// # Errors
+    /// See [`Scene::record`](crate::scene::Scene::record).
+    pub fn begin(
+        sink: Box<dyn Write + Send + Sync>,
+        name: String,
+        world: &World,
+        decided: &[Decided],
+    ) -> Result<Recording> {
+        let serials = collected(world.view().iter().map(|object| object.entry.serial()))?;
+        let mut recorder = Recorder::new(sink, name, serials, world.objects.created())?;
+        let written = write_world(&mut recorder, world).and_then(|()| {
+            write_decisions(&mut Numbering { recorder: &mut recorder, objects: &world.objects }, decided)
+        });
+        if let Err(error) = written {
+            recorder.give_up();
+            return Err(error);
+        }
+        Ok(Recording::On(Box::new(recorder)))
     }
 
-    /// The number of an object that is there.
-    pub fn number(&self, id: ObjectId) -> Result<u32> {
-        self.recorder.number(self.objects.get(id)?.entry.serial())
+    pub fn is_on(&self) -> bool {
+        matches!(self, Recording::On(_))
     }
 
-    pub fn numbers(&self, ids: &[ObjectId]) -> Result<Vec<u32>> {
-        let mut numbers = Vec::new();
-        ids.iter().try_for_each(|id| push(&mut numbers, self.number(*id)?))?;
-        Ok(numbers)
+    /// Why it ended early.
+    pub fn failure(&self) -> Option<&Error> {
+        if let Recording::Failed(error) = self { Some(error) } else { None }
     }
 
-    fn pairs(&self, pairs: &[[ObjectId; 2]]) -> Result<Vec<[u32; 2]>> {
-        let mut numbers = Vec::new();
-        // Pairs of objects removed since are pairs no more.
-        for [id1, id2] in pairs {
-            if let (Ok(number1), Ok(number2)) = (self.number(*id1), self.number(*id2)) {
-                push(&mut numbers, [number1, number2])?;
+    /// Ends it, if there is one.
+    ///
+    /// # Errors
+    /// See [`Scene::end_recording`](crate::scene::Scene::end_recording).
+    pub fn end(&mut self) -> Result<()> {
+        self.write(|recorder| recorder.end());
+        match std::mem::take(self) {
+            Recording::Off | Recording::On(_) => Ok(()),
+            Recording::Failed(error) => Err(error),
+        }
+    }
+
+    /// What is to be written down of a change once it has been made: nothing of one that the scene will refuse for its ids.
+    #[inline]
+    pub fn prepare(&mut self, change: &Change<Themselves>, objects: &ObjectTable) -> Option<Change<'static, Numbers>> {
+        let Recording::On(recorder) = self else { return None };
+        match change.renamed(&mut Numbering { recorder, objects }) {
+            Ok(change) => Some(change),
+            Err(Error::Handle(_)) => None,
+            Err(error) => {
+                self.fail(error);
+                None
             }
         }
-        Ok(numbers)
+    }
+
+    /// Writes down a change that was prepared.
+    #[inline]
+    pub fn note(&mut self, change: Option<Change<Numbers>>) {
+        if let Some(change) = change {
+            self.write(|recorder| recorder.write(&Record::Change(change)));
+        }
+    }
+
+    /// Writes down a query that is to be answered: it outlives the program.
+    pub fn question(
+        &mut self,
+        subject: &Subject<ObjectId, &Arc<Shape>>,
+        kind: Query,
+        query: &SceneQuery,
+        objects: &ObjectTable,
+    ) {
+        self.write(|recorder| {
+            let subject = match subject {
+                Subject::AllPairs => Subject::AllPairs,
+                Subject::Object(id) => Subject::Object(recorder.number(objects.get(*id)?.serial())?),
+                Subject::Placed(shape, pose) => Subject::Placed(recorder.shape(shape)?, *pose),
+                Subject::Events => Subject::Events,
+            };
+            recorder.write(&Record::Question { subject, kind, query: *query })?;
+            recorder.hand_over()
+        });
+    }
+
+    /// Writes down what a filter has decided, or why that is not known.
+    pub fn decisions(&mut self, decided: Result<Vec<Decided>>, objects: &ObjectTable) {
+        self.write(|recorder| write_decisions(&mut Numbering { recorder, objects }, &decided?));
+    }
+
+    /// Writes down the answer to the last query; none of one that was refused.
+    pub fn answer(&mut self, answer: Option<&SceneAnswer>, objects: &ObjectTable) {
+        self.write(|recorder| {
+            let number = |id| objects.get(id).and_then(|object| recorder.number(object.serial())).unwrap_or(u32::MAX);
+            let digest = answer.map(|answer| Digest::of(answer, number));
+            recorder.write(&digest.map_or(Record::Failed, Record::Answer))
+        });
+    }
+
+    /// Writes something down, if there is a recording; what cannot be written ends it.
+    fn write(&mut self, write: impl FnOnce(&mut Recorder) -> Result<()>) {
+        if let Recording::On(recorder) = self
+            && let Err(error) = write(recorder)
+        {
+            self.fail(error);
+        }
+    }
+
+    fn fail(&mut self, error: Error) {
+        if let Recording::On(recorder) = self {
+            recorder.give_up();
+        }
+        *self = Recording::Failed(error);
+    }
+}
+
+/// Numbers for what is in a scene. A shape is written down when it first gets one.
+struct Numbering<'a> {
+    recorder: &'a mut Recorder,
+    objects: &'a ObjectTable,
+}
+
+impl Rename<Themselves, Numbers> for Numbering<'_> {
+    fn object(&mut self, object: ObjectId) -> Result<u32> {
+        self.recorder.number(self.objects.get(object)?.serial())
     }
 
     fn shape(&mut self, shape: &Arc<Shape>) -> Result<u32> {
         self.recorder.shape(shape)
     }
 
-    pub fn object(&mut self, id: ObjectId) -> Result<()> {
-        let object = self.objects.get(id)?;
-        let mut pieces = Vec::new();
-        object.pieces().iter().try_for_each(|piece| push(&mut pieces, self.shape(piece)?))?;
-        self.write(&Record::Object { pieces: pieces.into(), options: object.options() })
-    }
-
-    pub fn given(&mut self, pairs: Option<&[[ObjectId; 2]]>) -> Result<()> {
-        let pairs = pairs.map(|pairs| self.pairs(pairs)).transpose()?;
-        self.write(&Record::Pairs(pairs.map(Into::into)))
-    }
-
-    fn decisions(&mut self, decisions: &[([ObjectId; 2], bool)]) -> Result<()> {
-        let mut numbered: Vec<Decision> = Vec::new();
-        for ([id1, id2], tested) in decisions {
-            push(&mut numbered, Decision { pair: [self.number(*id1)?, self.number(*id2)?], is_tested: *tested })?;
-        }
-        if numbered.is_empty() { Ok(()) } else { self.write(&Record::Decisions(numbered.into())) }
-    }
+    fn filter(&mut self, _: &PairFilter) {}
 }
 
-impl Scene {
-    /// Writes down what is done to the scene from now on, in a file, replacing what was there, until [`Scene::end_recording`] or
-    /// the scene's end. First comes what the scene holds. A [`Replay`](crate::scene::Replay) does it all again.
-    ///
-    /// All that changes what queries answer is written down, and each query with a digest of its answer; [workers](Workers) and
-    /// statistics are not. Of a [pair filter](PairFilter) its decisions are. Shapes are written down once each. The file is
-    /// brought up to date before each query. Where it cannot be written the recording ends; the scene goes on, and
-    /// [`Scene::end_recording`] says why.
-    ///
-    /// What pairs remember from before is not written down. So the answers of a replay are bit for bit those of the scene only if
-    /// it was recorded from its beginning, before its first object.
-    ///
-    /// [Workers]: crate::scene::Workers
-    /// [PairFilter]: crate::scene::PairFilter
-    ///
-    /// # Errors
-    /// [`Error::File`] if the file cannot be written or is no regular file, [`Error::Memory`]; what [`Scene::end_recording`] says
-    /// of a recording that is going on, which ends. The scene is not recorded then.
-    pub fn record(&mut self, path: &Path) -> Result<()> {
-        self.end_recording()?;
-        let file = files::create(path)?;
-        self.begin_recording(Box::new(file), path.display().to_string())
-    }
-
-    /// As [`Scene::record`], to whatever takes bytes.
-    ///
-    /// # Errors
-    /// As [`Scene::record`].
-    pub fn record_to(&mut self, sink: impl Write + Send + Sync + 'static) -> Result<()> {
-        self.end_recording()?;
-        self.begin_recording(Box::new(sink), "the recording".into())
-    }
-
-    /// Ends the recording, if there is one.
-    ///
-    /// # Errors
-    /// [`Error::File`], [`Error::Memory`], [`Error::Limit`] for the reason why it ended before or cannot be written to its end:
-    /// what was done up to there can be replayed.
-    pub fn end_recording(&mut self) -> Result<()> {
-        self.note(|notes| notes.recorder.end());
-        self.filter_is_watched(false);
-        match std::mem::take(&mut self.recording) {
-            Recording::Off | Recording::On(_) => Ok(()),
-            Recording::Failed(error) => Err(error),
+/// What there is when a recording begins, but for decisions.
+fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
+    let (rotation_limit, objects) = (world.rotation_limit, &world.objects);
+    recorder.write(&Record::Scene { rotation_limit, is_whole: objects.created() == 0 })?;
+    let mut write = |change: Change<Themselves>| {
+        let change = change.renamed(&mut Numbering { recorder, objects })?;
+        recorder.write(&Record::Change(change))
+    };
+    for object in world.view().iter() {
+        write(Change::Object { pieces: object.pieces().into(), options: object.options() })?;
+        for (piece, pose) in (0..).zip(object.piece_poses()) {
+            write(Change::PiecePose { object: object.id(), piece, pose: *pose })?;
         }
     }
-
-    /// Whether what is done to the scene is written down: a recording was begun, and nothing has ended it.
-    pub fn is_recording(&self) -> bool {
-        matches!(self.recording, Recording::On(_))
-    }
-
-    /// Why the recording ended early.
-    pub(crate) fn recording_failure(&self) -> Option<&Error> {
-        if let Recording::Failed(error) = &self.recording { Some(error) } else { None }
-    }
-
-    fn begin_recording(&mut self, sink: Box<dyn Write + Send + Sync>, name: String) -> Result<()> {
-        let serials = collected(self.objects().map(|object| object.entry.serial()))?;
-        let recorder = Recorder::new(sink, name, serials, self.objects.created())?;
-        self.recording = Recording::On(Box::new(recorder));
-        self.note_all();
-        match self.recording_failure() {
-            Some(_) => self.end_recording(),
-            None => {
-                self.filter_is_watched(true);
-                Ok(())
-            }
+    let stamps = world.view().iter().map(|object| (object.id(), object.entry.activation));
+    for (word, active) in world.activation.words(stamps)? {
+        match word {
+            Word::All => write(Change::AllActive(active))?,
+            Word::Object(id) => write(Change::ObjectActive(id, active))?,
+            // Of objects removed since they are kept for a while.
+            Word::Pair(pair) if is_there(objects, &pair) => write(Change::PairActive(pair, active))?,
+            Word::Pair(_) => {}
         }
     }
-
-    /// Writes something down, if the scene is recorded; what cannot be written ends the recording.
-    #[inline]
-    pub(super) fn note(&mut self, write: impl FnOnce(&mut Notes) -> Result<()>) {
-        let objects = Objects { table: &self.objects, proxies: &self.proxies };
-        if let Recording::On(recorder) = &mut self.recording
-            && let Err(error) = write(&mut Notes { recorder, objects })
-        {
-            recorder.give_up();
-            self.recording = Recording::Failed(error);
-            self.filter_is_watched(false);
-        }
+    if let Some(given) = &world.given {
+        // Pairs of objects removed since are pairs no more.
+        let pairs = collected(given.iter().copied().filter(|pair| is_there(objects, pair)))?;
+        write(Change::Pairs(Some(pairs.into())))?;
     }
-
-    // Questions and answers.
-
-    /// A query that is to be answered.
-    pub(super) fn note_question(&mut self, subject: &Subject<ObjectId, &Arc<Shape>>, kind: Query, query: &SceneQuery) {
-        self.note(|notes| {
-            let subject = match subject {
-                Subject::AllPairs => Subject::AllPairs,
-                Subject::Object(id) => Subject::Object(notes.number(*id)?),
-                Subject::Placed(shape, pose) => Subject::Placed(notes.shape(shape)?, *pose),
-                Subject::Events => Subject::Events,
-            };
-            notes.write(&Record::Question { subject, kind, query: *query })?;
-            notes.recorder.hand_over()
-        });
+    if world.filter.is_some() {
+        recorder.write(&Record::Change(Change::Filter(Some(()))))?;
     }
+    Ok(())
+}
 
-    /// What came of it; `stopped` says that it stopped at the last result, `None` that it failed.
-    pub(super) fn note_answer(&mut self, stopped: Option<bool>) {
-        self.note_decisions();
-        if !self.is_recording() {
-            return;
-        }
-        let digest = stopped.map(|stopped| self.digest(stopped));
-        self.note(|notes| notes.write(&digest.map_or(Record::Failed, Record::Answer)));
+fn is_there(objects: &ObjectTable, pair: &[ObjectId; 2]) -> bool {
+    pair.iter().all(|id| objects.get(*id).is_ok())
+}
+
+fn write_decisions(numbers: &mut Numbering, decided: &[Decided]) -> Result<()> {
+    let mut decisions: Vec<Decision> = Vec::new();
+    for ([id1, id2], is_tested) in decided {
+        let pair = [numbers.object(*id1)?, numbers.object(*id2)?];
+        push(&mut decisions, Decision { pair, is_tested: *is_tested })?;
     }
-
-    /// What the filter has decided since the last time.
-    pub(super) fn note_decisions(&mut self) {
-        if let Some(decisions) = self.filter.as_mut().and_then(|filter| filter.decided()) {
-            self.note(|notes| notes.decisions(&decisions?));
-        }
-    }
-
-    fn digest(&self, stopped: bool) -> Digest {
-        let answer = self.said(stopped);
-        let Recording::On(recorder) = &self.recording else { return Digest::of(&answer, |_| u32::MAX) };
-        let number = |id| self.objects.get(id).and_then(|object| recorder.number(object.serial()));
-        Digest::of(&answer, |id| number(id).unwrap_or(u32::MAX))
-    }
-
-    /// What the last search found.
-    pub(super) fn said(&self, stopped: bool) -> SceneAnswer<'_> {
-        let (results, intersecting) = (self.findings.results(), self.findings.intersecting);
-        let pairs = if stopped { &[] } else { results };
-        let (found, contacts) = (if stopped { results.last() } else { None }, self.findings.contacts.view());
-        SceneAnswer { intersecting, pairs, found, contacts }
-    }
-
-    // What there is when a recording begins.
-
-    fn note_all(&mut self) {
-        let (rotation_limit, is_whole) = (self.rotation_limit, self.objects.created() == 0);
-        self.note(|notes| notes.write(&Record::Scene { rotation_limit, is_whole }));
-        self.note(|notes| {
-            for object in notes.objects.iter() {
-                notes.object(object.id())?;
-                let number = notes.number(object.id())?;
-                for (piece, pose) in (0..).zip(object.piece_poses()) {
-                    notes.write(&Record::PiecePose { object: number, piece, pose: *pose })?;
-                }
-            }
-            Ok(())
-        });
-        let (activation, given) = (std::mem::take(&mut self.activation), self.given.take());
-        self.note(|notes| {
-            let stamps = notes.objects.iter().map(|object| (object.id(), object.entry.activation));
-            for (word, active) in activation.words(stamps)? {
-                match word {
-                    Word::All => notes.write(&Record::AllActive(active))?,
-                    Word::Object(id) => notes.write(&Record::ObjectActive(notes.number(id)?, active))?,
-                    // Of objects removed since they are kept for a while.
-                    Word::Pair(pair) => notes
-                        .pairs(&[pair])?
-                        .iter()
-                        .try_for_each(|pair| notes.write(&Record::PairActive(*pair, active)))?,
-                }
-            }
-            if given.is_some() { notes.given(given.as_deref()) } else { Ok(()) }
-        });
-        (self.activation, self.given) = (activation, given);
-        if self.filter.is_some() {
-            self.note(|notes| notes.write(&Record::Filter(true)));
-            let decided = self.near_decisions();
-            self.note(|notes| notes.decisions(&decided?));
-        }
-    }
-
-    /// What the filter has said of the pairs that are near.
-    fn near_decisions(&self) -> Result<Vec<([ObjectId; 2], bool)>> {
-        let mut decisions = Vec::new();
-        for pair in &self.broad_phase.near.pairs {
-            let ids = pair.proxies.map(|proxy| self.proxies.labels[proxy as usize].object);
-            if ids.iter().all(|id| self.objects.get(*id).is_ok()) {
-                push(&mut decisions, (ids, pair.testing != Testing::Rejected))?;
-            }
-        }
-        Ok(decisions)
-    }
-
-    pub(super) fn filter_is_watched(&mut self, watched: bool) {
-        if let Some(filter) = &mut self.filter {
-            filter.watch(watched);
-        }
-    }
+    if decisions.is_empty() { Ok(()) } else { numbers.recorder.write(&Record::Decisions(decisions.into())) }
 }

@@ -2,22 +2,21 @@
 
 use std::ops::Range;
 
-use super::Scene;
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::{filled, with_capacity};
 use crate::base::simd::environment::with_default;
-use crate::scene::object::{Arrangement, Entry, ObjectId, ObjectTable, composed};
-use crate::scene::proxies::Proxies;
-use crate::scene::recording::format::Record;
-use crate::scene::rows::Rows;
+use crate::base::workers::Workers;
+use crate::scene::world::content::World;
+use crate::scene::world::object::{Arrangement, Entry, ObjectId, ObjectTable, composed};
+use crate::scene::world::proxies::Proxies;
+use crate::scene::world::rows::Rows;
 
-impl Scene {
-    /// Moves an object, a fixed one too. For twelve numbers see [`Pose::from_row_major`], for R and T [`Pose::new`].
+impl World {
+    /// Moves an object.
     ///
     /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Pose`] for a pose that is not accepted;
-    /// the object then stays where it is.
+    /// See [`Scene::set_pose`](crate::scene::Scene::set_pose).
     pub fn set_pose(&mut self, id: ObjectId, pose: &Pose) -> Result<()> {
         let object = self.objects.get_mut(id)?;
         let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
@@ -25,32 +24,25 @@ impl Scene {
             let defect = check(object, pose, limit)?;
             put(object, pose, defect, proxies, passes);
             Ok(())
-        })?;
-        self.note(|notes| notes.write(&Record::Pose(notes.number(id)?, *pose)));
-        Ok(())
+        })
     }
 
-    /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts. Several threads
-    /// share the work if ids are in order of creation.
+    /// Moves objects, each to its pose.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless there is one pose for each, as [`Scene::set_pose`], and [`Error::Memory`]; all objects then stay
-    /// where they are.
-    pub fn set_poses(&mut self, ids: &[ObjectId], poses: &[Pose]) -> Result<()> {
+    /// See [`Scene::set_poses`](crate::scene::Scene::set_poses).
+    pub fn set_poses(&mut self, ids: &[ObjectId], poses: &[Pose], workers: &Workers) -> Result<()> {
         if ids.len() != poses.len() {
             return Err(Error::Argument(format!("{} poses for {} objects", poses.len(), ids.len())));
         }
-        self.put_all(&Batch { ids, poses, first: 0, count: ids.len() })?;
-        self.note(|notes| notes.write(&Record::Poses(notes.numbers(ids)?.into(), poses.into())));
-        Ok(())
+        self.put_all(&Batch { ids, poses, first: 0, count: ids.len() }, workers)
     }
 
-    /// Moves all objects that are not fixed, in order of creation. Several threads share the work.
+    /// Moves all objects that are not fixed.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless there is one pose for each, [`Error::Pose`] for a pose that is not accepted, [`Error::Memory`];
-    /// all objects then stay where they are.
-    pub fn set_all_poses(&mut self, poses: &[Pose]) -> Result<()> {
+    /// See [`Scene::set_all_poses`](crate::scene::Scene::set_all_poses).
+    pub fn set_all_poses(&mut self, poses: &[Pose], workers: &Workers) -> Result<()> {
         let mut ids = with_capacity(self.objects.len())?;
         let first_rows = (0..self.proxies.len()).filter(|&row| self.proxies.leads_movable(row));
         ids.extend(first_rows.map(|row| self.proxies.labels[row].object));
@@ -58,16 +50,14 @@ impl Scene {
         if poses.len() != count {
             return Err(Error::Argument(format!("{} poses for {count} objects that are not fixed", poses.len())));
         }
-        self.put_all(&Batch { ids: &ids, poses, first: 0, count })?;
-        self.note(|notes| notes.write(&Record::AllPoses(poses.into())));
-        Ok(())
+        self.put_all(&Batch { ids: &ids, poses, first: 0, count }, workers)
     }
 
     /// Moves all objects of a batch, or none.
-    fn put_all(&mut self, batch: &Batch) -> Result<()> {
-        if self.workers.share(batch.count) {
-            if let Some(parts) = self.checked_parts(batch)? {
-                return self.put_in_parts(batch, &parts);
+    fn put_all(&mut self, batch: &Batch, workers: &Workers) -> Result<()> {
+        if workers.share(batch.count) {
+            if let Some(parts) = self.checked_parts(batch, workers)? {
+                return self.put_in_parts(batch, &parts, workers);
             }
         } else {
             with_default(|| batch.check(&self.objects, self.rotation_limit))?;
@@ -82,10 +72,10 @@ impl Scene {
     }
 
     /// A batch in parts if none of it is refused; none where their objects are not in order of creation.
-    fn checked_parts<'a>(&self, batch: &Batch<'a>) -> Result<Option<Vec<Part<'a>>>> {
-        let size = self.workers.part_size(batch.count);
+    fn checked_parts<'a>(&self, batch: &Batch<'a>, workers: &Workers) -> Result<Option<Vec<Part<'a>>>> {
+        let size = workers.part_size(batch.count);
         let check = |batch: Batch| batch.check(&self.objects, self.rotation_limit);
-        let checked = self.workers.map(batch.cut(size), check)?;
+        let checked = workers.map(batch.cut(size), check)?;
         let mut parts: Vec<Part> = with_capacity(checked.len())?;
         let mut are_in_order = true;
         for (batch, rows) in batch.cut(size).zip(checked) {
@@ -100,7 +90,7 @@ impl Scene {
     }
 
     /// Moves all objects of a batch, checked and in parts.
-    fn put_in_parts(&mut self, batch: &Batch, parts: &[Part]) -> Result<()> {
+    fn put_in_parts(&mut self, batch: &Batch, parts: &[Part], workers: &Workers) -> Result<()> {
         let (objects, passes) = (&self.objects, self.passes);
         // Said first, as a panic of the program's threads may end the call.
         self.proxies.misses_escaped = true;
@@ -114,21 +104,17 @@ impl Scene {
                 Ok(())
             })
         };
-        self.workers.map(parts.iter().zip(rows.cut_at_each(ends)), put)?.into_iter().collect::<Result<()>>()?;
+        workers.map(parts.iter().zip(rows.cut_at_each(ends)), put)?.into_iter().collect::<Result<()>>()?;
         batch.ids.iter().zip(batch.poses).try_for_each(|(id, pose)| {
             self.objects.get_mut(*id)?.stand_at(pose);
             Ok(())
         })
     }
 
-    /// Moves one piece within its object: its place in the world is that of the object times `pose`, each of the twelve numbers
-    /// rounded; the exact body is the one that these rounded numbers give. Points and features of results are in the piece's own
-    /// frame.
+    /// Moves one piece within its object.
     ///
     /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for a piece that the object does not
-    /// have, [`Error::Pose`] for a pose that is not accepted, alone or with the object's, [`Error::Memory`]; the piece then stays
-    /// where it is.
+    /// See [`Scene::set_piece_pose`](crate::scene::Scene::set_piece_pose).
     pub fn set_piece_pose(&mut self, id: ObjectId, piece: u32, pose: &Pose) -> Result<()> {
         let object = self.objects.get_mut(id)?;
         let (own, at) = (object.proxies(), piece as usize);
@@ -150,13 +136,11 @@ impl Scene {
             arrangement.piece_poses[at] = *pose;
             proxies.place(own.start + at, &world, defect, passes);
             Ok(())
-        })?;
-        self.note(|notes| notes.write(&Record::PiecePose { object: notes.number(id)?, piece, pose: *pose }));
-        Ok(())
+        })
     }
 
     /// Gives an object the piece poses of another one, none or one for each piece, which were accepted with its pose.
-    pub(super) fn put_pieces(&mut self, id: ObjectId, piece_poses: Vec<Pose>) -> Result<()> {
+    pub fn put_pieces(&mut self, id: ObjectId, piece_poses: Vec<Pose>) -> Result<()> {
         if piece_poses.is_empty() {
             return Ok(());
         }

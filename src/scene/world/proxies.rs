@@ -6,9 +6,9 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{reserve_sparingly, with_capacity};
-use crate::scene::boxes::Aabb;
-use crate::scene::object::ObjectId;
-use crate::scene::rows::{Label, Motion, Rows, Spheres, placed};
+use crate::scene::world::boxes::Aabb;
+use crate::scene::world::object::ObjectId;
+use crate::scene::world::rows::{Label, Motion, Rows, Spheres, placed};
 use crate::shape::Shape;
 
 /// A piece to be added.

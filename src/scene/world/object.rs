@@ -265,6 +265,11 @@ impl ObjectTable {
         }
     }
 
+    /// The rows of an object; of one that is gone there are none.
+    pub(crate) fn rows_of(&self, id: ObjectId) -> Range<usize> {
+        self.get(id).map_or(0..0, Entry::proxies)
+    }
+
     /// Whether an id is that of the object in its slot, which has this generation.
     fn is_id(&self, id: ObjectId, generation: u32) -> bool {
         (id.generation(), id.scene()) == (generation, self.scene)

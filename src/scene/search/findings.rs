@@ -5,11 +5,12 @@
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push, reserve};
-use crate::scene::broad_phase::near_pairs::{NearPair, Testing};
-use crate::scene::contacts::Contacts;
-use crate::scene::proxies::Proxies;
-use crate::scene::query::PairResult;
-use crate::scene::statistics::SceneStatistics;
+use crate::scene::near::near_pairs::NearPair;
+use crate::scene::search::contacts::Contacts;
+use crate::scene::search::query::PairResult;
+use crate::scene::search::statistics::SceneStatistics;
+use crate::scene::world::proxies::Proxies;
+use crate::scene::world::testing::Testing;
 
 /// Above this part of all pieces, one in so many, all pairs are answered anew: new results are then written where they belong, and
 /// pairs of two that have not moved are few.

@@ -4,8 +4,8 @@
 use std::sync::Arc;
 
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
-use crate::scene::boxes::{Aabb, above, below};
-use crate::scene::object::ObjectId;
+use crate::scene::world::boxes::{Aabb, above, below};
+use crate::scene::world::object::ObjectId;
 use crate::shape::Shape;
 
 const U: f64 = UNIT_ROUNDOFF;
@@ -75,7 +75,7 @@ pub(crate) struct Label {
     pub piece: u32,
     /// Two fixed ones are never tested.
     pub fixed: bool,
-    /// See [`ObjectOptions`](crate::scene::object::ObjectOptions).
+    /// See [`ObjectOptions`](crate::scene::world::object::ObjectOptions).
     pub groups: u32,
     pub mask: u32,
 }

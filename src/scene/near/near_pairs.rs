@@ -5,21 +5,12 @@ use std::sync::Mutex;
 
 use crate::base::error::Result;
 use crate::base::locks::{locked, unlocked};
-use crate::base::memory::{collected, copied, extend, push, reserve, with_capacity};
+use crate::base::memory::{collected, copied, extend, reserve, with_capacity};
 use crate::pair::PairCache;
-use crate::scene::contacts::ContactMemory;
-use crate::scene::proxies::Proxies;
-use crate::scene::rows::Label;
-
-/// Whether a near pair is tested.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Testing {
-    Active,
-    /// Deactivated for now.
-    Inactive,
-    /// The program's filter said no.
-    Rejected,
-}
+use crate::scene::near::candidates::{Candidates, order};
+use crate::scene::near::contact_memory::ContactMemory;
+use crate::scene::world::rows::Label;
+use crate::scene::world::testing::Testing;
 
 /// Two proxies whose boxes overlap, the earlier first.
 #[derive(Debug, Clone, Copy)]
@@ -56,98 +47,12 @@ impl NearPair {
             level: 0,
         }
     }
-}
 
-impl NearPair {
     /// Its result, found among those of a part of the pairs, stands so many places later among all.
     pub fn shift_result(&mut self, places: u32) {
         if self.result != UNLISTED {
             self.result += places;
         }
-    }
-}
-
-/// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of
-/// its object, which is a name for that.
-#[inline(always)]
-pub(crate) fn order(firsts: &[u32], [proxy1, proxy2]: [u32; 2]) -> (u64, u64) {
-    let [object1, object2] = [firsts[proxy1 as usize], firsts[proxy2 as usize]];
-    (joined([object1, object2]), joined([proxy1, proxy2]))
-}
-
-#[inline(always)]
-fn joined([high, low]: [u32; 2]) -> u64 {
-    u64::from(high) << 32 | u64::from(low)
-}
-
-/// Candidates: pairs of overlapping boxes in any order, then sorted.
-#[derive(Debug, Default)]
-pub(crate) struct Candidates {
-    pairs: Vec<[u32; 2]>,
-    sorted: Vec<[u32; 2]>,
-    /// Where those of each object 1 begin.
-    starts: Vec<u32>,
-}
-
-impl Candidates {
-    pub fn clear(&mut self) {
-        self.pairs.clear();
-    }
-
-    #[inline(always)]
-    fn add(&mut self, a: u32, b: u32) -> Result<()> {
-        push(&mut self.pairs, if a < b { [a, b] } else { [b, a] })
-    }
-
-    /// If the two may make a pair.
-    #[inline(always)]
-    pub fn add_if_meeting(&mut self, proxies: &Proxies, a: u32, b: u32) -> Result<()> {
-        if proxies.may_meet(a as usize, b as usize) { self.add(a, b) } else { Ok(()) }
-    }
-
-    /// Adds those that another part has found.
-    pub fn append(&mut self, part: &Candidates) -> Result<()> {
-        extend(&mut self.pairs, part.pairs.iter().copied())
-    }
-
-    /// Sorts them, each once.
-    fn sort(&mut self, firsts: &[u32]) -> Result<()> {
-        if self.pairs.len() < firsts.len() / 4 {
-            self.pairs.sort_unstable_by_key(|&pair| order(firsts, pair));
-        } else {
-            self.sort_by_object(firsts)?;
-        }
-        self.pairs.dedup();
-        Ok(())
-    }
-
-    /// One pass puts them where those of their object 1 are, which are few, and sorted there.
-    fn sort_by_object(&mut self, firsts: &[u32]) -> Result<()> {
-        let object = |pair: &[u32; 2]| firsts[pair[0] as usize] as usize;
-        self.starts.clear();
-        reserve(&mut self.starts, firsts.len() + 1)?;
-        self.starts.resize(firsts.len() + 1, 0);
-        self.sorted.clear();
-        reserve(&mut self.sorted, self.pairs.len())?;
-        self.sorted.resize(self.pairs.len(), [0; 2]);
-        for pair in &self.pairs {
-            self.starts[object(pair) + 1] += 1;
-        }
-        for k in 0..firsts.len() {
-            self.starts[k + 1] += self.starts[k];
-        }
-        for pair in &self.pairs {
-            let next = &mut self.starts[object(pair)];
-            self.sorted[*next as usize] = *pair;
-            *next += 1;
-        }
-        let mut begin = 0;
-        for &end in &self.starts[..firsts.len()] {
-            self.sorted[begin..end as usize].sort_unstable_by_key(|&pair| order(firsts, pair));
-            begin = end as usize;
-        }
-        std::mem::swap(&mut self.pairs, &mut self.sorted);
-        Ok(())
     }
 }
 

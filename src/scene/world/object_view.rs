@@ -1,12 +1,13 @@
 //! The objects of a scene, for reading.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::scene::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
-use crate::scene::proxies::Proxies;
-use crate::scene::rows::Label;
+use crate::scene::world::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::world::proxies::Proxies;
+use crate::scene::world::rows::Label;
 use crate::shape::Shape;
 
 /// All of a scene.
@@ -34,7 +35,7 @@ impl<'a> Objects<'a> {
 /// One or several convex pieces that move together.
 #[derive(Debug, Clone, Copy)]
 pub struct Object<'a> {
-    pub(super) entry: &'a Entry,
+    pub(crate) entry: &'a Entry,
     proxies: &'a Proxies,
 }
 
@@ -47,6 +48,11 @@ impl<'a> Object<'a> {
     /// Its convex pieces, shared, in one local frame; at least one. They are never tested against each other.
     pub fn pieces(&self) -> &'a [Arc<Shape>] {
         &self.proxies.shapes[self.entry.proxies()]
+    }
+
+    /// Its rows among the proxies.
+    pub(crate) fn proxies(&self) -> Range<usize> {
+        self.entry.proxies()
     }
 
     /// Where it stands.
@@ -81,12 +87,12 @@ impl<'a> Object<'a> {
     }
 
     /// Where each piece is in the object; none where all are at its origin.
-    pub(super) fn piece_poses(&self) -> &'a [Pose] {
+    pub(crate) fn piece_poses(&self) -> &'a [Pose] {
         self.entry.arrangement.as_ref().map_or(&[], |arrangement| &arrangement.piece_poses)
     }
 
     /// What it was made of, but for the pieces.
-    pub(super) fn options(&self) -> ObjectOptions {
+    pub(crate) fn options(&self) -> ObjectOptions {
         let Label { fixed, user_data, groups, mask, .. } = *self.label();
         ObjectOptions { pose: *self.pose(), fixed, user_data, groups, mask }
     }

@@ -5,7 +5,7 @@ use std::ops::Range;
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push, reserve_sparingly};
-use crate::scene::boxes::Aabb;
+use crate::scene::world::boxes::Aabb;
 
 /// Fewer boxes are left to the tree.
 const FEWEST: usize = 64;

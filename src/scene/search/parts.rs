@@ -9,10 +9,10 @@ use crate::base::memory::{push, reserve, with_capacity};
 use crate::base::simd::prefetch;
 use crate::base::workers::Workers;
 use crate::pair::{DepthCache, PairCache, Reference};
-use crate::scene::broad_phase::near_pairs::{NearPair, NearPairs};
-use crate::scene::contacts::ContactMemory;
-use crate::scene::findings::Findings;
-use crate::scene::narrow_phase::{BLOCK, Caches, Pass};
+use crate::scene::near::contact_memory::ContactMemory;
+use crate::scene::near::near_pairs::{NearPair, NearPairs};
+use crate::scene::search::findings::Findings;
+use crate::scene::search::narrow_phase::{BLOCK, Caches, Pass};
 
 /// What a part found, kept from pass to pass.
 #[derive(Debug, Default)]
@@ -47,13 +47,13 @@ impl Written {
 }
 
 /// What pairs remember while several threads look at them. Each pair is looked at by one: no lock is waited for.
-struct Shared<'a> {
+struct Together<'a> {
     caches: &'a [Mutex<PairCache>],
     contacts: &'a ContactMemory,
     written: &'a mut Written,
 }
 
-impl Caches for Shared<'_> {
+impl Caches for Together<'_> {
     #[inline(always)]
     fn prefetch(&self, place: u32) {
         prefetch(&self.caches[place as usize]);
@@ -105,7 +105,7 @@ pub(crate) fn run_in_parts(
         let PartFindings { findings, written } = found;
         findings.clear();
         written.clear();
-        pass.run(pairs, &mut Shared { caches, contacts, written }, findings)
+        pass.run(pairs, &mut Together { caches, contacts, written }, findings)
     };
     let results = workers.map(pairs.chunks_mut(size).zip(kept.iter_mut()), run)?;
     let mut firsts = with_capacity(count)?;

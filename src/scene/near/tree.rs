@@ -5,14 +5,14 @@ use std::ops::Range;
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push, reserve_sparingly};
-use crate::scene::boxes::Aabb;
+use crate::scene::world::boxes::Aabb;
 
 /// Room for what traversals and builds have still to visit, kept from one to the next.
 #[derive(Debug, Default)]
 pub(crate) struct Scratch {
     branches: Vec<Branch>,
     pairs: Vec<[Branch; 2]>,
-    ranges: Vec<(Range<usize>, Place)>,
+    ranges: Vec<(Range<usize>, Side)>,
     /// The proxies over which a tree is to be built.
     pub proxies: Vec<u32>,
 }
@@ -61,7 +61,7 @@ impl Branch {
 }
 
 /// Where something hangs: the parent, and which of its children it is.
-type Place = (u32, usize);
+type Side = (u32, usize);
 
 /// A binary tree over the boxes of proxies. Each call gets these boxes, and what changes the tree the leaves' parents: `parents`,
 /// by proxy.
@@ -78,11 +78,14 @@ pub(crate) struct Tree {
     patches: usize,
     /// Sum of the girths of all parents when it was built.
     girth_built: f32,
+    /// Its boxes hold those of its leaves.
+    pub is_fitted: bool,
 }
 
 impl Default for Tree {
     fn default() -> Self {
-        Tree { nodes: Vec::new(), root: None, free: NONE, leaf_count: 0, changes: 0, patches: 0, girth_built: 0.0 }
+        let (nodes, root, free) = (Vec::new(), None, NONE);
+        Tree { nodes, root, free, leaf_count: 0, changes: 0, patches: 0, girth_built: 0.0, is_fitted: true }
     }
 }
 
@@ -146,12 +149,12 @@ impl Tree {
     }
 
     /// Which child of its parent a branch is.
-    fn place(&self, parent: u32, child: Branch) -> Place {
+    fn place(&self, parent: u32, child: Branch) -> Side {
         (parent, self.nodes.get(parent as usize).map_or(0, |node| usize::from(node.children[1] == child)))
     }
 
     /// Makes a branch the child at a place, which for [`TOP`] is the root.
-    fn hang(&mut self, (parent, side): Place, child: Branch, parents: &mut [u32]) {
+    fn hang(&mut self, (parent, side): Side, child: Branch, parents: &mut [u32]) {
         match self.nodes.get_mut(parent as usize) {
             Some(node) => node.children[side] = child,
             None => self.root = Some(child),

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, extend, lacking};
-use crate::scene::object::{ObjectId, Stamp};
+use crate::scene::world::object::{ObjectId, Stamp};
 
 /// So many words on pairs are kept without a look at whether their objects are still there.
 const LEAST_CROWD: usize = 64;
@@ -105,7 +105,7 @@ impl Activation {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::object::ObjectTable;
+    use crate::scene::world::object::ObjectTable;
     use swiftprox::random::Random;
 
     /// Against the plain model, one flag for each pair, set by whatever is said: random words, objects that come and go.

@@ -16,14 +16,17 @@ use crate::base::error::Result;
 use crate::base::locks::unlocked;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Placed, Reference};
-use crate::scene::broad_phase::near_pairs::{NearPair, Testing, UNLISTED};
-use crate::scene::contacts::{ContactMemory, Details};
-use crate::scene::findings::{Before, Findings, make_room};
-use crate::scene::proxies::Proxies;
-use crate::scene::query::PairResult;
-use crate::scene::rows::{are_far_apart, overlap_inside};
-use crate::scene::statistics::{SceneStatistics, Settled, level_of};
+use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, Reference};
+use crate::scene::near::contact_memory::ContactMemory;
+use crate::scene::near::near_pairs::{NearPair, UNLISTED};
+use crate::scene::search::contacts::Details;
+use crate::scene::search::findings::{Before, Findings, make_room};
+use crate::scene::search::query::PairResult;
+use crate::scene::search::request::{Request, Solver};
+use crate::scene::search::statistics::{SceneStatistics, Settled, level_of};
+use crate::scene::world::proxies::Proxies;
+use crate::scene::world::rows::{are_far_apart, overlap_inside};
+use crate::scene::world::testing::Testing;
 
 /// Pairs that are looked at before the first of them is tested.
 pub(crate) const BLOCK: usize = 1 << u8::BITS;
@@ -44,24 +47,16 @@ const INSCRIBED: PairAnswer = PairAnswer {
     ..PairAnswer::UNSAID
 };
 
-/// One of the pair queries of [`pair`](crate::pair).
-pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
-
-/// What one query asks of each pair.
+/// One pass over pairs: what is asked of each, of which pieces.
 pub(crate) struct Pass<'a> {
+    request: &'a Request,
+    solver: Solver,
+    /// Of the request, which every look needs.
+    is_verdict: bool,
+    tolerance: f64,
     pub proxies: &'a Proxies,
-    pub solver: Solver,
-    pub config: &'a PairConfig,
-    /// Whether the verdict alone is asked for, and only intersecting pairs are listed.
-    pub verdict_only: bool,
-    /// Beyond this, pairs are not listed.
-    pub tolerance: f64,
-    /// Stop behind the first intersecting pair.
-    pub early_exit: bool,
     /// The pass before, if it asked the same of the same pairs and its answers are to be given again.
-    pub before: Option<&'a Before>,
-    /// What is asked of listed pairs beside their answers.
-    pub details: Option<&'a Details>,
+    before: Option<&'a Before>,
 }
 
 /// What pairs remember, by place.
@@ -150,7 +145,12 @@ impl Left {
     }
 }
 
-impl Pass<'_> {
+impl<'a> Pass<'a> {
+    pub fn new(request: &'a Request, proxies: &'a Proxies, before: Option<&'a Before>) -> Pass<'a> {
+        let (solver, is_verdict, tolerance) = (request.solver(), request.is_verdict(), request.tolerance);
+        Pass { request, solver, is_verdict, tolerance, proxies, before }
+    }
+
     /// Looks at pairs in order and adds the listed ones to `findings`; true if it stopped at an intersecting one, the last listed.
     ///
     /// # Errors
@@ -163,7 +163,7 @@ impl Pass<'_> {
     ) -> Result<bool> {
         let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
         for pairs in pairs.chunks_mut(BLOCK) {
-            self.look_at(pairs, &mut left, &mut findings.statistics);
+            self.look_at_all(pairs, &mut left, &mut findings.statistics);
             make_room(&mut findings.slots, findings.written + left.count)?;
             let mut next = 0;
             while let Some((at, look)) = left.get(next) {
@@ -174,7 +174,9 @@ impl Pass<'_> {
                 let stops = match look {
                     Look::Settled => false,
                     Look::Again => self.list_again(pair, findings)?,
-                    Look::Intersects | Look::Test => self.list_anew(look, pair, caches, findings)?,
+                    Look::Intersects | Look::Test => {
+                        self.decide(look, pair, caches, findings)? && self.list(pair, caches, findings)?
+                    }
                 };
                 if stops {
                     return Ok(true);
@@ -185,9 +187,9 @@ impl Pass<'_> {
         Ok(false)
     }
 
-    /// The first look at a block.
+    /// Looks at a block.
     #[inline(always)]
-    fn look_at(&self, pairs: &mut [NearPair], left: &mut Left, statistics: &mut SceneStatistics) {
+    fn look_at_all(&self, pairs: &mut [NearPair], left: &mut Left, statistics: &mut SceneStatistics) {
         left.count = 0;
         let mut unlisted = 0;
         for k in 0..pairs.len() {
@@ -237,7 +239,7 @@ impl Pass<'_> {
             statistics.count_settled(Settled::OutOfReach);
             return Look::Settled;
         }
-        if self.verdict_only && overlap_inside(spheres1, spheres2) { Look::Intersects } else { Look::Test }
+        if self.is_verdict && overlap_inside(spheres1, spheres2) { Look::Intersects } else { Look::Test }
     }
 
     /// Asks for the memory that a look needs.
@@ -271,27 +273,26 @@ impl Pass<'_> {
     #[inline(always)]
     fn list_again(&self, pair: &mut NearPair, findings: &mut Findings) -> Result<bool> {
         let at = pair.result as usize;
-        if let (Some(_), Some(before)) = (self.details, self.before) {
+        if let (Some(_), Some(before)) = (self.request.details, self.before) {
             findings.contacts.again(&before.contacts, at)?;
         }
         pair.result = findings.listed as u32;
         findings.list_again(at)?;
         findings.statistics.count_unmoved(1, pair.level);
         findings.intersecting |= pair.intersects;
-        Ok(pair.intersects & self.early_exit)
+        Ok(pair.intersects & self.request.early_exit)
     }
 
-    /// Adds the pair's result if it is listed; true if the query is to stop there.
+    /// Answers for a pair in the next free slot; whether the answer is listed.
     #[inline(always)]
-    fn list_anew<C: Caches + ?Sized>(
+    fn decide<C: Caches + ?Sized>(
         &self,
         look: Look,
         pair: &mut NearPair,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
-        let at = findings.written;
-        let answer = &mut findings.slots[at].answer;
+        let answer = &mut findings.slots[findings.written].answer;
         if let Look::Intersects = look {
             *answer = INSCRIBED;
         } else {
@@ -301,22 +302,29 @@ impl Pass<'_> {
         findings.statistics.count(answer);
         let is_listed = match answer.outcome {
             Outcome::Intersecting => true,
-            Outcome::Separated | Outcome::Undecided => !self.verdict_only,
+            Outcome::Separated | Outcome::Undecided => !self.is_verdict,
             Outcome::Beyond | Outcome::None => false,
         };
         if !is_listed {
             pair.result = UNLISTED;
-            return Ok(false);
         }
+        Ok(is_listed)
+    }
+
+    /// Lists the pair whose answer was written last; true if the query is to stop there.
+    #[inline(always)]
+    fn list<C: Caches + ?Sized>(&self, pair: &mut NearPair, caches: &mut C, findings: &mut Findings) -> Result<bool> {
+        let at = findings.written;
+        let answer = &findings.slots[at].answer;
         (pair.intersects, pair.level) = (answer.outcome == Outcome::Intersecting, level_of(answer));
-        if let Some(details) = self.details {
+        if let Some(details) = &self.request.details {
             self.find_details(details, pair, at, caches, findings)?;
         }
         self.sign(pair, &mut findings.slots[at]);
         pair.result = findings.listed as u32;
         findings.list_new()?;
         findings.intersecting |= pair.intersects;
-        Ok(pair.intersects & self.early_exit)
+        Ok(pair.intersects & self.request.early_exit)
     }
 
     /// Asks the pair layer.
@@ -325,7 +333,7 @@ impl Pass<'_> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-        (self.solver)([placed(a), placed(b)], cache, self.config, answer)?;
+        (self.solver)([placed(a), placed(b)], cache, &self.request.config, answer)?;
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {

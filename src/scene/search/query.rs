@@ -1,7 +1,8 @@
 //! What a query over a scene is asked for, and what it says.
 
+use crate::base::math::Pose;
 use crate::pair::{DepthAnswer, Levels, Manifold, ManifoldPoint, PairAnswer, Refinement, Start};
-use crate::scene::object::ObjectId;
+use crate::scene::world::object::ObjectId;
 
 /// What a query over a scene is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -35,6 +36,16 @@ pub struct SceneQuery {
     /// [Contacts](crate::scene::Scene::query_contacts): pairs farther apart have no manifold, and points with a larger gap do not
     /// belong to one; from 0 to +∞. It is the distance tolerance if that is less. Default: +∞.
     pub margin: f64,
+}
+
+/// What a query is about.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(crate) enum Subject<Object, Shape> {
+    AllPairs,
+    Object(Object),
+    Placed(Shape, Pose),
+    /// What has changed since the last query of this kind; its distance is the query's tolerance.
+    Events,
 }
 
 /// What a query of contacts says of each pair beside its answer.
@@ -133,4 +144,27 @@ pub struct SceneAnswer<'a> {
     pub found: Option<&'a PairResult>,
     /// What was asked for beside the answers. Owned as `pairs` are.
     pub contacts: SceneContacts<'a>,
+}
+
+/// A pair of objects, the earlier created first.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct ObjectPair {
+    /// The earlier created object.
+    pub object1: ObjectId,
+    /// The later created object.
+    pub object2: ObjectId,
+    /// The caller's own number of object 1.
+    pub user_data1: u64,
+    /// The caller's own number of object 2.
+    pub user_data2: u64,
+}
+
+/// What has changed, in order of creation.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneEvents<'a> {
+    /// Pairs that are near and were not. Owned by the scene until its next query about events.
+    pub began: &'a [ObjectPair],
+    /// Pairs that were near and are not, those of removed objects and of deactivated pairs among them. Owned as `began` are.
+    pub ended: &'a [ObjectPair],
 }

@@ -1,0 +1,139 @@
+//! Everything that can be done to a scene and changes what its queries answer. The scene applies a change and has it written down,
+//! a recording turns it into bytes and back, a replay applies it again.
+
+use std::borrow::Cow;
+use std::fmt::Debug;
+use std::sync::Arc;
+
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::base::memory::{copied, push};
+use crate::scene::world::object::{ObjectId, ObjectOptions};
+use crate::scene::world::testing::PairFilter;
+use crate::shape::Shape;
+
+/// What stands for objects, shapes and filters.
+pub(crate) trait Names {
+    type Object: Copy + Debug;
+    type Shape: Clone + Debug;
+    type Filter: Debug;
+}
+
+/// In a scene: themselves.
+#[derive(Debug)]
+pub(crate) struct Themselves;
+
+impl Names for Themselves {
+    type Object = ObjectId;
+    type Shape = Arc<Shape>;
+    type Filter = PairFilter;
+}
+
+/// In a recording: numbers, and of filters nothing.
+#[derive(Debug)]
+pub(crate) struct Numbers;
+
+impl Names for Numbers {
+    type Object = u32;
+    type Shape = u32;
+    type Filter = ();
+}
+
+/// One change. The methods of [`Scene`](crate::scene::Scene) say what each does.
+#[derive(Debug)]
+pub(crate) enum Change<'a, N: Names> {
+    /// Adds an object, the next in order of creation.
+    Object {
+        pieces: Cow<'a, [N::Shape]>,
+        options: ObjectOptions,
+    },
+    /// As above, like another one.
+    Copy(N::Object),
+    Remove(N::Object),
+    Fixed(N::Object, bool),
+    Groups {
+        object: N::Object,
+        groups: u32,
+        mask: u32,
+    },
+    UserData(N::Object, u64),
+    Pose(N::Object, Pose),
+    Poses(Cow<'a, [N::Object]>, Cow<'a, [Pose]>),
+    AllPoses(Cow<'a, [Pose]>),
+    PiecePose {
+        object: N::Object,
+        piece: u32,
+        pose: Pose,
+    },
+    PairActive([N::Object; 2], bool),
+    ObjectActive(N::Object, bool),
+    AllActive(bool),
+    Filter(Option<N::Filter>),
+    FilterAgain,
+    Pairs(Option<Cow<'a, [[N::Object; 2]]>>),
+    Shrink,
+}
+
+/// What finds the other names of things.
+pub(crate) trait Rename<From: Names, To: Names> {
+    /// # Errors
+    /// Where it has no other name.
+    fn object(&mut self, object: From::Object) -> Result<To::Object>;
+    /// # Errors
+    /// As above.
+    fn shape(&mut self, shape: &From::Shape) -> Result<To::Shape>;
+    fn filter(&mut self, filter: &From::Filter) -> To::Filter;
+}
+
+impl<From: Names> Change<'_, From> {
+    /// The same change with the other names of all that it is about.
+    ///
+    /// # Errors
+    /// Those of `names`, and [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn renamed<To: Names>(&self, names: &mut impl Rename<From, To>) -> Result<Change<'static, To>> {
+        Ok(match self {
+            Change::Object { pieces, options } => {
+                Change::Object { pieces: all(pieces, |shape| names.shape(shape))?, options: *options }
+            }
+            Change::Copy(object) => Change::Copy(names.object(*object)?),
+            Change::Remove(object) => Change::Remove(names.object(*object)?),
+            Change::Fixed(object, fixed) => Change::Fixed(names.object(*object)?, *fixed),
+            Change::Groups { object, groups, mask } => {
+                Change::Groups { object: names.object(*object)?, groups: *groups, mask: *mask }
+            }
+            Change::UserData(object, user_data) => Change::UserData(names.object(*object)?, *user_data),
+            Change::Pose(object, pose) => Change::Pose(names.object(*object)?, *pose),
+            Change::Poses(objects, poses) => {
+                Change::Poses(all(objects, |object| names.object(*object))?, copied(poses)?.into())
+            }
+            Change::AllPoses(poses) => Change::AllPoses(copied(poses)?.into()),
+            Change::PiecePose { object, piece, pose } => {
+                Change::PiecePose { object: names.object(*object)?, piece: *piece, pose: *pose }
+            }
+            Change::PairActive(pair, active) => Change::PairActive(both(pair, names)?, *active),
+            Change::ObjectActive(object, active) => Change::ObjectActive(names.object(*object)?, *active),
+            Change::AllActive(active) => Change::AllActive(*active),
+            Change::Filter(filter) => Change::Filter(filter.as_ref().map(|filter| names.filter(filter))),
+            Change::FilterAgain => Change::FilterAgain,
+            Change::Pairs(pairs) => {
+                let renamed = pairs.as_ref().map(|pairs| all(pairs, |pair| both(pair, names)));
+                Change::Pairs(renamed.transpose()?)
+            }
+            Change::Shrink => Change::Shrink,
+        })
+    }
+}
+
+fn both<From: Names, To: Names>(
+    pair: &[From::Object; 2],
+    names: &mut impl Rename<From, To>,
+) -> Result<[To::Object; 2]> {
+    Ok([names.object(pair[0])?, names.object(pair[1])?])
+}
+
+/// Other names for all things of a list.
+fn all<A, B: Clone>(list: &[A], mut rename: impl FnMut(&A) -> Result<B>) -> Result<Cow<'static, [B]>> {
+    let mut renamed = Vec::new();
+    list.iter().try_for_each(|thing| push(&mut renamed, rename(thing)?))?;
+    Ok(renamed.into())
+}

@@ -1,0 +1,173 @@
+//! The one door of a scene: whatever changes it or asks it comes through here, is done once, and is written down if it is recorded.
+
+use std::sync::Arc;
+
+#[cfg(doc)]
+use crate::base::error::Error;
+use crate::base::error::{Result, check_range};
+use crate::base::math::ROTATION_LIMIT;
+use crate::base::simd::environment::with_default;
+use crate::base::workers::Workers;
+use crate::pair::Query;
+use crate::scene::change::{Change, Themselves};
+use crate::scene::near::broad_phase::{BroadPhase, News};
+use crate::scene::recording::Recording;
+use crate::scene::search::ask::{Ground, Search};
+use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
+use crate::scene::world::content::World;
+use crate::scene::world::object::ObjectId;
+use crate::shape::Shape;
+
+/// How a scene is made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct SceneOptions {
+    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to [`ROTATION_LIMIT`] (the default).
+    pub rotation_limit: f64,
+}
+
+impl Default for SceneOptions {
+    fn default() -> Self {
+        SceneOptions { rotation_limit: ROTATION_LIMIT }
+    }
+}
+
+/// Objects, poses and the pairs that are tested.
+///
+/// A new pair is active, a pair of two fixed objects never exists. What is said of a pair, an object or all holds for
+/// the pairs there are until something later is said that covers them; objects added later begin with all their pairs
+/// active. Deactivated pairs are not tested, and keep what they remember while they are near.
+#[derive(Debug)]
+pub struct Scene {
+    pub(super) world: World,
+    pub(super) near: BroadPhase,
+    pub(super) search: Search,
+    pub(super) recording: Recording,
+    /// Who shares in the work on poses and queries.
+    pub(super) workers: Workers,
+}
+
+impl Scene {
+    /// An empty scene.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a rotation limit that is negative, NaN or above [`ROTATION_LIMIT`].
+    pub fn new(options: &SceneOptions) -> Result<Scene> {
+        let rotation_limit = options.rotation_limit;
+        with_default(|| check_range("rotation_limit", rotation_limit, 0.0..=ROTATION_LIMIT))?;
+        Ok(Scene {
+            world: World::new(rotation_limit),
+            near: BroadPhase::default(),
+            search: Search::default(),
+            recording: Recording::Off,
+            workers: Workers::none(),
+        })
+    }
+
+    /// Does something to the scene, and writes it down if it was done; gives the object that it adds.
+    ///
+    /// # Errors
+    /// As the method of the same name; nothing has changed then.
+    #[inline]
+    pub(super) fn change(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
+        // An object that the change removes has its number until then.
+        let note = self.recording.prepare(&change, &self.world.objects);
+        let added = self.apply(change)?;
+        self.recording.note(note);
+        Ok(added)
+    }
+
+    #[inline]
+    fn apply(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
+        let Scene { world, near, search, workers, .. } = self;
+        match change {
+            Change::Object { pieces, options } => {
+                near.reserve(pieces.len())?;
+                let added = world.add(&pieces, &options)?;
+                near.grow(world.proxies.len());
+                return Ok(Some(added));
+            }
+            Change::Copy(original) => {
+                near.reserve(world.rows_of(original).len())?;
+                let added = world.copy(original)?;
+                near.grow(world.proxies.len());
+                return Ok(Some(added));
+            }
+            Change::Remove(id) => {
+                let object = world.view().get(id)?;
+                near.take_out(object.proxies(), object.fixed());
+                world.remove(id)?;
+            }
+            Change::Fixed(id, fixed) => {
+                let object = world.view().get(id)?;
+                if object.fixed() != fixed {
+                    near.take_out(object.proxies(), object.fixed());
+                    world.set_fixed(id, fixed)?;
+                }
+            }
+            Change::Groups { object, groups, mask } => world.set_groups(object, groups, mask)?,
+            Change::UserData(id, user_data) => {
+                world.set_user_data(id, user_data)?;
+                // No result with the old number is given again.
+                search.forget();
+            }
+            Change::Pose(id, pose) => world.set_pose(id, &pose)?,
+            Change::Poses(ids, poses) => world.set_poses(&ids, &poses, workers)?,
+            Change::AllPoses(poses) => world.set_all_poses(&poses, workers)?,
+            Change::PiecePose { object, piece, pose } => world.set_piece_pose(object, piece, &pose)?,
+            Change::PairActive(pair, active) => {
+                let pair = world.set_pair_active(pair, active)?;
+                near.set_active(world, pair, active);
+            }
+            Change::ObjectActive(id, active) => {
+                world.activation.set_object(&mut world.objects.get_mut(id)?.activation, active);
+                near.hear(News::Activation);
+            }
+            Change::AllActive(active) => {
+                world.activation.set_all(active);
+                near.hear(News::Activation);
+            }
+            Change::Filter(filter) => {
+                world.filter = filter;
+                near.hear(News::Filter);
+            }
+            Change::FilterAgain => near.hear(News::Filter),
+            Change::Pairs(pairs) => {
+                world.set_given(pairs.as_deref())?;
+                near.begin_anew();
+            }
+            Change::Shrink => self.shrink_all()?,
+        }
+        Ok(None)
+    }
+
+    fn shrink_all(&mut self) -> Result<()> {
+        let Scene { world, near, search, recording, workers } = self;
+        let tolerance = near.tolerance();
+        world.watch_filter(recording.is_on());
+        let updated = near.update(world, if world.keeps_list(tolerance) { tolerance } else { 0.0 }, workers);
+        recording.decisions(world.decided(), &world.objects);
+        updated?;
+        near.shrink()?;
+        search.shrink();
+        Ok(())
+    }
+
+    /// Answers a question, and writes both down.
+    ///
+    /// # Errors
+    /// See [`Scene::query_intersection`]; nothing is listed then, and nothing is counted.
+    pub(super) fn ask(
+        &mut self,
+        subject: &Subject<ObjectId, &Arc<Shape>>,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<SceneAnswer<'_>> {
+        let Scene { world, near, search, recording, workers } = self;
+        recording.question(subject, kind, query, &world.objects);
+        world.watch_filter(recording.is_on());
+        let answer = search.ask(&mut Ground { world, near, workers }, subject, kind, query);
+        recording.decisions(world.decided(), &world.objects);
+        recording.answer(answer.as_ref().ok(), &world.objects);
+        answer
+    }
+}

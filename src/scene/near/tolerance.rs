@@ -1,0 +1,38 @@
+//! How far apart near pairs may be.
+
+/// After so many queries with smaller tolerances the list's follows.
+const PATIENCE: u32 = 16;
+
+/// τ: no pair is missing in the list that is so near.
+#[derive(Debug, Default)]
+pub(crate) struct ListTolerance {
+    value: f64,
+    /// Queries in a row whose tolerance was smaller, and the largest of those.
+    smaller: u32,
+    largest: f64,
+}
+
+impl ListTolerance {
+    pub fn new(value: f64) -> ListTolerance {
+        ListTolerance { value, ..ListTolerance::default() }
+    }
+
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// Makes room for a query's; whether all boxes are to be fitted anew.
+    pub fn follow(&mut self, tolerance: f64) -> bool {
+        if tolerance >= self.value {
+            let is_larger = tolerance > self.value;
+            *self = ListTolerance::new(tolerance);
+            return is_larger;
+        }
+        let is_over = self.smaller >= PATIENCE;
+        (self.smaller, self.largest) = (self.smaller + 1, self.largest.max(tolerance));
+        if is_over {
+            *self = ListTolerance::new(self.largest);
+        }
+        is_over
+    }
+}

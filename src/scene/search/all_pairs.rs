@@ -1,0 +1,84 @@
+//! A pass over all pairs there are, where everything is near.
+
+use std::sync::Mutex;
+
+use crate::base::error::Result;
+use crate::base::locks::{locked, unlocked};
+use crate::base::memory::{collected, with_capacity};
+use crate::pair::PairCache;
+use crate::scene::near::candidates::order;
+use crate::scene::near::near_pairs::{NearPair, NearPairs};
+use crate::scene::search::findings::Findings;
+use crate::scene::search::narrow_phase::{BLOCK, Own, Pass};
+use crate::scene::world::testing::{Rules, Testing};
+
+/// As [`Pass::run`] over all pairs, a block at a time. What near pairs remember is used and kept, for others nothing is.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory).
+pub(crate) fn run_over_all(
+    pass: &Pass,
+    rules: &mut Rules,
+    near: &mut NearPairs,
+    findings: &mut Findings,
+) -> Result<bool> {
+    let proxies = pass.proxies;
+    let objects = collected(proxies.of_objects())?;
+    let mut block = Block { pairs: with_capacity(BLOCK)?, caches: with_capacity(BLOCK)?, kept: with_capacity(BLOCK)? };
+    // Both go through the pairs in the same order.
+    let mut next = 0;
+    for (k, object1) in objects.iter().enumerate() {
+        for object2 in &objects[k + 1..] {
+            for a in object1.clone() {
+                for b in object2.clone() {
+                    let labels = [&proxies.labels[a], &proxies.labels[b]];
+                    if !proxies.may_meet(a, b) || rules.testing(labels) != Testing::Active {
+                        continue;
+                    }
+                    let pair = [a as u32, b as u32];
+                    let place = order(&proxies.firsts, pair);
+                    let is_before = |known: &NearPair| order(&proxies.firsts, known.proxies) < place;
+                    while near.pairs.get(next).is_some_and(is_before) {
+                        next += 1;
+                    }
+                    let known = near.pairs.get(next).filter(|known| known.proxies == pair).map(|known| known.cache);
+                    block.add(pair, known, near);
+                    if block.pairs.len() == BLOCK && block.run(pass, near, findings)? {
+                        return Ok(true);
+                    }
+                }
+            }
+        }
+    }
+    block.run(pass, near, findings)
+}
+
+/// Pairs to be looked at together.
+struct Block {
+    pairs: Vec<NearPair>,
+    caches: Vec<Mutex<PairCache>>,
+    /// Those that near pairs have.
+    kept: Vec<Option<u32>>,
+}
+
+impl Block {
+    fn add(&mut self, pair: [u32; 2], kept: Option<u32>, near: &NearPairs) {
+        self.pairs.push(NearPair { cache: self.caches.len() as u32, ..NearPair::new(pair) });
+        let known = kept.map(|kept| *locked(&near.caches[kept as usize]));
+        self.caches.push(Mutex::new(known.unwrap_or_default()));
+        self.kept.push(kept);
+    }
+
+    fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
+        let stopped = pass.run(&mut self.pairs, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
+        for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
+            if let Some(kept) = kept {
+                *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);
+            }
+        }
+        self.pairs.clear();
+        self.caches.clear();
+        self.kept.clear();
+        Ok(stopped)
+    }
+}

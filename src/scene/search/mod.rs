@@ -1,0 +1,20 @@
+//! Queries over the near pairs: ask → look → decide → list.
+//!
+//! | verb | what | where |
+//! |---|---|---|
+//! | ask | the question is checked, and the list of near pairs brought up to date | `request.rs`, `ask.rs` |
+//! | look | what rows of numbers settle of each pair | `narrow_phase.rs` |
+//! | decide | the pair layer answers for what is left | `narrow_phase.rs`, `contacts.rs` |
+//! | list | answers are put in order, new ones between those given again | `findings.rs` |
+
+pub(crate) mod query;
+pub(crate) mod statistics;
+mod contacts;
+pub(crate) mod request;
+mod findings;
+mod narrow_phase;
+mod parts;
+mod gathering;
+mod all_pairs;
+pub(crate) mod events;
+pub(crate) mod ask;

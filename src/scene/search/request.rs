@@ -1,0 +1,87 @@
+//! What is asked of pairs: a query, checked once.
+
+use crate::base::error::{Result, check_range};
+use crate::pair::{self, PairAnswer, PairCache, PairConfig, Placed, Query};
+use crate::scene::search::contacts::Details;
+use crate::scene::search::query::SceneQuery;
+
+/// One of the pair queries of [`pair`](crate::pair).
+pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+
+/// What is asked of each pair, and of all together.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Request {
+    pub kind: Query,
+    pub config: PairConfig,
+    /// Pairs farther apart are not listed.
+    pub tolerance: f64,
+    /// Stop behind the first intersecting pair.
+    pub early_exit: bool,
+    /// What all listed pairs share, if they do.
+    pub error_budget: Option<f64>,
+    /// What is asked of listed pairs beside their answers.
+    pub details: Option<Details>,
+}
+
+impl Request {
+    /// # Errors
+    /// [`Error::Argument`](crate::base::error::Error::Argument) for a member of the query that is out of range.
+    pub fn new(kind: Query, query: &SceneQuery) -> Result<Request> {
+        check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
+        pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
+        check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;
+        // A verdict is asked for whatever the distance, and lists what intersects.
+        let (reach, tolerance) = match kind {
+            Query::Intersection => (f64::INFINITY, 0.0),
+            Query::Distance | Query::Contact | Query::Approximate => {
+                (query.distance_tolerance, query.distance_tolerance)
+            }
+        };
+        let config = PairConfig {
+            distance_tolerance: reach,
+            absolute_error: query.absolute_error,
+            relative_error: query.relative_error,
+            step_budget: query.step_budget,
+            levels: query.levels,
+            refinement: query.refinement,
+            start: query.start,
+            ..PairConfig::default()
+        };
+        let is_shared = kind == Query::Approximate && query.error_budget < f64::INFINITY;
+        Ok(Request {
+            kind,
+            config,
+            tolerance,
+            early_exit: query.early_exit,
+            error_budget: is_shared.then_some(query.error_budget),
+            details: if kind == Query::Contact { Details::new(query)? } else { None },
+        })
+    }
+
+    /// The same with another error of each pair.
+    pub fn with_error(&self, absolute_error: f64, relative_error: f64) -> Request {
+        Request { config: PairConfig { absolute_error, relative_error, ..self.config }, ..*self }
+    }
+
+    /// Whether pairs are asked the same.
+    pub fn is_same(&self, other: &Request) -> bool {
+        (self.kind, self.config, self.details) == (other.kind, other.config, other.details)
+    }
+
+    /// Whether the verdict alone is asked for, and only intersecting pairs are listed.
+    pub fn is_verdict(&self) -> bool {
+        self.kind == Query::Intersection
+    }
+
+    /// Who answers for one pair.
+    pub fn solver(&self) -> Solver {
+        match self.kind {
+            Query::Intersection => pair::intersection,
+            Query::Distance => pair::distance,
+            // The depth says the rest.
+            Query::Contact if self.details.is_some() => pair::distance,
+            Query::Contact => pair::contact,
+            Query::Approximate => pair::approximate,
+        }
+    }
+}

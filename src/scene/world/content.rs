@@ -1,0 +1,218 @@
+//! All that a scene holds, and its objects coming and going.
+
+use std::ops::Range;
+use std::sync::Arc;
+
+use crate::base::error::{Error, Result};
+use crate::base::memory::copied;
+use crate::base::simd::environment::with_default;
+use crate::scene::world::activation::Activation;
+use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::world::object_view::Objects;
+use crate::scene::world::proxies::{NewProxy, Proxies};
+use crate::scene::world::rows::Label;
+use crate::scene::world::testing::{Decided, PairFilter, Rules};
+use crate::shape::Shape;
+
+/// Without a tolerance all pairs are near: so many are kept with what they remember, of more none is.
+const MOST_KEPT: usize = 1 << 14;
+
+/// Objects, where they are, and what was said on the testing of their pairs.
+#[derive(Debug)]
+pub(crate) struct World {
+    pub objects: ObjectTable,
+    pub proxies: Proxies,
+    pub activation: Activation,
+    pub filter: Option<PairFilter>,
+    /// The pairs of a program with a broad phase of its own; where there are none, the scene's own finds what is near.
+    pub given: Option<Vec<[ObjectId; 2]>>,
+    /// Largest accepted |RᵀR − I| entry of a pose.
+    pub rotation_limit: f64,
+    /// How many times queries have looked at pairs: what moves is stamped with it.
+    pub passes: u64,
+}
+
+impl World {
+    pub fn new(rotation_limit: f64) -> World {
+        World {
+            objects: ObjectTable::new(),
+            proxies: Proxies::default(),
+            activation: Activation::default(),
+            filter: None,
+            given: None,
+            rotation_limit,
+            passes: 0,
+        }
+    }
+
+    /// The objects, for reading.
+    pub fn view(&self) -> Objects<'_> {
+        Objects { table: &self.objects, proxies: &self.proxies }
+    }
+
+    /// The pieces, what says which pairs of them are tested, and which pairs the program gives.
+    pub fn parts(&mut self) -> (&mut Proxies, Rules<'_>, Option<&[[ObjectId; 2]]>) {
+        let World { objects, proxies, activation, filter, given, .. } = self;
+        (proxies, Rules { objects, activation, filter: filter.as_mut() }, given.as_deref())
+    }
+
+    /// Adds an object, all of whose pairs are active.
+    ///
+    /// # Errors
+    /// See [`Scene::add_object`](crate::scene::Scene::add_object).
+    pub fn add(&mut self, pieces: &[Arc<Shape>], options: &ObjectOptions) -> Result<ObjectId> {
+        with_default(|| options.pose.check(self.rotation_limit))?;
+        self.proxies.reserve(pieces.len())?;
+        let first = self.proxies.len();
+        let id = self.objects.insert(first..first + pieces.len())?;
+        self.activation.set_object(&mut self.objects.get_mut(id)?.activation, true);
+        for (piece, shape) in (0..).zip(pieces) {
+            let ObjectOptions { user_data, fixed, groups, mask, .. } = *options;
+            let label = Label { object: id, user_data, piece, fixed, groups, mask };
+            self.proxies.push(NewProxy { shape: shape.clone(), pose: options.pose, label });
+        }
+        Ok(id)
+    }
+
+    /// Adds an object that is like another one.
+    ///
+    /// # Errors
+    /// See [`Scene::copy_object`](crate::scene::Scene::copy_object).
+    pub fn copy(&mut self, id: ObjectId) -> Result<ObjectId> {
+        let original = self.view().get(id)?;
+        let (options, piece_poses) = (original.options(), copied(original.piece_poses())?);
+        let pieces = copied(original.pieces())?;
+        let copy = self.add(&pieces, &options)?;
+        self.put_pieces(copy, piece_poses)?;
+        Ok(copy)
+    }
+
+    /// Removes an object.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    pub fn remove(&mut self, id: ObjectId) -> Result<()> {
+        for proxy in self.objects.get(id)?.proxies() {
+            self.proxies.end(proxy);
+        }
+        self.objects.remove(id)
+    }
+
+    /// Fixes an object or lets it move.
+    ///
+    /// # Errors
+    /// As [`World::remove`].
+    pub fn set_fixed(&mut self, id: ObjectId, fixed: bool) -> Result<()> {
+        for proxy in self.objects.get(id)?.proxies() {
+            self.proxies.labels[proxy].fixed = fixed;
+            self.proxies.look_for_pairs_of(proxy);
+        }
+        Ok(())
+    }
+
+    /// Sets the filter bits of an object.
+    ///
+    /// # Errors
+    /// As [`World::remove`].
+    pub fn set_groups(&mut self, id: ObjectId, groups: u32, mask: u32) -> Result<()> {
+        for proxy in self.objects.get(id)?.proxies() {
+            let label = &mut self.proxies.labels[proxy];
+            if (label.groups, label.mask) != (groups, mask) {
+                (label.groups, label.mask) = (groups, mask);
+                self.proxies.look_for_pairs_of(proxy);
+            }
+        }
+        Ok(())
+    }
+
+    /// Sets the caller's number of an object.
+    ///
+    /// # Errors
+    /// As [`World::remove`].
+    pub fn set_user_data(&mut self, id: ObjectId, user_data: u64) -> Result<()> {
+        for proxy in self.objects.get(id)?.proxies() {
+            self.proxies.labels[proxy].user_data = user_data;
+        }
+        Ok(())
+    }
+
+    /// Two different objects, the earlier created first.
+    ///
+    /// # Errors
+    /// As [`World::remove`], and [`Error::Argument`] for one object twice.
+    pub fn ordered_pair(&self, [id1, id2]: [ObjectId; 2]) -> Result<[ObjectId; 2]> {
+        let [first1, first2] = [self.objects.get(id1)?.first_proxy, self.objects.get(id2)?.first_proxy];
+        match first1.cmp(&first2) {
+            std::cmp::Ordering::Less => Ok([id1, id2]),
+            std::cmp::Ordering::Equal => {
+                Err(Error::Argument(format!("object {id1} is given twice: an object makes no pair with itself")))
+            }
+            std::cmp::Ordering::Greater => Ok([id2, id1]),
+        }
+    }
+
+    /// Whether a pair is tested when it is near, whatever the filter says.
+    ///
+    /// # Errors
+    /// As [`World::ordered_pair`].
+    pub fn is_pair_active(&self, ids: [ObjectId; 2]) -> Result<bool> {
+        let pair = self.ordered_pair(ids)?;
+        let [object1, object2] = [self.objects.get(pair[0])?, self.objects.get(pair[1])?];
+        Ok(self.proxies.may_meet(object1.first_proxy as usize, object2.first_proxy as usize)
+            && self.activation.is_active(pair, [object1.activation, object2.activation]))
+    }
+
+    /// Says of a pair whether it is active; gives the earlier created object first.
+    ///
+    /// # Errors
+    /// As [`World::ordered_pair`], and [`Error::Memory`].
+    pub fn set_pair_active(&mut self, ids: [ObjectId; 2], active: bool) -> Result<[ObjectId; 2]> {
+        let pair = self.ordered_pair(ids)?;
+        let objects = &self.objects;
+        self.activation.set_pair(pair, active, |id| objects.get(id).is_ok())?;
+        Ok(pair)
+    }
+
+    /// Whether the filter, if there is one, remembers what it decides …
+    pub fn watch_filter(&mut self, watched: bool) {
+        if let Some(filter) = &mut self.filter {
+            filter.watch(watched);
+        }
+    }
+
+    /// … and what it has decided since; an error if not all is known.
+    pub fn decided(&mut self) -> Result<Vec<Decided>> {
+        self.filter.as_mut().map_or(Ok(Vec::new()), PairFilter::decided)
+    }
+
+    /// Takes the pairs that a program gives, or none.
+    ///
+    /// # Errors
+    /// See [`Scene::set_pairs`](crate::scene::Scene::set_pairs).
+    pub fn set_given(&mut self, pairs: Option<&[[ObjectId; 2]]>) -> Result<()> {
+        for (k, ids) in pairs.unwrap_or_default().iter().enumerate() {
+            self.ordered_pair(*ids).map_err(|error| match error {
+                Error::Handle(message) => Error::Handle(format!("pair {k}: {message}")),
+                other => Error::Argument(format!("pair {k}: {}", other.message())),
+            })?;
+        }
+        self.given = pairs.map(copied).transpose()?;
+        Ok(())
+    }
+
+    /// The rows of an object; of one that is gone there are none.
+    pub fn rows_of(&self, id: ObjectId) -> Range<usize> {
+        self.objects.rows_of(id)
+    }
+
+    /// Whether all that a query with this tolerance may list is kept in a list.
+    pub fn keeps_list(&self, tolerance: f64) -> bool {
+        tolerance < f64::INFINITY || self.is_small() || self.given.is_some()
+    }
+
+    /// Whether all pairs may be kept.
+    pub fn is_small(&self) -> bool {
+        let count = self.proxies.len() - self.proxies.gone;
+        count * count.saturating_sub(1) / 2 <= MOST_KEPT
+    }
+}

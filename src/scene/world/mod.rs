@@ -1,0 +1,11 @@
+//! What a scene holds: objects, their pieces, where these are and how far they have moved, and which pairs are tested.
+
+pub mod object;
+pub(crate) mod activation;
+pub(crate) mod boxes;
+pub(crate) mod rows;
+pub(crate) mod proxies;
+pub(crate) mod object_view;
+pub(crate) mod testing;
+pub(crate) mod content;
+mod poses;
