@@ -28,7 +28,7 @@ bool text_is_regular(const char *path);
  * false; there is nothing to close then. */
 bool text_open(const char *path, struct text_file *file);
 
-/* The next line that is not blank, false when there is none. */
+/* The next line that is not blank, false at the end. */
 bool text_next(struct text_file *file, struct text_line *line);
 
 void text_close(struct text_file *file);
