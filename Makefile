@@ -1,4 +1,5 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
+# make check                  the daily loop, minutes of it: unit tests, C tests and lint
 # make test                   everything that is tested: lint, test-rust, test-c and test-fuzz, side by side
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
@@ -42,7 +43,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths steps charts cases hard clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -51,6 +52,17 @@ build:
 
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
+
+# The library is made once, in the profile that all tests of Rust share. What takes long is left to `make test`: valgrind, programs
+# that are installed, other libraries, further compilers.
+check:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	@scripts/rust.sh cargo-fmt cargo-clippy
+	cargo test --locked --profile checked --lib
+	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
+	+cmake --build $(BUILD)/check
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
 test:

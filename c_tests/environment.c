@@ -47,7 +47,7 @@ static const environment ENVIRONMENTS[] = {
 /* DAZ and FTZ. */
 enum { FLUSH = 0x8040, FLAGS = 0x3f };
 
-/* What is set, but for the flags of exceptions. */
+/* What is set, without the flags of exceptions. */
 static unsigned long control(void)
 {
     return _mm_getcsr() & ~(unsigned)FLAGS;

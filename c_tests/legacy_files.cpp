@@ -4,6 +4,9 @@
  */
 #include "legacy_test.h"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 namespace {
 
 void two_files(const Folder& folder)
@@ -212,6 +215,28 @@ void damaged(const Folder& folder)
     CHECK(scene.Add_Object(folder.write("good", tri).c_str(), id) && id == 0);
 }
 
+/*
+ * Cause: a file was opened as a stream whatever it is. Cut-off: opening a FIFO that nobody writes to waits for ever, and reading a device
+ * never ends. Repro: Add_Object with the name of a FIFO. The alarm ends a program that waits.
+ */
+void no_regular_files(const Folder& folder)
+{
+    const char* const names[] = {"fifo", "", "/dev/zero"};
+    SWIFT_Scene scene(false, true);
+    Messages messages;
+    int id = 77;
+    CHECK(mkfifo(folder.path(names[0]).c_str(), 0600) == 0);
+    alarm(10);
+    for (int i = 0; i < 3; ++i) {
+        const std::string file = i < 2 ? folder.path(names[i]) : names[i];
+        CHECK(!scene.Add_Object(file.c_str(), id) && id == 77);
+        const std::string said = messages.take();
+        CHECK(said.find("only regular files are read, not a pipe, a device or a folder \"" + file + "\"") != std::string::npos);
+    }
+    alarm(0);
+    CHECK(std::remove(folder.path(names[0]).c_str()) == 0);
+}
+
 } // namespace
 
 int main(int argc, char** argv)
@@ -221,5 +246,6 @@ int main(int argc, char** argv)
     own_readers(folder);
     formats(folder);
     damaged(folder);
+    no_regular_files(folder);
     return check_report("legacy_files");
 }

@@ -77,6 +77,11 @@ void intervals()
     for (int k = 0; k < 6; ++k) {
         CHECK(distances[k] <= truth[k] && truth[k] <= static_cast<double>(distances[k]) + errors[k] && errors[k] <= error);
     }
+    /* The errors are what the intervals are wide, and no more: ten times as much would still be below what was asked for. */
+    for (int k = 1; k < 6; ++k) {
+        const double width = scene.Get_Answer(k)->upper - distances[k];
+        CHECK(errors[k] >= width && errors[k] <= width * (1 + 1e-6));
+    }
     scene.Query_Approximate_Distance(false, SWIFT_INFINITY, 0, error, pairs, &ids, &distances);
     for (int k = 1; k < 6; ++k) {
         CHECK(std::fabs(distances[k] - truth[k]) <= error * truth[k]);
@@ -104,6 +109,21 @@ void intervals()
     CHECK(is_valid == 1);
     CHECK_OK(swiftprox_scene_is_object_valid(scene.Get_Native_Scene(), scene.Get_Native_Object(4), &is_valid));
     CHECK(is_valid == 0);
+}
+
+/* Of a pair the lower id comes first, and what is said of it. It may be that of the object created later, which has taken over an id. */
+void an_id_used_again()
+{
+    SWIFT_Scene scene(false);
+    const BoxMesh large(1, 1, 1), small(0.5, 0.5, 0.5);
+    int id, pairs, *ids, *types, *features;
+    SWIFT_Real *distances, *points, *normals;
+    CHECK(large.add(scene, id) && small.add(scene, id) && scene.Delete_Object(0) && large.add(scene, id) && id == 0);
+    move_to(scene, 0, 10, 0, 0);
+    move_to(scene, 1, 13, 0, 0);
+    CHECK(!scene.Query_Contact_Determination(false, 2, pairs, &ids, &distances, &points, &normals, &types, &features) && pairs == 1);
+    CHECK(ids[0] == 0 && ids[1] == 1 && is_near(distances[0], 1.5));
+    CHECK(is_near3(normals, -1, 0, 0) && is_near(points[0], 1) && is_near(points[3], -0.5));
 }
 
 void arrays()
@@ -185,6 +205,7 @@ int main()
 {
     tolerances();
     intervals();
+    an_id_used_again();
     arrays();
     boxes();
     return check_report("legacy_queries");

@@ -132,12 +132,13 @@ class Folder {
 public:
     Folder(int argc, char** argv) : path_(argc > 1 ? argv[1] : ".") {}
 
+    std::string path(const std::string& name) const { return path_ + "/" + name; }
+
     std::string write(const std::string& name, const std::string& content) const
     {
-        const std::string path = path_ + "/" + name;
-        std::ofstream stream(path.c_str(), std::ios::out | std::ios::binary);
+        std::ofstream stream(path(name).c_str(), std::ios::out | std::ios::binary);
         stream << content;
-        return path;
+        return path(name);
     }
 
 private:

@@ -152,7 +152,7 @@ static int32_t compare_data(void *user, const char *data, size_t size, swiftprox
     return 1;
 }
 
-/* The whole file, with white space before the magic and the magic itself, but for a byte order mark. */
+/* The whole file, with white space before the magic and the magic itself, without a byte order mark. */
 static void data(void)
 {
     static char content[] = " \t\r\n\f\vWHOLE 1\nend\n";

@@ -242,7 +242,7 @@ static void bad_arguments(const char *folder)
     swiftprox_replay_step_info step = {.struct_size = sizeof step};
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    CHECK_OK(swiftprox_scene_record(scene, NULL)); /* there is none */
+    CHECK_OK(swiftprox_scene_record(scene, NULL)); /* nothing to end */
     CHECK(swiftprox_scene_record(NULL, path) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_scene_record(scene, folder) == SWIFTPROX_ERROR_FILE);
     CHECK(swiftprox_scene_record(scene, "/nowhere/at/all") == SWIFTPROX_ERROR_FILE);

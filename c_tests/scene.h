@@ -29,7 +29,7 @@ struct scene {
     double (*poses)[24]; /* [R|T] of the first body, then of the second */
 };
 
-/* Zeroed memory for free(); ends the program when there is none. */
+/* Zeroed memory for free(); ends the program where memory is lacking. */
 void *scene_allocate(size_t count, size_t size);
 
 /* How many scenes there are. */

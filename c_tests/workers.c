@@ -103,7 +103,7 @@ static swiftprox_scene_answer ask(swiftprox_scene *scene)
     return answer;
 }
 
-/* Two scenes say the same, but for the ids. */
+/* Two scenes say the same, apart from the ids. */
 static void compare(swiftprox_scene *scene, swiftprox_scene *single)
 {
     const swiftprox_scene_answer answer = ask(scene), expected = ask(single);

@@ -1,8 +1,6 @@
 /* A crowd: 2,000 bodies walk about a square, and two that begin to touch turn away from each other. Who begins and who ends
  * touching in a step is asked of the scene: nobody goes through lists of pairs.
  *
- *   crowd [--svg FILE]
- *
  * Prints the events of each step; the picture shows the last one from above, those in colour that touch somebody. */
 #include <math.h>
 #include <stdio.h>
@@ -10,6 +8,18 @@
 #include <string.h>
 
 #include <swiftprox.h>
+
+#include "program.h"
+
+static const struct program PROGRAM = {
+    "crowd",
+    "usage: crowd [--svg FILE]\n",
+    "\n"
+    "Lets 2,000 bodies walk about a square, and prints who begins and who ends touching in each step.\n"
+    "\n"
+    "  --svg FILE         a picture of the last step, from above\n"
+    "  --help, --version  print this text, the version\n",
+};
 
 enum { BODIES = 2000, STEPS = 60, KINDS = 4 };
 
@@ -169,6 +179,13 @@ static int write_picture(const char *path, const struct body *bodies)
 int main(int argc, char **argv)
 {
     static struct body bodies[BODIES];
+    const char *svg = NULL;
+    struct program_option options[] = {{.name = "--svg", .kind = OPTION_OUTPUT, .value = &svg}};
+    struct command_line line = {.program = &PROGRAM, .options = options, .option_count = 1};
+    int status;
+    if (!command_line_read(&line, argc, argv, &status)) {
+        return status;
+    }
     swiftprox_scene *const scene = build(bodies);
     long touching = 0;
     for (int step = 0; step < STEPS; step++) {
@@ -181,9 +198,9 @@ int main(int argc, char **argv)
     printf("%ld pairs touch in the end\n", touching);
     const int right = answer.count == (size_t)touching;
     demand(swiftprox_scene_destroy(scene));
-    if (argc > 2 && strcmp(argv[1], "--svg") == 0 && !write_picture(argv[2], bodies)) {
-        fprintf(stderr, "crowd: %s cannot be written\n", argv[2]);
-        return EXIT_FAILURE;
+    if (svg && !write_picture(svg, bodies)) {
+        fprintf(stderr, "crowd: %s cannot be written\n", svg);
+        return FAILED;
     }
-    return right ? EXIT_SUCCESS : EXIT_FAILURE;
+    return program_end(&PROGRAM, right ? GOOD : FAILED);
 }

@@ -1,11 +1,8 @@
 /* Flies one polyhedron around another, as in the benchmark of the SWIFT paper (Ehmann and Lin, "Accelerated Proximity Queries
  * between Convex Polyhedra by Multi-Level Voronoi Marching", 2000): an elliptic orbit, and a spin of its own.
- *
- *   demo [--orbit F] [--svg FILE] [MODEL [MODEL]]
- *
- * The second model (or a copy of the first) flies around the first one; without models, the shipped samples fly. F is the
- * smallest distance between the two centres as a multiple of the sum of the two radii. Of a model that is not convex the convex
- * hull flies. */
+
+ * The second model (or a copy of the first) flies around the first one; without models, the shipped samples fly. Of a model that
+ * is not convex the convex hull flies. */
 #include <errno.h>
 #include <math.h>
 #include <stdbool.h>
@@ -17,6 +14,7 @@
 #include <swiftprox.h>
 
 #include "demo_chart.h"
+#include "program.h"
 
 /* The folder of the shipped samples; the build sets it. */
 #ifndef DEMO_MODELS
@@ -215,38 +213,40 @@ struct arguments {
     double orbit;
 };
 
-static const char *const USAGE =
-    "usage: demo [--orbit F] [--svg FILE] [MODEL [MODEL]]\n"
-    "The second model (or a copy of the first) flies around the first one; without models, samples fly.\n"
-    "F (0.8): the smallest distance of the two centres as a multiple of the sum of the two radii.\n"
-    "FILE (demo.svg): where the chart of distances over time goes.\n";
+static const struct program PROGRAM = {
+    "demo",
+    "usage: demo [--orbit F] [--svg FILE] [MODEL [MODEL]]\n",
+    "\n"
+    "The second model (or a copy of the first) flies around the first one; without models, samples fly. Of a model that is not\n"
+    "convex its hull flies.\n"
+    "\n"
+    "  --orbit F          the smallest distance of the two centres, from above 0 to 1e6 (default: 0.8), as a multiple of the\n"
+    "                     sum of the two radii\n"
+    "  --svg FILE         where the chart of distances over time goes (default: demo.svg)\n"
+    "  --help, --version  print this text, the version\n",
+};
 
-static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
+/* False if the program is to end with `*status`. */
+static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
     *arguments = (struct arguments){.svg = "demo.svg", .orbit = 0.8};
-    int models = 0;
-    for (int i = 1; i < argc; i++) {
-        const bool has_value = i + 1 < argc;
-        if (strcmp(argv[i], "--svg") == 0 && has_value) {
-            arguments->svg = argv[++i];
-        } else if (strcmp(argv[i], "--orbit") == 0 && has_value) {
-            char *end;
-            arguments->orbit = strtod(argv[++i], &end);
-            if (*end || !(arguments->orbit > 0.0 && arguments->orbit < 1e6)) {
-                fprintf(stderr, "demo: --orbit wants a positive number, not %s\n", argv[i]);
-                return false;
-            }
-        } else if (argv[i][0] != '-' && models < 2) {
-            arguments->models[models++] = argv[i];
-        } else if (strcmp(argv[i], "--help") == 0) {
-            fputs(USAGE, stdout);
-            exit(EXIT_SUCCESS);
-        } else {
-            fputs(USAGE, stderr);
-            return false;
-        }
+    struct program_option options[] = {
+        {.name = "--orbit", .kind = OPTION_AMOUNT, .value = &arguments->orbit},
+        {.name = "--svg", .kind = OPTION_OUTPUT, .value = &arguments->svg},
+    };
+    struct command_line line = {.program = &PROGRAM,
+                                .options = options,
+                                .option_count = sizeof options / sizeof *options,
+                                .operands = arguments->models,
+                                .most_operands = 2};
+    if (!command_line_read(&line, argc, argv, status)) {
+        return false;
     }
-    if (models == 1) {
+    if (!(arguments->orbit > 0.0 && arguments->orbit < 1e6)) {
+        *status = program_refuse(&PROGRAM, "--orbit wants a number above 0 and below 1e6");
+        return false;
+    }
+    if (line.operand_count == 1) {
         arguments->models[1] = arguments->models[0];
     }
     return true;
@@ -327,14 +327,15 @@ int main(int argc, char **argv)
         {DEMO_MODELS "/ellipsoid.off", DEMO_MODELS "/sphere.stl"},
     };
     struct arguments arguments;
-    if (!parse_arguments(argc, argv, &arguments)) {
-        return EXIT_FAILURE;
+    int status;
+    if (!read_arguments(argc, argv, &arguments, &status)) {
+        return status;
     }
     const int count = arguments.models[0] ? 1 : FLIGHTS;
     struct flight *flights = calloc((size_t)count, sizeof *flights);
     if (!flights) {
         fputs("demo: no memory\n", stderr);
-        return EXIT_FAILURE;
+        return FAILED;
     }
     for (int i = 0; i < count; i++) {
         for (int k = 0; k < 2; k++) {
@@ -347,5 +348,5 @@ int main(int argc, char **argv)
         swiftprox_shape_release(flights[i].shapes[1]);
     }
     free(flights);
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    return program_end(&PROGRAM, good ? GOOD : FAILED);
 }

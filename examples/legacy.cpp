@@ -2,9 +2,18 @@
 #include <SWIFT.h>
 
 #include <cstdio>
+#include <string>
 
-int main()
+int main(int argc, char** argv)
 {
+    if (argc > 1 && std::string(argv[1]) == "--help") {
+        std::printf("usage: legacy\n");
+        return 0;
+    }
+    if (argc > 1) {
+        std::fprintf(stderr, "legacy: takes no argument: %s\nusage: legacy\n", argv[1]);
+        return 2;
+    }
     SWIFT_Real corners[] = {-1, -1, -1, 1, -1, -1, -1, 1, -1, 1, 1, -1, -1, -1, 1, 1, -1, 1, -1, 1, 1, 1, 1, 1};
     int sides[] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
     int corners_of_sides[] = {4, 4, 4, 4, 4, 4};

@@ -1,10 +1,20 @@
-/* A scene: a prism falls past a ball onto a box that stands still, and each step lists the pairs that are near each other.
- *
- *   scene [FOLDER OF THE SHIPPED MODELS] */
+/* A scene: a prism falls past a ball onto a box that stands still, and each step lists the pairs that are near each other. */
 #include <stdio.h>
 #include <stdlib.h>
 
 #include <swiftprox.h>
+
+#include "program.h"
+
+static const struct program PROGRAM = {
+    "scene",
+    "usage: scene [FOLDER]\n",
+    "\n"
+    "Lets a prism fall past a ball onto a box, and prints which of them are near each other in each step.\n"
+    "\n"
+    "  FOLDER             where the shipped models are (default: examples/models)\n"
+    "  --help, --version  print this text, the version\n",
+};
 
 enum { STEPS = 5 };
 
@@ -46,7 +56,12 @@ static void print_pair(const swiftprox_pair_result *pair)
 
 int main(int argc, char **argv)
 {
-    const char *const folder = argc > 1 ? argv[1] : "examples/models";
+    const char *folder = "examples/models";
+    struct command_line line = {.program = &PROGRAM, .operands = &folder, .most_operands = 1};
+    int status;
+    if (!command_line_read(&line, argc, argv, &status)) {
+        return status;
+    }
     swiftprox_scene *scene;
     demand(swiftprox_scene_create(NULL, &scene));
     add(scene, folder, "box.off", 0, 1);
@@ -73,5 +88,5 @@ int main(int argc, char **argv)
         }
     }
     demand(swiftprox_scene_destroy(scene));
-    return EXIT_SUCCESS;
+    return program_end(&PROGRAM, GOOD);
 }

@@ -1967,8 +1967,9 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
  *
  * SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. The answer is there all the same;
  * on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
- * query is out of range, as the last of a recording that is cut off may be.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
+ * query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
+ * query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
+ * removed. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,

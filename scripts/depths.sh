@@ -1,16 +1,14 @@
 #!/bin/sh
 # Times depths beside the peers, and asks all of them about the hard cases: TIMES.csv and FAILURES.csv. Peers that are not installed
-# are left out; coal and MuJoCo come from PyPI into an environment in build/.
+# are left out.
 #
 #   depths.sh TIMES.csv FAILURES.csv
 #
 # TIMED is a command that the timed program is run by.
 set -e
 cd "${0%/*}/.."
-if [ ! -x build/peers/bin/python ]; then
-    { python3 -m venv build/peers && build/peers/bin/pip install -q coal==3.0.3 mujoco==4.0.0; } || rm -rf build/peers
-fi
-if [ -x build/peers/bin/python ]; then export PEERS_PYTHON="$PWD/build/peers/bin/python"; fi
+. scripts/peers.sh
+if [ -n "$PEERS_PYTHON" ]; then export PEERS_PYTHON; else unset PEERS_PYTHON; fi
 cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 compare="${CARGO_TARGET_DIR:-benches/compare/target}/release/compare"
 $TIMED "$compare" --query depth --n 102,1002,10002 --models fat,plate --orbits deep --steps 0.1,1,10,random \

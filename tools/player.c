@@ -7,23 +7,26 @@
 
 #include "program.h"
 #include "progress.h"
+#include "text.h"
 
 int player_failed(void)
 {
-    fprintf(stderr, "swiftprox-replay: %s\n", swiftprox_library_last_error_message());
+    fputs("swiftprox-replay: ", stderr);
+    program_print_library_message();
     return FAILED;
 }
 
 static int status_of(swiftprox_status status)
 {
-    return status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH || status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
+    return status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH || status == SWIFTPROX_ERROR_POSE ? BAD_INPUT : FAILED;
 }
 
 /* A call about a line of text that failed. */
 static int failed_in_line(const struct player *player, size_t line, swiftprox_status status)
 {
     fflush(stdout);
-    fprintf(stderr, "%s:%zu: %s\n", player->options->path, line, swiftprox_library_last_error_message());
+    fprintf(stderr, "%s:%zu: ", player->options->path, line);
+    program_print_library_message();
     return status_of(status);
 }
 
@@ -31,18 +34,20 @@ static int failed_in_line(const struct player *player, size_t line, swiftprox_st
 static int failed_in_step(const struct player *player, size_t step, swiftprox_status status)
 {
     fflush(stdout);
-    fprintf(stderr, "%s: step %zu: %s\n", player->options->path, step, swiftprox_library_last_error_message());
+    const bool is_named = strstr(swiftprox_library_last_error_message(), player->options->path) != NULL;
+    fprintf(stderr, "%s%sstep %zu: ", is_named ? "" : player->options->path, is_named ? "" : ": ", step);
+    program_print_library_message();
     return status_of(status);
 }
 
 /* ---- the file ---- */
 
-/* Whether a file begins as recordings do. */
-static bool looks_recorded(const char *path)
+bool player_finds_recording(const char *path)
 {
     static const char HEAD[8] = {'S', 'W', 'F', 'T', 'R', 'E', 'C', '\x1a'};
     char head[sizeof HEAD] = {0};
-    FILE *const file = strcmp(path, "-") == 0 ? NULL : fopen(path, "rb");
+    /* What is read from a pipe would be missing later. */
+    FILE *const file = text_is_regular(path) ? fopen(path, "rb") : NULL;
     if (!file) {
         return false;
     }
@@ -73,7 +78,7 @@ static int load_shapes(struct player *player)
 
 int player_open(struct player *player, const struct player_options *options)
 {
-    *player = (struct player){.options = options, .is_recording = looks_recorded(options->path)};
+    *player = (struct player){.options = options, .is_recording = player_finds_recording(options->path)};
     swiftprox_scene_query_init(&player->query);
     player->query.distance_tolerance = options->tolerance;
     player->query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
@@ -81,7 +86,7 @@ int player_open(struct player *player, const struct player_options *options)
         return GOOD;
     }
     if (!scene_file_read(options->path, &player->file)) {
-        return BAD_FILE;
+        return BAD_INPUT;
     }
     player->shapes = calloc(player->file.shape_count + 1, sizeof *player->shapes);
     player->ids = calloc(player->file.object_count + 1, sizeof *player->ids);
@@ -135,7 +140,7 @@ int player_begin(struct player *player)
     player->scene = swiftprox_replay_scene(player->replay);
     if (status != SWIFTPROX_OK) {
         player_failed();
-        return status == SWIFTPROX_ERROR_FILE ? BAD_FILE : FAILED;
+        return status == SWIFTPROX_ERROR_FILE ? BAD_INPUT : FAILED;
     }
     return GOOD;
 }

@@ -42,6 +42,9 @@ struct player {
 /* What stands between two steps. */
 enum next_step { STEP, NO_QUERY, NO_MORE, BAD_STEP };
 
+/* Whether a file begins as recordings do. */
+bool player_finds_recording(const char *path);
+
 /* Reads the file, or of a recording its beginning. On failure it prints a message and returns another status than GOOD; call
  * player_free in either case. */
 int player_open(struct player *player, const struct player_options *options);

@@ -1,6 +1,5 @@
 /* swiftprox-query: two meshes and a file of poses in, one certified answer a line out. It is a user of the C interface like
  * any other, and knows nothing that its headers do not say. */
-#include <errno.h>
 #include <fenv.h>
 #include <math.h>
 #include <stdbool.h>
@@ -11,6 +10,7 @@
 #include <swiftprox.h>
 #include <swiftprox_tuning.h>
 
+#include "input.h"
 #include "poses.h"
 #include "program.h"
 #include "progress.h"
@@ -35,7 +35,7 @@ static const char HELP[] =
     "                        no witness points\n"
     "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
     "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
-    "                        as possible)\n"
+    "                        as possible); queries contact, approximate and depth\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
     "                        that they may answer (the default)\n"
     "  --levels none         no levels of detail\n"
@@ -47,6 +47,7 @@ static const char HELP[] =
     "  --start cache         start at the features of the last query, however far the objects moved\n"
     "  --start table         always start where the look-up tables say (a model of few vertices has none)\n"
     "  --start cold          always start afresh, without tables\n"
+    "                        (--levels and --start: not for the query depth)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
@@ -74,7 +75,8 @@ static const char HELP[] =
     "\n"
     "On a terminal the standard error shows a bar while models are built or queries answered for long.\n"
     "\n"
-    "Exit status: 0, or 2 when a mesh or pose file is bad (the message names the line), or 1 for anything else.\n";
+    "Exit status: 0, or 2 when the command line, a mesh or the pose file is bad (the message names the line), or 1 for\n"
+    "anything else.\n";
 
 static const struct program PROGRAM = {"swiftprox-query", USAGE, HELP};
 
@@ -95,122 +97,65 @@ struct arguments {
     size_t passes; /* 0: answers, not times */
 };
 
-static bool wrong_usage(const char *problem, const char *what)
+/* Whether each option has a meaning for the query; false after a message. */
+static bool fits_the_query(const struct command_line *line, pair_query *query)
 {
-    fprintf(stderr, "swiftprox-query: %s%s\n%sswiftprox-query --help tells more\n", problem, what, USAGE);
-    return false;
-}
-
-/* The position of `word` in `choices`, or -1. */
-static int choose(const char *word, const char *const choices[], int count)
-{
-    for (int i = 0; i < count; i++) {
-        if (strcmp(word, choices[i]) == 0) {
-            return i;
+    const char *const of_depth[] = {"--levels", "--start"};
+    if (command_line_has(line, "--error") && (query == swiftprox_pair_distance || query == swiftprox_pair_intersection)) {
+        program_refuse(&PROGRAM, "--error has no meaning for --query %s, which is as narrow as can be",
+                       query == swiftprox_pair_distance ? "distance" : "intersection");
+        return false;
+    }
+    for (int i = 0; i < 2; i++) {
+        if (!query && command_line_has(line, of_depth[i])) {
+            program_refuse(&PROGRAM, "%s has no meaning for --query depth", of_depth[i]);
+            return false;
         }
     }
-    return -1;
-}
-
-/* A whole number from 1 on. */
-static bool parse_count(const char *word, size_t *count)
-{
-    char *end;
-    errno = 0;
-    const unsigned long long value = strtoull(word, &end, 10);
-    if (word[strspn(word, "0123456789")] != '\0' || end == word || errno || value == 0 || value > SIZE_MAX) {
-        return false;
-    }
-    *count = (size_t)value;
     return true;
 }
 
-/* A number from 0 on. */
-static bool parse_error(const char *word, double *error)
+/* False if the program is to end with `*status`. */
+static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
-    char *end;
-    const double value = strtod(word, &end);
-    if (end == word || *end != '\0' || !(value >= 0)) {
-        return false;
-    }
-    *error = value;
-    return true;
-}
-
-static bool parse_option(const char *name, const char *value, struct arguments *arguments)
-{
-    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth"};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth", NULL};
     static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
                                                   swiftprox_pair_approximate, NULL};
-    static const char *const INPUTS[] = {"strict", "flat", "hull"};
-    static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
-    static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
+    static const char *const STARTS[] = {"auto", "cache", "table", "cold", NULL};
     static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
                                                    SWIFTPROX_START_COLD};
-    static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer"};
+    static const char *const LEVELS[] = {"auto", "none", "quadric", "dk", "outer", NULL};
     static const swiftprox_hierarchy HIERARCHIES[] = {SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_HIERARCHY_NONE,
                                                       SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                       SWIFTPROX_HIERARCHY_OUTER_CUTS};
-
-    int choice;
-    if (strcmp(name, "--query") == 0) {
-        if ((choice = choose(value, QUERIES, 5)) < 0) {
-            return wrong_usage("--query does not know ", value);
-        }
-        arguments->query = QUERY_FUNCTIONS[choice];
-    } else if (strcmp(name, "--input") == 0) {
-        if ((choice = choose(value, INPUTS, 3)) < 0) {
-            return wrong_usage("--input does not know ", value);
-        }
-        arguments->input = INPUT_VALUES[choice];
-    } else if (strcmp(name, "--start") == 0) {
-        if ((choice = choose(value, STARTS, 4)) < 0) {
-            return wrong_usage("--start does not know ", value);
-        }
-        arguments->start = START_VALUES[choice];
-    } else if (strcmp(name, "--count") == 0) {
-        return parse_count(value, &arguments->count) || wrong_usage("--count wants a number from 1 on, not ", value);
-    } else if (strcmp(name, "--bench") == 0) {
-        return parse_count(value, &arguments->passes) || wrong_usage("--bench wants a number from 1 on, not ", value);
-    } else if (strcmp(name, "--levels") == 0) {
-        if ((choice = choose(value, LEVELS, 5)) < 0) {
-            return wrong_usage("--levels does not know ", value);
-        }
-        arguments->hierarchy = HIERARCHIES[choice];
-        arguments->levels = choice < 2 ? SWIFTPROX_LEVELS_AUTOMATIC : SWIFTPROX_LEVELS_ALL;
-    } else { /* --error */
-        return parse_error(value, &arguments->error) || wrong_usage("--error wants a number from 0 on, not ", value);
+    int query = 0, input = 0, start = 0, levels = 0;
+    *arguments = (struct arguments){.count = SIZE_MAX};
+    struct program_option options[] = {
+        {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
+        {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
+        {.name = "--start", .kind = OPTION_CHOICE, .choices = STARTS, .value = &start},
+        {.name = "--levels", .kind = OPTION_CHOICE, .choices = LEVELS, .value = &levels},
+        {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->error},
+        {.name = "--count", .kind = OPTION_COUNT, .value = &arguments->count},
+        {.name = "--bench", .kind = OPTION_COUNT, .value = &arguments->passes},
+    };
+    struct command_line line = {.program = &PROGRAM,
+                                .options = options,
+                                .option_count = sizeof options / sizeof *options,
+                                .operands = arguments->files,
+                                .least_operands = 3,
+                                .most_operands = 3,
+                                .operands_wanted = "two meshes and a pose file are needed"};
+    if (!command_line_read(&line, argc, argv, status)) {
+        return false;
     }
-    return true;
-}
-
-static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
-{
-    static const char *const WITH_VALUE[] = {"--query", "--input", "--count", "--bench", "--error", "--start", "--levels"};
-    *arguments = (struct arguments){.query = swiftprox_pair_contact,
-                                    .input = SWIFTPROX_INPUT_STRICT,
-                                    .start = SWIFTPROX_START_AUTOMATIC,
-                                    .hierarchy = SWIFTPROX_HIERARCHY_AUTOMATIC,
-                                    .levels = SWIFTPROX_LEVELS_AUTOMATIC,
-                                    .count = SIZE_MAX};
-    int files = 0;
-    for (int i = 1; i < argc; i++) {
-        if (strncmp(argv[i], "--", 2) != 0) {
-            if (files == 3) {
-                return wrong_usage("one file too many: ", argv[i]);
-            }
-            arguments->files[files++] = argv[i];
-        } else if (choose(argv[i], WITH_VALUE, 7) < 0) {
-            return wrong_usage("unknown option ", argv[i]);
-        } else if (i + 1 == argc) {
-            return wrong_usage(argv[i], " wants a value");
-        } else if (!parse_option(argv[i], argv[i + 1], arguments)) {
-            return false;
-        } else {
-            i++;
-        }
-    }
-    return files == 3 || wrong_usage("two meshes and a pose file are needed", "");
+    *status = BAD_INPUT;
+    arguments->query = QUERY_FUNCTIONS[query];
+    arguments->input = INPUT_VALUES[input];
+    arguments->start = START_VALUES[start];
+    arguments->hierarchy = HIERARCHIES[levels];
+    arguments->levels = levels < 2 ? SWIFTPROX_LEVELS_AUTOMATIC : SWIFTPROX_LEVELS_ALL;
+    return fits_the_query(&line, arguments->query);
 }
 
 /* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
@@ -257,8 +202,9 @@ static swiftprox_status answer_query(const struct job *job, size_t index, struct
 /* What the library refused, with the line of the pose file; the exit status. */
 static int refused(const struct job *job, size_t index, swiftprox_status status)
 {
-    fprintf(stderr, "%s:%zu: %s\n", job->pose_path, job->poses.lines[index], swiftprox_library_last_error_message());
-    return status == SWIFTPROX_ERROR_POSE ? BAD_FILE : FAILED;
+    fprintf(stderr, "%s:%zu: ", job->pose_path, job->poses.lines[index]);
+    program_print_library_message();
+    return status == SWIFTPROX_ERROR_POSE ? BAD_INPUT : FAILED;
 }
 
 static const char *status_word(swiftprox_decided_by decided_by)
@@ -412,7 +358,7 @@ static int print_times(const struct job *job, size_t passes)
 {
     if (job->poses.count == 0) {
         fprintf(stderr, "%s: no queries to time\n", job->pose_path);
-        return BAD_FILE;
+        return BAD_INPUT;
     }
     double *times = passes <= SIZE_MAX / sizeof *times ? malloc(passes * sizeof *times) : NULL;
     if (!times) {
@@ -467,7 +413,8 @@ static bool load_shape(const char *path, char name, swiftprox_shape_options opti
     }
     /* The messages about the file as a file and about the mesh in it name it. */
     const bool named = status == SWIFTPROX_ERROR_FILE || status == SWIFTPROX_ERROR_MESH;
-    fprintf(stderr, "%s%s%s\n", named ? "" : path, named ? "" : ": ", swiftprox_library_last_error_message());
+    fprintf(stderr, "%s%s", named ? "" : path, named ? "" : ": ");
+    program_print_library_message();
     return false;
 }
 
@@ -507,7 +454,7 @@ static int run(const struct arguments *arguments)
     swiftprox_depth_config_init(&job.depth_config);
     job.depth_config.absolute_error = arguments->error;
 
-    int result = BAD_FILE;
+    int result = BAD_INPUT;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {
         job.shapes[0] = shapes[0];
         job.shapes[1] = shapes[1];
@@ -521,9 +468,7 @@ static int run(const struct arguments *arguments)
 
 int main(int argc, char **argv)
 {
-    if (program_tells(&PROGRAM, argc, argv)) {
-        return program_end(&PROGRAM, GOOD);
-    }
     struct arguments arguments;
-    return parse_arguments(argc, argv, &arguments) ? run(&arguments) : FAILED;
+    int status;
+    return read_arguments(argc, argv, &arguments, &status) ? run(&arguments) : status;
 }

@@ -1,6 +1,5 @@
 /* swiftprox-replay: plays a scene back, step by step: what queries list, or what they cost. It is a user of the C interface
  * like any other, and knows nothing that its headers do not say. */
-#include <errno.h>
 #include <fenv.h>
 #include <math.h>
 #include <stdint.h>
@@ -8,6 +7,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "input.h"
 #include "player.h"
 #include "program.h"
 #include "progress.h"
@@ -57,7 +57,8 @@ static const char HELP[] =
     "\n"
     "On a terminal the standard error shows a bar while it takes long.\n"
     "\n"
-    "Exit status: 0, or 2 when a scene or mesh file is bad (the message names the line), or 1 for anything else.\n";
+    "Exit status: 0, or 2 when the command line, a scene or a mesh file is bad (the message names the line), or 1 for\n"
+    "anything else.\n";
 
 static const struct program PROGRAM = {"swiftprox-replay", USAGE, HELP};
 
@@ -68,75 +69,56 @@ struct arguments {
     size_t passes; /* 0: answers, not times */
 };
 
-static bool wrong_usage(const char *problem, const char *what)
+/* Whether each option has a meaning beside the others and for the scene; false after a message. */
+static bool fits(const struct command_line *line, const struct arguments *arguments)
 {
-    fprintf(stderr, "swiftprox-replay: %s%s\n%sswiftprox-replay --help tells more\n", problem, what, USAGE);
-    return false;
+    const struct player_options *const player = &arguments->player;
+    const char *problem = NULL;
+    if (command_line_has(line, "--tolerance") && player->query == swiftprox_scene_query_intersection) {
+        problem = "--tolerance has no meaning for --query intersection";
+    } else if (player->verify && arguments->passes) {
+        problem = "--verify has no meaning beside --bench, which times the queries alone";
+    } else if (command_line_has(line, "--input") && player_finds_recording(player->path)) {
+        problem = "--input has no meaning for a recording, which holds its shapes";
+    }
+    if (problem) {
+        program_refuse(&PROGRAM, "%s", problem);
+    }
+    return !problem;
 }
 
-static bool parse_option(const char *name, const char *value, struct arguments *arguments)
+/* False if the program is to end with `*status`. */
+static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
-    char *end;
-    errno = 0;
-    if (strcmp(name, "--query") == 0) {
-        arguments->player.query = strcmp(value, "intersection") == 0 ? swiftprox_scene_query_intersection
-                                  : strcmp(value, "distance") == 0   ? swiftprox_scene_query_exact_distance
-                                  : strcmp(value, "contact") == 0    ? swiftprox_scene_query_contacts
-                                                                     : NULL;
-        return arguments->player.query || wrong_usage("--query does not know ", value);
-    }
-    if (strcmp(name, "--input") == 0) {
-        arguments->player.input = strcmp(value, "flat") == 0 ? SWIFTPROX_INPUT_FLAT : SWIFTPROX_INPUT_STRICT;
-        if (strcmp(value, "hull") == 0) {
-            arguments->player.input = SWIFTPROX_INPUT_HULL;
-        }
-        return arguments->player.input != SWIFTPROX_INPUT_STRICT || strcmp(value, "strict") == 0 ||
-               wrong_usage("--input does not know ", value);
-    }
-    if (strcmp(name, "--tolerance") == 0) {
-        arguments->player.tolerance = strtod(value, &end);
-        return (end != value && *end == '\0' && arguments->player.tolerance >= 0) ||
-               wrong_usage("--tolerance wants a number from 0 on, not ", value);
-    }
-    const bool is_bench = strcmp(name, "--bench") == 0;
-    if (is_bench || strcmp(name, "--workers") == 0) {
-        const unsigned long long number = strtoull(value, &end, 10);
-        const unsigned long long most = is_bench ? 999999 : 1024;
-        if (value[strspn(value, "0123456789")] != '\0' || end == value || errno != 0 || number == 0 || number > most) {
-            return is_bench ? wrong_usage("--bench wants a number from 1 to 999999, not ", value)
-                            : wrong_usage("--workers wants a number from 1 to 1024, not ", value);
-        }
-        if (is_bench) {
-            arguments->passes = (size_t)number;
-        } else {
-            arguments->player.workers = (uint32_t)number;
-        }
-        return true;
-    }
-    return wrong_usage("unknown option ", name);
-}
-
-static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
-{
+    static const char *const QUERIES[] = {"intersection", "distance", "contact", NULL};
+    static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_exact_distance,
+                                                   swiftprox_scene_query_contacts};
+    int query = -1, input = 0;
+    size_t workers = 0;
     *arguments = (struct arguments){.player.tolerance = SWIFTPROX_DEFAULT_TOLERANCE};
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--verify") == 0) {
-            arguments->player.verify = true;
-        } else if (strncmp(argv[i], "--", 2) == 0) {
-            if (i + 1 == argc) {
-                return wrong_usage(argv[i], " wants a value");
-            }
-            if (!parse_option(argv[i], argv[i + 1], arguments)) {
-                return false;
-            }
-            i++;
-        } else if (arguments->player.path) {
-            return wrong_usage("one file too many: ", argv[i]);
-        } else {
-            arguments->player.path = argv[i];
-        }
+    struct program_option options[] = {
+        {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
+        {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->player.tolerance},
+        {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
+        {.name = "--workers", .kind = OPTION_COUNT, .most = 1024, .value = &workers},
+        {.name = "--verify", .kind = OPTION_FLAG, .value = &arguments->player.verify},
+        {.name = "--bench", .kind = OPTION_COUNT, .most = 999999, .value = &arguments->passes},
+    };
+    struct command_line line = {.program = &PROGRAM,
+                                .options = options,
+                                .option_count = sizeof options / sizeof *options,
+                                .operands = &arguments->player.path,
+                                .least_operands = 1,
+                                .most_operands = 1,
+                                .operands_wanted = "a scene is needed"};
+    if (!command_line_read(&line, argc, argv, status)) {
+        return false;
     }
-    return arguments->player.path || wrong_usage("a scene is needed", "");
+    *status = BAD_INPUT;
+    arguments->player.query = query < 0 ? NULL : QUERY_FUNCTIONS[query];
+    arguments->player.input = INPUT_VALUES[input];
+    arguments->player.workers = (uint32_t)workers;
+    return fits(&line, arguments);
 }
 
 /* ---- answers ---- */
@@ -233,7 +215,7 @@ static int print_answers(struct player *player)
             result = player_play(player, &answer);
             result = result == GOOD ? print_answer(player, &answer) : result;
         } else if (next == BAD_STEP) {
-            result = BAD_FILE;
+            result = BAD_INPUT;
         } else if (next == NO_MORE) {
             break;
         }
@@ -294,7 +276,7 @@ static int time_pass(struct player *player, struct bench *bench)
             continue;
         }
         const double start = seconds();
-        result = next == STEP ? player_play(player, &answer) : BAD_FILE;
+        result = next == STEP ? player_play(player, &answer) : BAD_INPUT;
         const double time = 1e3 * (seconds() - start);
         if (result == GOOD && player->step > 1) {
             result = add_time(bench, time);
@@ -319,7 +301,7 @@ static int print_times(struct player *player, size_t passes)
         if (result == GOOD && bench.count == 0) {
             progress_erase(&progress);
             fprintf(stderr, "%s: there is no step to time: the first is not\n", player->options->path);
-            result = BAD_FILE;
+            result = BAD_INPUT;
         }
     }
     progress_erase(&progress);
@@ -354,9 +336,7 @@ static int run(const struct arguments *arguments)
 
 int main(int argc, char **argv)
 {
-    if (program_tells(&PROGRAM, argc, argv)) {
-        return program_end(&PROGRAM, GOOD);
-    }
     struct arguments arguments;
-    return parse_arguments(argc, argv, &arguments) ? run(&arguments) : FAILED;
+    int status;
+    return read_arguments(argc, argv, &arguments, &status) ? run(&arguments) : status;
 }

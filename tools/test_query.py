@@ -164,7 +164,7 @@ class Query(unittest.TestCase):
                "face 3: edge 2-3 runs in the same direction in face 4: the faces are not consistently oriented":
                    box + "".join(sides[:3]) + "4 2 3 7 6\n" + "".join(sides[4:]),
                "face 5: vertex 4 lies 2.041e-1 off its plane (allowed 2.449e-9)": box.replace("1 1 1", "1 1 2") + "".join(sides)}
-        cure = "; the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices"
+        cure = "; --input hull takes the hull of the vertices"
         for message, mesh in bad.items():
             message += "" if message.startswith("line") else cure
             path = self.file("bad.off", mesh)
@@ -178,10 +178,6 @@ class Query(unittest.TestCase):
             self.assertRegex(done.stderr, "^%sNo such file or directory( \\(os error 2\\))?\n$" % missing)
 
     # -- the command line --
-
-    def test_help_and_version(self):
-        self.assertIn("--bench", self.run_tool("--help").stdout)
-        self.assertRegex(self.run_tool("--version").stdout, r"^swiftprox-query \d+\.\d+\.\d+\n$")
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "no /dev/full")
     def test_what_cannot_be_written_is_told(self):
@@ -202,15 +198,6 @@ class Query(unittest.TestCase):
                     self.assertLessEqual(Decimal(true[11]), Decimal(row[12]))
                     self.assertLessEqual(Decimal(row[12]) - Decimal(row[11]), max(Decimal(error), Decimal("1e-12")))
         self.assertEqual(self.answers(INTERSECTING, "--query", "approximate", "--error", "1")[0][11:13], ["0", "0"])
-
-    def test_wrong_usage_is_refused(self):
-        poses = self.file("poses", APART)
-        for wrong in ((), (BOX, BOX), (BOX, BOX, poses, poses), (BOX, BOX, poses, "--query"),
-                      (BOX, BOX, poses, "--query", "x"), (BOX, BOX, poses, "--input", "x"),
-                      (BOX, BOX, poses, "--error", "-1"), (BOX, BOX, poses, "--error", "x"),
-                      (BOX, BOX, poses, "--levels", "x"), (BOX, BOX, poses, "--bounds", "tight"), (BOX, BOX, poses, "--count", "-1"),
-                      (BOX, BOX, poses, "--bench", "0"), (BOX, BOX, poses, "--count", "9" * 30), (BOX, BOX, poses, "--x")):
-            self.refused(1, "usage: ", *wrong)
 
     def test_times(self):
         done = self.run_tool(BOX, BOX, self.file("poses", (APART + "\n") * 50), "--bench", "3")

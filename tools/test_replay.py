@@ -234,26 +234,6 @@ class Replay(unittest.TestCase):
         path = self.file(BOXES + "step\n")
         self.refused(2, "there is no step to time", path, "--bench", "1")
 
-    def test_bad_arguments(self):
-        path = self.file(BOXES)
-        self.refused(1, "a scene is needed")
-        self.refused(1, "one file too many", path, path)
-        self.refused(1, "--query does not know", path, "--query", "depths")
-        self.refused(1, "--input does not know", path, "--input", "any")
-        self.refused(1, "--tolerance wants", path, "--tolerance", "-1")
-        self.refused(1, "--tolerance wants", path, "--tolerance", "nan")
-        self.refused(1, "--bench wants", path, "--bench", "0")
-        self.refused(1, "--workers wants", path, "--workers", "0")
-        self.refused(1, "--workers wants", path, "--workers", "many")
-        self.refused(1, "wants a value", path, "--bench")
-        self.refused(1, "unknown option", path, "--fast", "1")
-
-    def test_help_and_version(self):
-        for option, text in (("--help", "usage: swiftprox-replay FILE"), ("--version", "swiftprox-replay ")):
-            done = subprocess.run([TOOL, option], capture_output=True, text=True, timeout=60)
-            self.assertEqual(done.returncode, 0)
-            self.assertTrue(done.stdout.startswith(text))
-
 
 if __name__ == "__main__":
     unittest.main()

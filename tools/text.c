@@ -7,25 +7,51 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
-/* The whole file with a zero byte behind it, or null with a message printed. */
-static char *read_all(const char *path, size_t *size)
+/* More is no list of poses, but a pipe that never ends. */
+static const size_t MOST_BYTES = (size_t)1 << 30;
+
+bool text_is_regular(const char *path)
 {
-    const bool standard_input = strcmp(path, "-") == 0;
-    FILE *file = standard_input ? stdin : fopen(path, "rb");
-    if (!file) {
-        fprintf(stderr, "%s: %s\n", path, strerror(errno));
-        return NULL;
+    struct stat about;
+    return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
+/* Why the open file is not read, or null: devices may never end. */
+static const char *why_not_read(FILE *file)
+{
+    struct stat about;
+    if (fstat(fileno(file), &about) != 0) {
+        return strerror(errno);
     }
+    if (S_ISDIR(about.st_mode)) {
+        return strerror(EISDIR);
+    }
+    if (S_ISBLK(about.st_mode) || (S_ISCHR(about.st_mode) && !isatty(fileno(file)))) {
+        return "it is a device; regular files, pipes and terminals are read";
+    }
+    return NULL;
+}
+
+/* Everything up to the end, with a zero byte behind it; null with a message printed. */
+static char *read_to_end(FILE *file, const char *path, size_t *size)
+{
     size_t capacity = (size_t)1 << 16;
-    size_t used = 0;
     char *text = malloc(capacity);
+    *size = 0;
     while (text) {
-        used += fread(text + used, 1, capacity - 1 - used, file);
-        if (used < capacity - 1) {
+        *size += fread(text + *size, 1, capacity - 1 - *size, file);
+        if (*size < capacity - 1) {
             break;
         }
-        char *larger = capacity <= SIZE_MAX / 2 ? realloc(text, capacity * 2) : NULL;
+        if (*size >= MOST_BYTES) {
+            fprintf(stderr, "%s: it is larger than %zu bytes, the most that is read\n", path, MOST_BYTES);
+            free(text);
+            return NULL;
+        }
+        char *const larger = realloc(text, capacity * 2);
         if (!larger) {
             free(text);
         }
@@ -34,14 +60,31 @@ static char *read_all(const char *path, size_t *size)
     }
     if (!text) {
         fprintf(stderr, "%s: no memory for the file\n", path);
-    } else if (ferror(file)) { /* a directory opens, but does not read */
+        return NULL;
+    }
+    if (ferror(file)) {
         fprintf(stderr, "%s: %s\n", path, strerror(errno));
         free(text);
-        text = NULL;
-    } else {
-        text[used] = '\0';
-        *size = used;
+        return NULL;
     }
+    text[*size] = '\0';
+    return text;
+}
+
+/* The whole file with a zero byte behind it, or null with a message printed. */
+static char *read_all(const char *path, size_t *size)
+{
+    const bool standard_input = strcmp(path, "-") == 0;
+    FILE *const file = standard_input ? stdin : fopen(path, "rb");
+    if (!file) {
+        fprintf(stderr, "%s: %s\n", path, strerror(errno));
+        return NULL;
+    }
+    const char *const problem = why_not_read(file);
+    if (problem) {
+        fprintf(stderr, "%s: %s\n", path, problem);
+    }
+    char *const text = problem ? NULL : read_to_end(file, path, size);
     if (!standard_input) {
         fclose(file);
     }

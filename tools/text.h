@@ -21,11 +21,14 @@ struct text_line {
     char *end;     /* its zero byte: a zero byte before that is content */
 };
 
-/* Reads the file, or the standard input when `path` is "-". On failure it prints a message on the standard error and returns
+/* Whether this is a regular file, and neither the standard input nor a pipe or device. */
+bool text_is_regular(const char *path);
+
+/* Reads the file, or the standard input when `path` is "-": a regular file, a pipe or a terminal, up to a limit. On failure it prints a message on the standard error and returns
  * false; there is nothing to close then. */
 bool text_open(const char *path, struct text_file *file);
 
-/* The next line that is not blank, false when there is none. */
+/* The next line that is not blank, false at the end. */
 bool text_next(struct text_file *file, struct text_line *line);
 
 void text_close(struct text_file *file);

@@ -6,7 +6,7 @@
 #include "peers.h"
 #include "runner.h"
 
-/* The peer of that name with that tolerance; false when there is none. */
+/* The peer of that name with that tolerance; false when it is unknown. */
 static bool find_peer(const char *argument, struct peer *peer)
 {
     const size_t length = strcspn(argument, "=");

@@ -312,7 +312,7 @@ def main():
     parser.add_argument("--cost", metavar="FILE", required=True, help="where the tiers and times of this library go")
     parser.add_argument("--build", metavar="DIR", default="build", help="where CMake built the runners (build)")
     parser.add_argument("--compare", metavar="FILE", default="benches/compare/target/release/compare", help="parry's runner")
-    parser.add_argument("--coal", metavar="PYTHON", default="build/coal/bin/python", help="a Python that has coal")
+    parser.add_argument("--coal", metavar="PYTHON", default="build/peers/bin/python", help="a Python that has coal")
     parser.add_argument("--methods", metavar="LIST", help="only these, separated by commas")
     parser.add_argument("--seconds", metavar="S", type=float, default=10, help="the time limit of a pose (10)")
     parser.add_argument("--jobs", metavar="N", type=int, default=os.cpu_count(), help="runners at a time (all processors)")

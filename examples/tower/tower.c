@@ -1,18 +1,27 @@
 /* A tower of ten boxes and a pile of hulls from files, under gravity: what contact manifolds are for.
  *
- *   tower [--svg FILE] [FOLDER OF THE SHIPPED MODELS]
- *
  * Prints how far the tower's boxes have moved after 10 simulated seconds, and fails if one has moved by a twentieth of its
  * side; the picture shows both from the side, at four times. */
 #include <math.h>
 #include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 
+#include "program.h"
 #include "rigid_bodies.h"
 #include "strip.h"
 #include "vectors.h"
+
+static const struct program PROGRAM = {
+    "tower",
+    "usage: tower [--svg FILE] [FOLDER]\n",
+    "\n"
+    "Lets a tower of ten boxes stand and a pile come to rest for 10 simulated seconds. Fails if the tower does not stand.\n"
+    "\n"
+    "  FOLDER             where the shipped models are (default: examples/models)\n"
+    "  --svg FILE         pictures from the side, at four times\n"
+    "  --help, --version  print this text, the version\n",
+};
 
 enum { BOXES = 10, STEPS_A_SECOND = 240, SECONDS = 10 };
 
@@ -81,12 +90,12 @@ static double displacement(const struct world *world)
 int main(int argc, char **argv)
 {
     const char *svg = NULL, *folder = "examples/models";
-    for (int i = 1; i < argc; i++) {
-        if (strcmp(argv[i], "--svg") == 0 && i + 1 < argc) {
-            svg = argv[++i];
-        } else {
-            folder = argv[i];
-        }
+    struct program_option options[] = {{.name = "--svg", .kind = OPTION_OUTPUT, .value = &svg}};
+    struct command_line line = {
+        .program = &PROGRAM, .options = options, .option_count = 1, .operands = &folder, .most_operands = 1};
+    int status;
+    if (!command_line_read(&line, argc, argv, &status)) {
+        return status;
     }
     struct world *const world = world_create();
     if (!world) {
@@ -114,5 +123,5 @@ int main(int argc, char **argv)
     }
     strip_destroy(strip);
     world_destroy(world);
-    return moved < 0.05 && written ? EXIT_SUCCESS : EXIT_FAILURE;
+    return program_end(&PROGRAM, moved < 0.05 && written ? GOOD : FAILED);
 }

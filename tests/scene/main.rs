@@ -1,6 +1,7 @@
 //! Scenes, alone and from several threads.
 
 mod contacts;
+mod events;
 mod motions;
 mod record;
 mod scenes;

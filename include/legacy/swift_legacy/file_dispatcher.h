@@ -4,6 +4,10 @@
 
 #include <cctype>
 
+#if defined(__unix__) || defined(__APPLE__)
+#include <sys/stat.h>
+#endif
+
 #include "../SWIFT_fileio.h"
 #include "mesh.h"
 
@@ -14,11 +18,30 @@ inline bool begins_with(const std::string& whole, const std::string& beginning)
     return whole.compare(0, beginning.size(), beginning) == 0;
 }
 
+/*
+ * Whether something bears this name that is no regular file. A FIFO would be waited for, and a device may never end. What is not
+ * there at all is for the opening to find.
+ */
+inline bool is_no_regular_file(const char* filename)
+{
+#if defined(__unix__) || defined(__APPLE__)
+    struct stat about;
+    return stat(filename, &about) == 0 && !S_ISREG(about.st_mode);
+#else
+    static_cast<void>(filename);
+    return false;
+#endif
+}
+
 /* Opens a file to read. The message of old says why that failed. */
 inline bool open_file(const char* filename, std::ifstream& stream)
 {
     if (filename == NULL) {
         report("Error: Invalid filename given to read file");
+        return false;
+    }
+    if (is_no_regular_file(filename)) {
+        report("Error: only regular files are read, not a pipe, a device or a folder \"" + std::string(filename) + "\"");
         return false;
     }
     stream.open(filename, std::ios::in | std::ios::binary);

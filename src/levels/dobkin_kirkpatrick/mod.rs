@@ -486,6 +486,24 @@ mod tests {
         assert!(next(&mut DobkinKirkpatrick::new(&build(&cut, None).unwrap()).unwrap()).is_none());
     }
 
+    /// The apex of a flat pyramid is flat enough to be removed. What fills its hole is the base, and the centre of mass is above it.
+    #[test]
+    fn what_would_leave_the_centre_of_mass_outside_is_not_removed() {
+        let ring =
+            (0..24).map(|i| f64::from(i) / 24.0 * std::f64::consts::TAU).map(|a| Vector::new(a.cos(), a.sin(), 0.0));
+        let corners: Vec<Vector> = ring.chain([Vector::new(0.0, 0.0, 0.125)]).collect();
+        let pyramid = build(&corners, None).unwrap();
+        let apex = (0..25).find(|v| pyramid.local_position(*v).z > 0.1).unwrap();
+        let mut removing = DobkinKirkpatrick::new(&pyramid).unwrap();
+        assert!(!removing.remove(apex, &mut Vec::new()).unwrap());
+        // That of a body deep enough stays inside.
+        let deep: Vec<Vector> = corners.iter().copied().chain([Vector::new(0.0, 0.0, -2.0)]).collect();
+        let top = build(&deep, None).unwrap();
+        let apex = (0..26).find(|v| top.local_position(*v).z > 0.1).unwrap();
+        let mut removing = DobkinKirkpatrick::new(&top).unwrap();
+        assert!(removing.remove(apex, &mut Vec::new()).unwrap());
+    }
+
     /// Vertices move along their rays from the centre of mass, out by the factor that makes the level bound the body, and back
     /// as far as it still does: that brings it nearer to the body than scaling alone.
     #[test]

@@ -1,0 +1,144 @@
+#!/usr/bin/env python3
+"""Tests that all tools and examples treat their command lines alike:  test_command_lines.py RECORDER PROGRAM ...
+
+tools/program.h has the rules. `hello` is not among them: it is the example of the README as it stands there, and reads no command
+line."""
+import os
+import subprocess
+import sys
+import tempfile
+import unittest
+
+RECORDER = sys.argv[1]  # writes a recording to the file that it is given
+PROGRAMS = {os.path.basename(path): path for path in sys.argv[2:]}
+MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "models")
+BOX = os.path.join(MODELS, "box.off")
+
+# Operands that are enough, and options with a value that each takes.
+OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "demo": (BOX, BOX), "tower": (MODELS,),
+            "scene": (MODELS,)}
+OPTIONS = {"swiftprox-query": ("--query", "--error", "--start", "--levels", "--input", "--count", "--bench"),
+           "swiftprox-replay": ("--query", "--tolerance", "--input", "--workers", "--bench"),
+           "demo": ("--orbit", "--svg"), "tower": ("--svg",), "crowd": ("--svg",)}
+CHOICES = {"--query", "--start", "--levels", "--input"}
+NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--orbit": ("-1", "0", "x", "1e6"),
+           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many")}
+
+
+def run(name, *arguments):
+    return subprocess.run([PROGRAMS[name], *arguments], capture_output=True, text=True, timeout=60)
+
+
+class CommandLines(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def file(self, name, content):
+        path = os.path.join(self.folder, name)
+        with open(path, "w") as out:
+            out.write(content)
+        return path
+
+    def refused(self, name, named, *arguments):
+        """Nothing is done and nothing printed; the message is that of the program, and has the word."""
+        done = run(name, *arguments)
+        self.assertEqual((done.returncode, done.stdout), (2, ""), (name, arguments))
+        first = done.stderr.splitlines()[0]
+        self.assertTrue(first.startswith(name + ": ") and named in first, done.stderr)
+        self.assertIn("usage: " + name, done.stderr)
+
+    def test_help_and_version_wherever_they_stand(self):
+        for name in PROGRAMS:
+            for arguments in (("--help",),) + ((("-h",), (BOX, "--help"), ("--unknown", "--help")) if name != "legacy" else ()):
+                done = run(name, *arguments)
+                self.assertEqual((done.returncode, done.stderr), (0, ""), (name, arguments))
+                self.assertTrue(done.stdout.startswith("usage: " + name), done.stdout)
+            if name != "legacy":
+                self.assertRegex(run(name, "--version").stdout, r"^%s \d+\.\d+\.\d+\n$" % name)
+
+    def test_what_is_not_known_is_named(self):
+        for name in PROGRAMS:
+            for unknown in ("--unknown", "-x", "--unknown=1"):
+                self.refused(name, unknown.split("=")[0], unknown)
+            self.refused(name, "stray", *OPERANDS.get(name, ()), "stray")
+
+    def test_missing_and_bad_values_are_named(self):
+        for name, options in OPTIONS.items():
+            operands = OPERANDS.get(name, ())
+            for option in options:
+                self.refused(name, option + " wants a value", *operands, option)
+                self.refused(name, option + " wants a value", option, "--", *operands)
+                for bad in ("any",) if option in CHOICES else NUMBERS.get(option, ()):
+                    self.refused(name, option, *operands, option, bad)
+                    self.refused(name, option, option + "=" + bad, *operands)
+        self.refused("swiftprox-replay", "--verify takes no value", "SCENE", "--verify=yes")
+
+    def test_operands_that_are_missing(self):
+        self.refused("swiftprox-query", "two meshes and a pose file are needed", BOX, BOX)
+        self.refused("swiftprox-replay", "a scene is needed")
+
+    def test_values_behind_an_equals_sign_and_operands_behind_dashes(self):
+        poses = self.file("--poses", "1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 2 0 1 0 0 0 0 1 0\n")
+        done = subprocess.run([PROGRAMS["swiftprox-query"], "--query=distance", "--", BOX, BOX, "--poses"], cwd=self.folder,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual((done.returncode, done.stderr), (0, ""), poses)
+        self.assertEqual(len(done.stdout.split()), 15)
+
+    def test_options_without_a_meaning_beside_the_others(self):
+        recording = os.path.join(self.folder, "recording")
+        subprocess.run([RECORDER, recording], check=True, timeout=60)
+        for query in ("distance", "intersection"):
+            self.refused("swiftprox-query", "--error has no meaning for --query " + query, BOX, BOX, "POSES", "--error", "1",
+                         "--query", query)
+        for option, value in (("--start", "cold"), ("--levels", "dk")):
+            self.refused("swiftprox-query", option + " has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
+                         option, value)
+        self.refused("swiftprox-replay", "--input has no meaning for a recording", recording, "--input", "strict")
+        self.refused("swiftprox-replay", "--tolerance has no meaning for --query intersection", recording, "--tolerance", "1",
+                     "--query", "intersection")
+        self.refused("swiftprox-replay", "--verify has no meaning beside --bench", recording, "--verify", "--bench", "1")
+
+    def test_files_to_be_written_are_tried_first(self):
+        for name in ("demo", "tower", "crowd"):
+            for path in (os.path.join(self.folder, "none", "a.svg"), self.folder):
+                self.refused(name, path, "--svg", path)
+        # The trial leaves no file behind, and none changed, where the program goes on to refuse something else.
+        kept = self.file("kept.svg", "kept")
+        for path in (kept, os.path.join(self.folder, "new.svg")):
+            self.refused("tower", "stray", "--svg", path, MODELS, "stray")
+        self.assertEqual(os.listdir(self.folder), ["kept.svg"])
+        with open(kept) as file:
+            self.assertEqual(file.read(), "kept")
+
+    def test_refusals_name_options_and_no_constants_of_c(self):
+        square = self.file("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n")
+        point = self.file("open.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n")
+        scene = "# swiftprox scene 1\nshape a %s\nobject a\nstep\n"
+        for mesh, option in ((square, "--input flat"), (point, "--input hull")):
+            for done in (run("swiftprox-query", mesh, mesh, "POSES"),
+                         run("swiftprox-replay", self.file("scene.txt", scene % mesh))):
+                self.assertEqual(done.returncode, 2)
+                self.assertIn(option, done.stderr)
+                self.assertNotIn("SWIFTPROX_", done.stderr)
+
+    def test_a_damaged_recording_is_named_once(self):
+        recording = os.path.join(self.folder, "recording")
+        subprocess.run([RECORDER, recording], check=True, timeout=60)
+        with open(recording, "r+b") as file:
+            file.seek(-200, os.SEEK_END)
+            file.write(b"x")
+        done = run("swiftprox-replay", recording)
+        self.assertEqual((done.returncode, done.stderr.count(recording)), (2, 1), done.stderr)
+
+    @unittest.skipUnless(os.path.exists("/dev/zero"), "no /dev/zero")
+    def test_devices_that_never_end_are_refused(self):
+        for name, arguments in (("swiftprox-query", (BOX, BOX, "/dev/zero")), ("swiftprox-replay", ("/dev/zero",))):
+            done = run(name, *arguments)
+            self.assertEqual((done.returncode, done.stderr),
+                             (2, "/dev/zero: it is a device; regular files, pipes and terminals are read\n"))
+
+
+if __name__ == "__main__":
+    unittest.main(argv=sys.argv[:1])
