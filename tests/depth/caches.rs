@@ -9,7 +9,7 @@ use crate::bodies::{large, placed_deep};
 use crate::{Random, query};
 
 /// A cache from bytes, as C may hand over. It is plain old data.
-fn of_bytes(bytes: &[u8; size_of::<DepthCache>()]) -> DepthCache {
+pub fn of_bytes(bytes: &[u8; size_of::<DepthCache>()]) -> DepthCache {
     // SAFETY: all its members are integers, and any bytes are values of them.
     unsafe { std::mem::transmute(*bytes) }
 }

@@ -81,3 +81,47 @@ fn separated_and_touching_objects_are_told_apart() {
     assert!(verify_depth([cube.at(&here), cube.at(&inside)], &cache, &touching).is_err());
     assert!(verify_depth([cube.at(&here), cube.at(&beside)], &cache, &overlapping).is_err());
 }
+
+/// Every number of an answer, with its name.
+fn members(answer: &mut DepthAnswer) -> Vec<(String, &mut f64)> {
+    let DepthAnswer { depth, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
+    let mut members = vec![("depth".into(), depth), ("lower".into(), lower), ("upper".into(), upper)];
+    for (name, vector) in
+        [("local1", local1), ("local2", local2), ("world1", world1), ("world2", world2), ("normal", normal)]
+    {
+        members.extend(vector.iter_mut().enumerate().map(|(axis, x)| (format!("{name}[{axis}]"), x)));
+    }
+    members
+}
+
+/// Two cubes that overlap by a quarter, touch, or are a quarter apart: what is put into an answer and is no number must be refused,
+/// and no interval may pass that misses the truth by a unit in the last place. A NaN in `world1` passed: see the same of distances.
+#[test]
+fn no_number_may_be_none() {
+    let cube = cuboid([0.5, 0.5, 0.5]);
+    let here = at(0.0, 0.0, 0.0);
+    for (apart, truth) in [(0.75, 0.25), (1.0, 0.0), (1.25, 0.0)] {
+        let there = at(apart, 0.125, 0.0625);
+        let mut cache = DepthCache::default();
+        let found = query([&cube, &cube], [&here, &there], &mut cache);
+        let exact = DepthAnswer { lower: truth, depth: truth, upper: truth, ..found };
+        for answer in [found, exact] {
+            verify_depth([cube.at(&here), cube.at(&there)], &cache, &answer).unwrap();
+            for member in 0..18 {
+                let before = *members(&mut answer.clone())[member].1;
+                for put in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY, -0.0, before.next_up(), before.next_down()] {
+                    let mut forged = answer;
+                    let (what, number) = members(&mut forged).swap_remove(member);
+                    *number = put;
+                    let is_same = before == put || before.is_nan() && put.is_nan();
+                    let holds = forged.lower <= truth && truth <= forged.upper;
+                    let is_in_order = forged.lower <= forged.depth && forged.depth <= forged.upper;
+                    let is_lie = !is_same && (!put.is_finite() || before.is_nan()) || !holds || !is_in_order;
+                    let checked = verify_depth([cube.at(&here), cube.at(&there)], &cache, &forged);
+                    assert!(!is_lie || checked.is_err(), "{what} {put:e} for {before:e}: {forged:?}");
+                    assert!(!is_same || checked.is_ok(), "{what} {put:e} for {before:e}: {checked:?}");
+                }
+            }
+        }
+    }
+}

@@ -4,18 +4,21 @@
 use super::length;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, power_of_two};
-use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
+use crate::polyhedron::{Polyhedron, Vertex};
 use crate::solve::exact::VertexPair;
 
 /// The error of any length computed here, as a multiple of the size of the pair. A coordinate of R₁·x − R₂·y + Δ takes twelve
 /// products, off by 8u² each. It takes as many sums, off by 3u² of at most the size. Together they are below 2⁻¹⁰⁰, and so is what
-/// a product with a unit vector adds.
+/// a product with a unit vector adds. Underflow takes less than 2⁻¹⁰⁰⁰ of it, see [`Bounds::unit`].
 const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
 
-/// A pair of placed bodies whose magnitudes double-double arithmetic covers.
+/// A pair of placed bodies, of any magnitudes, in a unit of length in which its size is near 1.
 pub struct Bounds<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
+    /// A length in units of the pair is this times as large, a power of two. Thus lengths and coordinates are exact but for
+    /// underflow, of less than the least double each, where 2⁻⁷⁴ and more are the size: of subnormal lengths not more is left.
+    unit: f64,
     /// From the centred origin of body 2 to that of body 1, in the world.
     between: WideVector,
     /// The most by which a length is off.
@@ -29,29 +32,67 @@ pub struct Gap {
     pub vertices: VertexPair,
 }
 
+/// The largest exponent of a [unit](Bounds::unit), either way.
+const MOST_SCALED: i32 = 1000;
+
 impl<'a> Bounds<'a> {
-    /// `None` where products may over- or underflow.
+    /// `None` of two points in one place, and where the size overflows.
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2]) -> Option<Bounds<'a>> {
         let [translation1, translation2] = poses.map(Pose::translation);
         let apart = wide_difference(&translation1, &translation2);
         // The 1-norm of R·p is at most 1.8|p|, for an accepted R.
         let radii = polyhedra.map(|polyhedron| polyhedron.centre.lp_norm(1) + polyhedron.radius);
         let size = apart.iter().map(|x| x.hi.abs()).sum::<f64>() + 2.0 * (radii[0] + radii[1]);
-        if !(SMALLEST..=LARGEST).contains(&size) {
+        if !(size > 0.0 && size < f64::INFINITY) {
             return None;
         }
-        let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&polyhedra[i].centre)));
-        let between = [0, 1, 2].map(|k| apart[k] + (centre1[k] - centre2[k]));
-        Some(Bounds { polyhedra, poses, between, error: ERROR * size })
+        let unit = power_of_two(-(size.log2() as i32).clamp(-MOST_SCALED, MOST_SCALED));
+        let in_units = |x: DoubleDouble| DoubleDouble { hi: x.hi * unit, lo: x.lo * unit };
+        let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&(polyhedra[i].centre * unit))));
+        let between = [0, 1, 2].map(|k| in_units(apart[k]) + (centre1[k] - centre2[k]));
+        Some(Bounds { polyhedra, poses, unit, between, error: ERROR * (size * unit) })
+    }
+
+    /// The most by which a coordinate of [`Bounds::difference`] is off.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
+    /// A length in units of the pair.
+    pub fn in_units(&self, length: f64) -> f64 {
+        length * self.unit
     }
 
     /// The gap along a normal from body 2 to body 1: the lowest vertex of body 1 over the highest of body 2.
     pub fn gap(&self, normal: &Vector) -> Gap {
         let wide = widen(normal);
-        let (below1, vertex1) = highest(self.polyhedra[0], &rotate_back(self.poses[0], &widen(&-normal)));
-        let (above2, vertex2) = highest(self.polyhedra[1], &rotate_back(self.poses[1], &wide));
+        let (below1, vertex1) = self.highest(0, &widen(&-normal));
+        let (above2, vertex2) = self.highest(1, &wide);
         let value = wide_dot(&wide, &self.between) - below1 - above2;
         Gap { value, vertices: [vertex1, vertex2] }
+    }
+
+    /// The largest value of a world direction over all vertices of a body, about its centred origin, and a vertex that has it.
+    /// Doubles tell which vertices may have it.
+    fn highest(&self, body: usize, direction: &WideVector) -> (DoubleDouble, u32) {
+        let (polyhedron, unit) = (self.polyhedra[body], self.unit);
+        let direction = rotate_back(self.poses[body], direction);
+        let rounded = narrow(&direction);
+        let value = |vertex: &Vertex| rounded.dot(&(vertex.position * unit));
+        let most = polyhedron.vertices.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
+        // Each value is off by u for the rounded direction and 3u for product and sums, of |g|₁·ρ. What underflow takes is less
+        // than the error of a length.
+        let rounding = 8.0 * U * rounded.lp_norm(1) * self.in_units(polyhedron.radius);
+        let mut best = (DoubleDouble::from(f64::NEG_INFINITY), 0);
+        for (index, vertex) in (0..).zip(&polyhedron.vertices) {
+            if value(vertex) >= most - 2.0 * rounding {
+                let wide = wide_dot(&direction, &widen(&(vertex.position * unit)));
+                if wide.hi > best.0.hi || (wide.hi == best.0.hi && wide.lo > best.0.lo) {
+                    best = (wide, index);
+                }
+            }
+        }
+        best
     }
 
     /// Whether the gap along a normal proves the distance to be at least `lower`: it is at least gap/|normal|.
@@ -59,14 +100,16 @@ impl<'a> Bounds<'a> {
         let wide = widen(normal);
         // √(1 + x) ≤ 1 + x/2 for every x.
         let excess = (wide_dot(&wide, &wide) - 1.0.into()) * 0.5.into();
-        let needed = (excess + 1.0.into()) * lower.into();
+        let needed = (excess + 1.0.into()) * self.in_units(lower).into();
         (gap.value - needed).hi > self.error
     }
 
     /// The difference of two vertices, right to the error of a length in each coordinate.
     pub fn difference(&self, pair: VertexPair) -> WideVector {
-        let [point1, point2] =
-            [0, 1].map(|i| rotate(self.poses[i], &widen(&self.polyhedra[i].vertices[pair[i] as usize].position)));
+        let [point1, point2] = [0, 1].map(|i| {
+            let vertex = &self.polyhedra[i].vertices[pair[i] as usize];
+            rotate(self.poses[i], &widen(&(vertex.position * self.unit)))
+        });
         [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]))
     }
 
@@ -81,12 +124,18 @@ impl<'a> Bounds<'a> {
         // √(1 + x) ≥ 1 + x/2 − x² for every x from −1/2 on.
         let excess = wide_dot(&wide, &wide) - 1.0.into();
         let least = excess * 0.5.into() + 1.0.into() - excess * excess;
-        (gap.value + least * upper.into()).hi > self.error
+        (gap.value + least * self.in_units(upper).into()).hi > self.error
+    }
+
+    /// Whether a gap along a normal is one for sure: the bodies are apart.
+    pub fn is_open(&self, gap: &Gap) -> bool {
+        gap.value.hi > self.error
     }
 
     /// Whether a point of each body proves the distance to be at most `upper`.
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
-        let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i])));
+        let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i], self.unit)));
+        let upper = self.in_units(upper);
         let difference = [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]));
         let (square, most) = (wide_dot(&difference, &difference), two_product(upper, upper));
         let length: f64 = difference.iter().map(|x| x.hi.abs()).sum();
@@ -105,25 +154,6 @@ fn rotate(pose: &Pose, p: &WideVector) -> WideVector {
 fn rotate_back(pose: &Pose, d: &WideVector) -> WideVector {
     let r = &pose.rows;
     [0, 1, 2].map(|k| wide_dot(&widen(&Vector::new(r[0][k], r[1][k], r[2][k])), d))
-}
-
-/// The largest value of `direction` over all vertices, and a vertex that has it. Doubles tell which vertices may have it.
-fn highest(polyhedron: &Polyhedron, direction: &WideVector) -> (DoubleDouble, u32) {
-    let rounded = narrow(direction);
-    let value = |vertex: &Vertex| rounded.dot(&vertex.position);
-    let most = polyhedron.vertices.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-    // Each value is off by u for the rounded direction and 3u for product and sums, of |g|₁·ρ.
-    let rounding = 8.0 * U * rounded.lp_norm(1) * polyhedron.radius;
-    let mut best = (DoubleDouble::from(f64::NEG_INFINITY), 0);
-    for (index, vertex) in (0..).zip(&polyhedron.vertices) {
-        if value(vertex) >= most - 2.0 * rounding {
-            let wide = wide_dot(direction, &widen(&vertex.position));
-            if wide.hi > best.0.hi || (wide.hi == best.0.hi && wide.lo > best.0.lo) {
-                best = (wide, index);
-            }
-        }
-    }
-    best
 }
 
 /// A convex combination of up to three vertices: v₀ + w₁(v₁ − v₀) + w₂(v₂ − v₀), the weights from 0, their sum at most 1.
@@ -165,11 +195,12 @@ impl PointInside {
 
     /// About how far it is from a point.
     pub fn distance(&self, polyhedron: &Polyhedron, point: &Vector) -> f64 {
-        length(&(narrow(&self.position(polyhedron)) - point))
+        length(&(narrow(&self.position(polyhedron, 1.0)) - point))
     }
 
-    fn position(&self, polyhedron: &Polyhedron) -> WideVector {
-        let [a, b, c] = self.vertices.map(|v| polyhedron.vertices[v as usize].position);
+    /// In the polyhedron's frame, times a power of two.
+    fn position(&self, polyhedron: &Polyhedron, unit: f64) -> WideVector {
+        let [a, b, c] = self.vertices.map(|v| polyhedron.vertices[v as usize].position * unit);
         let (u, v) = (wide_difference(&b, &a), wide_difference(&c, &a));
         [0, 1, 2].map(|k| {
             let share = u[k] * self.weights[0].into() + v[k] * self.weights[1].into();

@@ -6,6 +6,7 @@
 //! in the search.
 
 use super::bounds::Bounds;
+use super::numbers::{are_points_said, check_numbers};
 use super::{Witness, allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
@@ -41,6 +42,9 @@ pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswe
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     with_default(|| {
         poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
+        if answer.outcome != Outcome::None {
+            check_numbers(&answer.into())?;
+        }
         match answer.outcome {
             Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, answer),
             Outcome::Separated => check_separated(polyhedra, poses, answer),
@@ -53,8 +57,7 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Dept
     if (answer.lower, answer.depth, answer.upper) != (0.0, 0.0, 0.0) {
         return Err(unverified("a depth of objects that are said to be separated".into()));
     }
-    let witnesses = witnesses(polyhedra, poses, answer);
-    if super::are_said(&witnesses) {
+    if are_points_said(&answer.into()) {
         return Err(unverified("points or features of objects that are said to be separated".into()));
     }
     let normal = Vector::from(answer.normal);
@@ -118,19 +121,27 @@ fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) ->
     }
 }
 
-/// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded.
+/// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded. Objects with a common
+/// point overlap along every direction, by 0 at least.
 fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Result<()> {
     let most = if upper > 0.0 { upper } else { allowed };
-    if facts.bounds.as_ref().is_some_and(|bounds| bounds.prove_overlap(&bounds.gap(normal), normal, most)) {
+    let apart = || unverified("along the normal the objects are apart".into());
+    if let Some(bounds) = &facts.bounds {
+        let gap = bounds.gap(normal);
+        if bounds.is_open(&gap) {
+            return Err(apart());
+        }
+        if bounds.prove_overlap(&gap, normal, most) {
+            // An overlap that double-double arithmetic does not tell from a gap is left to the proof of the lower end.
+            return Ok(());
+        }
+    }
+    let overlap = facts.exact.overlap_along(normal).ok_or_else(apart)?;
+    if overlap.compare(most).is_le() {
         return Ok(());
     }
-    match facts.exact.overlap_along(normal) {
-        Some(overlap) if overlap.compare(most).is_gt() => {
-            let (least, _) = overlap.bounds();
-            Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
-        }
-        _ => Ok(()),
-    }
+    let (least, _) = overlap.bounds();
+    Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
 }
 
 fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &DepthAnswer) -> [Witness<'a>; 2] {
@@ -227,9 +238,29 @@ impl<'a> Facts<'a> {
         Facts { polyhedra, poses, exact: Differences::new(polyhedra, poses), bounds: Bounds::new(polyhedra, poses) }
     }
 
-    /// A difference, rounded; 0 of pairs whose magnitudes are beyond double-double arithmetic.
+    /// A difference in units of the pair, right to [`Facts::position_error`] and u of itself.
     fn position(&self, pair: VertexPair) -> Vector {
         self.bounds.as_ref().map_or_else(Vector::zeros, |bounds| narrow(&bounds.difference(pair)))
+    }
+
+    /// By how much a position may be off beside its rounding to doubles: as each of three coordinates, times √3 and rounded up.
+    fn position_error(&self) -> f64 {
+        self.bounds.as_ref().map_or(f64::INFINITY, |bounds| 2.0 * bounds.error())
+    }
+
+    /// The sign of a determinant of positions and rays, where it is clear.
+    ///
+    /// Where no column is shorter than its error over u each is right to 2u of itself: u by that, and u by its rounding. The
+    /// determinant then changes by 6.1u of the product of the lengths. Products and sums err by 5u of the permanent of the
+    /// magnitudes, which is at most √2 times that product. Together that is less than 14u of it. The lengths are off by a few u.
+    /// Underflow, of less than 2⁻¹⁰⁰⁰, is nothing beside a product of three lengths over 2⁻¹²⁰ each.
+    fn clear_sign(&self, columns: [&Vector; 3]) -> Option<Ordering> {
+        let [a, b, c] = columns;
+        let [length_a, length_b, length_c] = columns.map(length);
+        let shortest = length_a.min(length_b).min(length_c);
+        let value = a.dot(&b.cross(c));
+        let is_clear = shortest * U > self.position_error() && value.abs() > 16.0 * U * length_a * length_b * length_c;
+        is_clear.then(|| value.total_cmp(&0.0))
     }
 
     /// Whether a triangle is at least so far from the origin.
@@ -245,7 +276,7 @@ impl<'a> Facts<'a> {
     fn crossing(&self, triangle: &Triangle, ray: &Vector) -> Option<i32> {
         let corners = triangle.map(|pair| self.position(pair));
         let [a, b, c] = &corners;
-        let side = |p: &Vector, q: &Vector| clear_sign(ray, p, q);
+        let side = |p: &Vector, q: &Vector| self.clear_sign([ray, p, q]);
         let sides = [(0, side(a, b)), (1, side(b, c)), (2, side(c, a))].map(|(k, clear)| {
             clear.unwrap_or_else(|| self.exact.side_of_ray(ray, [triangle[k], triangle[(k + 1) % 3]]))
         });
@@ -256,20 +287,12 @@ impl<'a> Facts<'a> {
             return None;
         }
         // All on one side: the line of the ray crosses the triangle, the ray itself where its orientation is the same.
-        let orientation = clear_sign(a, b, c).unwrap_or_else(|| self.exact.orientation(*triangle));
+        let orientation = self.clear_sign([a, b, c]).unwrap_or_else(|| self.exact.orientation(*triangle));
         if orientation == Ordering::Equal {
             return None;
         }
         Some(if orientation == sides[0] { orientation as i32 } else { 0 })
     }
-}
-
-/// The sign of a determinant of columns right to u each, where it is clear: products and sums err by 6u of what their magnitudes
-/// make.
-fn clear_sign(a: &Vector, b: &Vector, c: &Vector) -> Option<Ordering> {
-    let value = a.dot(&b.cross(c));
-    let is_clear = value.abs() > 16.0 * U * length(a) * length(b) * length(c) + f64::MIN_POSITIVE;
-    is_clear.then(|| value.total_cmp(&0.0))
 }
 
 /// Whether the triangle's plane, or another through its nearest point, proves it to be so far from the origin: for any m that is
@@ -287,7 +310,7 @@ fn plane_is_beyond(bounds: &Bounds, triangle: &Triangle, radius: f64) -> bool {
         }
         let unit = normal / scale;
         // Square root and its argument are right to 3u.
-        let needed = radius * unit.norm() * (1.0 + 8.0 * U);
+        let needed = bounds.in_units(radius) * unit.norm() * (1.0 + 8.0 * U);
         corners.iter().all(|corner| bounds.is_more(wide_dot(&widen(&unit), corner), needed))
     })
 }

@@ -1,6 +1,7 @@
 //! The independent check of an answer, trusting nothing of the solver that made it: bounds of the distance over all vertices, the
 //! witness points on their features, an intersection's proof in integers, and so whatever rounding hides of a distance.
 
+mod numbers;
 mod bounds;
 mod witness;
 mod depth;
@@ -8,12 +9,13 @@ mod depth;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
-use crate::pair::answer::{DecidedBy, FeatureKind, Outcome, PairAnswer};
+use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 use bounds::{Bounds, PointInside};
 pub use depth::verify_depth;
+use numbers::{are_points_said, check_numbers};
 use witness::Witness;
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
@@ -29,6 +31,9 @@ use witness::Witness;
 ///
 /// `lower` ≤ `distance` ≤ `upper` holds for every outcome. `upper` is +∞ and `distance` is `lower` for [`Outcome::Beyond`]; all
 /// three are 0 for [`Outcome::Intersecting`].
+///
+/// Every number that is said is finite, but for an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], and of
+/// objects farther apart than the largest double.
 ///
 /// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂|). There ρ is a body's radius
 /// about its centre c, and Δ joins the centres in the world.
@@ -60,6 +65,9 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
     for pose in poses {
         pose.check(ROTATION_LIMIT)?;
     }
+    if answer.outcome != Outcome::None {
+        check_numbers(&answer.into())?;
+    }
     if answer.outcome != Outcome::Intersecting && answer.proof_count != 0 {
         return Err(unverified("a proof of intersection of objects that are not said to intersect".into()));
     }
@@ -74,17 +82,18 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 
 fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
-    // A distance below the smallest double leaves `lower` at 0.
-    if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper) {
+    // A distance below the smallest double leaves `lower` at 0; only one above the largest has no upper end.
+    let has_end = upper < f64::INFINITY || lower == f64::MAX;
+    if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper && has_end) {
         return Err(unverified(format!(
-            "not 0 ≤ lower ≤ distance ≤ upper, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
+            "not 0 ≤ lower ≤ distance ≤ upper < ∞, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
         )));
     }
     let allowed = verify_disjoint(polyhedra, poses, answer)?;
-    let witnesses = witnesses(polyhedra, poses, answer);
-    if !are_said(&witnesses) {
+    if !are_points_said(&answer.into()) {
         return Ok(());
     }
+    let witnesses = witnesses(polyhedra, poses, answer);
     for witness in &witnesses {
         witness.check_point(allowed, &[])?;
         // A point is on the surface as far as the interval tells that it is nearest.
@@ -102,7 +111,7 @@ fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAn
     if !(lower >= 0.0 && distance == lower && upper == f64::INFINITY) {
         return Err(unverified(format!("not 0 ≤ lower = distance, upper = ∞: {lower:e}, {distance:e}, {upper:e}")));
     }
-    check_no_points(polyhedra, poses, answer)?;
+    check_no_points(answer)?;
     verify_disjoint(polyhedra, poses, answer).map(|_| ())
 }
 
@@ -112,7 +121,7 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
     if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {
         return Err(unverified(format!("not 0 = lower ≤ distance ≤ upper: {lower:e}, {distance:e}, {upper:e}")));
     }
-    check_no_points(polyhedra, poses, answer)?;
+    check_no_points(answer)?;
     check_no_normal(answer)?;
     if upper == f64::INFINITY {
         return Ok(());
@@ -242,8 +251,8 @@ fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Wi
     between_origins(polyhedra, poses) + first - second
 }
 
-fn check_no_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
-    if are_said(&witnesses(polyhedra, poses, answer)) {
+fn check_no_points(answer: &PairAnswer) -> Result<()> {
+    if are_points_said(&answer.into()) {
         return Err(unverified(format!("points or features of an answer that is {:?}", answer.outcome)));
     }
     Ok(())
@@ -273,14 +282,6 @@ fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &
     })
 }
 
-/// Whether any witness point or feature is said.
-fn are_said(witnesses: &[Witness; 2]) -> bool {
-    witnesses.iter().any(|witness| {
-        let mut coordinates = witness.local.iter().chain(&witness.world);
-        coordinates.any(|x| !x.is_nan()) || witness.feature.kind != FeatureKind::None
-    })
-}
-
 fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let count = answer.proof_count as usize;
     if count == 0 && answer.decided_by == DecidedBy::InscribedSpheres {
@@ -305,10 +306,10 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
     if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
         return Err(unverified("the proof's vertex differences do not hold the origin in their hull".into()));
     }
-    let witnesses = witnesses(polyhedra, poses, answer);
-    if !are_said(&witnesses) {
+    if !are_points_said(&answer.into()) {
         return check_no_normal(answer);
     }
+    let witnesses = witnesses(polyhedra, poses, answer);
     let allowed = allowed(polyhedra, &between_origins(polyhedra, poses)).ok_or_else(too_large)?;
     check_unit(&Vector::from(answer.normal))?;
     for (i, witness) in witnesses.iter().enumerate() {
@@ -329,15 +330,16 @@ fn verify_without_proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: 
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));
     }
-    check_no_points(polyhedra, poses, answer)?;
+    check_no_points(answer)?;
     check_no_normal(answer)?;
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
     if truth.compare(0.0).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
 }
 
-/// The length of a vector whose squares may leave the range of doubles.
+/// The length of a vector whose squares may leave the range of doubles; NaN where a coordinate is.
 fn length(v: &Vector) -> f64 {
-    let scale = v.amax();
+    // `amax` passes over a NaN.
+    let scale = if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
     if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
 }
 

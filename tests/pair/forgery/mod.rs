@@ -4,6 +4,7 @@
 
 mod forgeries;
 mod judge;
+mod numbers;
 mod scenes;
 
 use std::collections::BTreeSet;
