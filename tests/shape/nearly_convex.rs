@@ -7,7 +7,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions, precision_tolerance};
-use testkit::models::{ellipsoid, prism};
+use testkit::models::{antiprism, bipyramid, cone, ellipsoid, prism, random_hull, trapezohedron};
 use testkit::random::Random;
 
 fn with(input: InputPolicy) -> ShapeOptions {
@@ -96,6 +96,35 @@ fn check_features(answer: &PairAnswer, meshes: [&PolygonMesh; 2], allowed: f64) 
                 assert!(off <= 2.0 * allowed, "{feature:?} {local} {off} {allowed} {mesh:?} {}", answer.distance);
             }
             _ => {}
+        }
+    }
+}
+
+/// Fans, kites, needles and plates, of text and of significant digits: rounding merges no two of their vertices.
+#[test]
+fn bodies_of_all_kinds_are_taken() {
+    let mut random = Random::new(12);
+    let bodies = [
+        cone(40, 0.3).unwrap(),
+        bipyramid(25, 1.5).unwrap(),
+        antiprism(17, 0.2).unwrap(),
+        trapezohedron(9, 1.0).unwrap(),
+        random_hull(120, 4).unwrap(),
+        ellipsoid([1.0, 0.3, 0.1], 150).unwrap(),
+        ellipsoid([3.0, 0.2, 0.2], 150).unwrap(),
+    ];
+    for (i, body) in bodies.iter().enumerate() {
+        for decimals in [3, 4, 6] {
+            for away in [0.0, 5.0] {
+                let rotation = random.rotation();
+                let mut mesh = body.clone();
+                mesh.vertices.iter_mut().for_each(|v| *v = (rotation * *v).add_scalar(away));
+                let written = mapped(&mesh, |x| format!("{x:.decimals$e}").parse().unwrap());
+                for rounded in [to_decimals(&mesh, decimals), written] {
+                    let taken = Shape::from_mesh(&rounded, &with(InputPolicy::NearlyConvex));
+                    assert!(taken.is_ok(), "{i} {decimals} {away}: {}", taken.unwrap_err());
+                }
+            }
         }
     }
 }
