@@ -86,7 +86,7 @@ void refused_meshes()
     {
         /* It is turned. */
         SWIFT_Scene turned(false);
-        int first, second;
+        int first = -1, second = -1;
         CHECK(turned.Add_Object(box.vertices, inside_out, 8, 12, first) && box.add(turned, second) && messages.take().empty());
         move_to(turned, second, 3, 0, 0);
         int pairs, *ids;

@@ -22,7 +22,7 @@ void arrays(double apart, bool exits_early)
 {
     SWIFT_Scene scene(false);
     const BoxMesh box(0.5, 0.5, 0.5);
-    int first, second;
+    int first = -1, second = -1;
     CHECK(box.add(scene, first) && box.add(scene, second));
     move_to(scene, second, apart, 0, 0);
     const bool intersects = apart <= 1;
@@ -68,7 +68,7 @@ void far_from_the_origin()
     const double reach = std::sqrt(3 * 1.5 * 1.5) + std::sqrt(0.75);
     for (int by_old = 0; by_old < 2; ++by_old) {
         SWIFT_Scene scene;
-        int first, second, copy, pairs, *ids;
+        int first = -1, second = -1, copy = -1, pairs, *ids;
         SWIFT_Real* distances;
         if (by_old == 0) {
             CHECK(far.add(scene, first) && box.add(scene, second));
@@ -93,7 +93,7 @@ void contacts(const Folder& folder)
 {
     const BoxMesh box(0.5, 0.4, 0.3);
     SWIFT_Scene scene(false);
-    int rod, other, pairs, *ids, *counts;
+    int rod = -1, other = -1, pairs, *ids, *counts;
     SWIFT_Real *distances, *points;
     CHECK(scene.Add_General_Object(folder.write("rod.dcp", Rod(false, false, true).decomposition()).c_str(), rod));
     CHECK(box.add(scene, other));

@@ -53,7 +53,7 @@ void spheres(const Folder& folder)
 {
     Messages messages;
     SWIFT_Scene scene(false);
-    int first, second, pairs, *ids;
+    int first = -1, second = -1, pairs, *ids;
     SWIFT_Real* distances;
     const std::string file = folder.write("sphere.poly", sphere(24, 40).file(5));
     CHECK(scene.Add_Object(file.c_str(), first) && scene.Add_General_Object(file.c_str(), second));
@@ -97,7 +97,7 @@ void transforms()
         const Rotation turn(sides % 3, 0.7);
         const SWIFT_Translation away = {3, -5, static_cast<SWIFT_Real>(0.1)};
         SWIFT_Scene scene(false);
-        int first, second;
+        int first = -1, second = -1;
         CHECK(scene.Add_Object(&vertices[0], &solid.faces[0], solid.vertex_count(), solid.face_count(), first, false, turn.m, away,
                                static_cast<SWIFT_Real>(0.3), BOX_SETTING_DEFAULT, 0, 0, &solid.valences[0]));
         CHECK(scene.Add_Object(NULL, NULL, 0, 0, second, false, turn.m, away, 2, BOX_SETTING_DEFAULT, 0, 0, NULL, first));
@@ -129,7 +129,7 @@ void inside_out()
     int face[2];
     for (int i = 0; i < 2; ++i) {
         SWIFT_Scene scene(false);
-        int first, second, pairs, *ids, *types, *features, *counts;
+        int first = -1, second = -1, pairs, *ids, *types, *features, *counts;
         SWIFT_Real *distances, *points, *normals;
         const BoxMesh point(0.001, 0.001, 0.001);
         CHECK((i == 0 ? solid : turned).add(scene, first) && point.add(scene, second));
