@@ -89,6 +89,24 @@ static void meshes(void)
     CHECK(swiftprox_shape_retain(NULL) == NULL);
 }
 
+/* What coordinates excuse: text of one decimal as much as a mesh may be off at most, doubles that were computed next to nothing. */
+static void tolerances(void)
+{
+    const double text[6] = {0.1, 0.2, 0.5, 0.9, 0.3, 0.1}, computed[6] = {1.0 / 3, 0.1, 0.2, 2.0 / 3, 0.4, 0.7};
+    const double bad[6] = {0, 1, 2, 3, NAN, 5};
+    double tolerance = 7;
+    CHECK_OK(swiftprox_mesh_estimate_tolerance(text, 2, &tolerance));
+    CHECK(tolerance >= 0.005 && tolerance <= 0.005);
+    CHECK_OK(swiftprox_mesh_estimate_tolerance(computed, 2, &tolerance));
+    CHECK(tolerance >= 1e-9 && tolerance <= 1e-9);
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 1: y is not finite", swiftprox_mesh_estimate_tolerance(bad, 2, &tolerance));
+    CHECK(isnan(tolerance));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "at least one point", swiftprox_mesh_estimate_tolerance(text, 0, &tolerance));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_mesh_estimate_tolerance(NULL, 2, &tolerance));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "tolerance", swiftprox_mesh_estimate_tolerance(text, 2, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", swiftprox_mesh_estimate_tolerance(text, SIZE_MAX / 8, &tolerance));
+}
+
 static void shape_options(void)
 {
     swiftprox_shape_options options;
@@ -462,6 +480,7 @@ int main(int argc, char **argv)
     CHECK_FAILS(SWIFTPROX_ERROR_VERSION, "1000", swiftprox_library_check_version(1000, 0, 0));
     words();
     meshes();
+    tolerances();
     shape_options();
     files(argc > 1 ? argv[1] : ".");
     pairs();

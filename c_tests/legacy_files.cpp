@@ -108,7 +108,7 @@ void own_readers(const Folder& folder)
     messages.take();
     id = 77;
     CHECK(!scene.Add_Object(folder.write("failing", "FAIL").c_str(), id) && id == 77);
-    CHECK(messages.take() == "Error (Add_Object obj 2 piece 0): Mesh creation failed\n");
+    CHECK(messages.take() == "Error (Add_Object obj 2 piece 0): File read failed\n");
 }
 
 void formats(const Folder& folder)
@@ -172,7 +172,15 @@ void damaged(const Folder& folder)
     int id = 77;
     CHECK(!scene.Add_Object(static_cast<const char*>(NULL), id) && messages.has("Error: Invalid filename given to read file"));
     CHECK(!scene.Add_Object("there is no such file", id));
-    CHECK(messages.has("Error: file could not be opened for reading \"there is no such file\""));
+    CHECK(messages.take() == "Error: file could not be opened for reading \"there is no such file\"\n"
+                             "Error (Add_Object obj 0 piece 0): File read failed\n");
+    /* What is not there is not told to be convex. */
+    CHECK(!scene.Add_General_Object("there is no such file", id));
+    CHECK(messages.take() == "Error: file could not be opened for reading \"there is no such file\"\n");
+    CHECK(!scene.Add_General_Object(folder.write("cut", "TRI 8 12 0").c_str(), id));
+    const std::string general = messages.take();
+    CHECK(general.find("onvex") == std::string::npos);
+    CHECK(general.find("Error (Add_General_Object obj 0 piece 0): File read failed\n") != std::string::npos);
     const std::string tri = box_file(BoxMesh(1, 1, 1), false), poly = box_file(BoxMesh(1, 1, 1), true);
     const struct {
         const char* name;
@@ -208,7 +216,9 @@ void damaged(const Folder& folder)
         if (!CHECK(said.find(cases[i].message) != std::string::npos)) {
             std::printf("%s: %s", cases[i].name, said.c_str());
         }
-        CHECK(said.find("Error (Add_Object obj 0 piece 0): Mesh creation failed\n") != std::string::npos);
+        const bool is_mesh = std::string(cases[i].name) == "open";
+        const std::string end = is_mesh ? "Mesh creation failed\n" : "File read failed\n";
+        CHECK(said.find("Error (Add_Object obj 0 piece 0): " + end) != std::string::npos);
     }
     CHECK(id == 77);
     /* A file that failed does not spoil the next one. */

@@ -41,7 +41,7 @@ void ids_and_deletion()
     int id = 55;
     CHECK(!scene.Add_Convex_Object(box.vertices, box.triangles, 8, 11, id) && id == 55);
     CHECK(messages.take().find("Error: The mesh is not closed --\n       all edges must belong to exactly two triangles\n"
-                               "Error (Add_Object obj 5 piece 0): ") == 0);
+                               "Error (Add_Convex_Object obj 5 piece 0): ") == 0);
     CHECK(scene.Delete_Object(1) && scene.Delete_Object(3));
     CHECK(!scene.Delete_Object(3) && messages.has("Delete_Object: 3"));
     CHECK(!scene.Delete_Object(-1) && !scene.Delete_Object(5) && messages.has("Error: Object id out of range given to"));
@@ -83,11 +83,24 @@ void refused_meshes()
     for (int i = 0; i < 36; ++i) {
         inside_out[i] = box.triangles[35 - i];
     }
-    CHECK(!scene.Add_Object(box.vertices, inside_out, 8, 12, id) && messages.has("inside out"));
+    {
+        /* It is turned. */
+        SWIFT_Scene turned(false);
+        int first = -1, second = -1;
+        CHECK(turned.Add_Object(box.vertices, inside_out, 8, 12, first) && box.add(turned, second) && messages.take().empty());
+        move_to(turned, second, 3, 0, 0);
+        int pairs, *ids;
+        SWIFT_Real* distances;
+        CHECK(!turned.Query_Exact_Distance(false, 10, pairs, &ids, &distances) && pairs == 1 && is_near(distances[0], 2));
+    }
     SWIFT_Real dented[24];
     std::copy(box.vertices, box.vertices + 24, dented);
     dented[0] = dented[1] = dented[2] = static_cast<SWIFT_Real>(0.25);
-    CHECK(!scene.Add_Convex_Object(dented, box.triangles, 8, 12, id) && messages.has("outside of its plane"));
+    CHECK(!scene.Add_Convex_Object(dented, box.triangles, 8, 12, id));
+    const std::string said = messages.take();
+    CHECK(said.find("Error (Add_Convex_Object obj 0 piece 0): face ") == 0 && said.find("vertex ") != std::string::npos);
+    CHECK(said.find("outside of its plane") != std::string::npos && said.find("Set_Take_Hull(true)") != std::string::npos);
+    CHECK(said.find("SWIFTPROX") == std::string::npos);
     CHECK(!scene.Add_Object(box.vertices, box.triangles, 8, 12, id, false, DEFAULT_ORIENTATION, DEFAULT_TRANSLATION, 1,
                             BOX_SETTING_COPY));
     CHECK(messages.take() == "Error (Add_Object obj 0 piece 0): Cannot set box type to COPY when copy is not done\n");

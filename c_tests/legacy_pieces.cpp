@@ -158,24 +158,24 @@ void decompositions(const Folder& folder)
         SWIFT_Real x, y, z;
         scene.Get_Center_Of_Mass(rod, x, y, z);
         CHECK(is_near(x, 0) && is_near(y, 0.5) && is_near(z, 0.5));
-        /* One object, one pair: the pieces are 2.5 and 1.5 away, each contact nearer than the last. */
+        /* One object, one pair: the pieces are 2.5 and 1.5 away, the nearest first. */
         move_to(scene, other, 3, 0.25, 0.75);
         int pairs, *ids, *counts, *types, *feature_ids;
         SWIFT_Real *distances, *points, *normals;
         CHECK(!scene.Query_Exact_Distance(false, SWIFT_INFINITY, pairs, &ids, &distances) && pairs == 1 && is_near(distances[0], 1.5));
         CHECK(!scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals, &types,
                                                  &feature_ids));
-        CHECK(pairs == 1 && counts[0] == 2 && is_near(distances[0], 2.5) && is_near(distances[1], 1.5));
-        CHECK(is_near(points[0], 0) && is_near(points[6], 1) && is_near3(normals + 3, -1, 0, 0));
+        CHECK(pairs == 1 && counts[0] == 2 && is_near(distances[0], 1.5) && is_near(distances[1], 2.5));
+        CHECK(is_near(points[0], 1) && is_near(points[6], 0) && is_near3(normals + 3, -1, 0, 0));
         CHECK(scene.Get_Answer(1) != NULL && scene.Get_Answer(2) == NULL);
         /* Numbers of the mesh that was decomposed; the face between the pieces has none. */
         int at = 0;
         for (int i = 0; i < 4; ++i) {
             const int offset = file.has_maps ? 10 : 0;
             if (i % 2 == 0 && types[i] == SWIFT_FACE) {
-                CHECK(i == 0 ? feature_ids[at] == -1 : feature_ids[at] >= 2 * offset + 18);
+                CHECK(i == 2 ? feature_ids[at] == -1 : feature_ids[at] >= 2 * offset + 18);
             } else if (i % 2 == 0) {
-                CHECK(feature_ids[at] >= offset + (i == 0 ? 4 : 8) && feature_ids[at] < offset + (i == 0 ? 8 : 12));
+                CHECK(feature_ids[at] >= offset + (i == 2 ? 4 : 8) && feature_ids[at] < offset + (i == 2 ? 8 : 12));
             }
             at += types[i] == SWIFT_EDGE ? 2 : 1;
         }

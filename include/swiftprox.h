@@ -204,7 +204,15 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    * Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
    * mesh; otherwise they are ignored, and a face's label is its own index.
    */
-  SWIFTPROX_INPUT_HULL = 2
+  SWIFTPROX_INPUT_HULL = 2,
+  /**
+   * As flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces all
+   * run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. What the hull swallows is never
+   * the feature of an answer where it is a vertex; a face shares the hull's face over it, and is named where it is the nearest
+   * of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
+   * last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
+   */
+  SWIFTPROX_INPUT_NEARLY_CONVEX = 3
 } swiftprox_input;
 
 /**
@@ -231,7 +239,8 @@ typedef struct swiftprox_shape_options {
   double scale;
   /**
    * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-   * which means 1e-9, and 1e-6 for meshes that went through single precision (STL).
+   * which means 1e-9, and 1e-6 for meshes that went through single precision (STL); with SWIFTPROX_INPUT_NEARLY_CONVEX, if that
+   * is more, what swiftprox_mesh_estimate_tolerance says.
    */
   double convexity_tolerance;
   /** Learns how far the building of the shape is, and can cancel it. Default: null. */
@@ -249,6 +258,20 @@ typedef struct swiftprox_shape_options {
 void swiftprox_shape_options_init_sized(struct swiftprox_shape_options *options,
                                         size_t struct_size);
 #define swiftprox_shape_options_init(pointer) swiftprox_shape_options_init_sized((pointer), sizeof *(pointer))
+
+/**
+ * Writes how far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal:
+ * four units of the last place in which they are written (decimals, significant digits, floats), at least 1e-9 and at most 0.005.
+ * `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
+ *
+ * SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
+ * SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
+ * or vertices where there are some.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_mesh_estimate_tolerance(const double *vertices,
+                                                   size_t vertex_count,
+                                                   double *tolerance);
 
 /**
  * Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.

@@ -27,7 +27,7 @@ address)
     programs='scene_use results bad_input mesh_reader allocator memory files threads busy'
     if command -v c++ >/dev/null; then
         programs="$programs legacy_robot legacy_rigid_bodies legacy_modeller legacy_actor legacy_flat legacy_files legacy_methods"
-        programs="$programs legacy_queries legacy_pieces legacy_edges legacy_units legacy_macros"
+        programs="$programs legacy_queries legacy_pieces legacy_edges legacy_units legacy_macros legacy_text_meshes legacy_strict legacy_planner"
     fi
     # Unquoted: each word is a target.
     cmake --build build/asan --target $programs

@@ -7,7 +7,8 @@
  *
  * Arrays that queries hand out belong to the scene and stay until its next query; the program may write into them. Messages go
  * to std::cerr. SWIFT_config.h lists the macros that change something. A scene may be used by one thread at a time; file readers
- * are the whole process's.
+ * are the whole process's. Arrays that a query was asked for are never null: where nothing is listed they have room for one entry,
+ * of zeros, and where an early exit found an intersecting pair that pair stands there.
  */
 #ifndef SWIFT_H
 #define SWIFT_H
@@ -27,9 +28,14 @@ public:
 
     /*
      * Objects. Ids are dense, from 0; a deleted one is given out again, the last first. On failure the result is false, `id` is
-     * as it was, and a message says why. The input transform, scale * (orient * v) + trans, is applied once. A mesh is closed,
-     * convex (up to 1e-6 of its diagonal), counter-clockwise from outside; two-sided flat polygons are taken. With `copy_oid`,
-     * vertices may be NULL and counts 0: the object shares the geometry of that piece, after the transform.
+     * as it was, and a message says why. The input transform, scale * (orient * v) + trans, is applied once. A mesh is closed and
+     * convex up to the precision of its coordinates; two-sided flat polygons are taken. With `copy_oid`, vertices may be NULL and
+     * counts 0: the object shares the geometry of that piece, after the transform.
+     *
+     * That precision is four units of the last place in which coordinates are written (decimals, significant digits, floats), at
+     * least 1e-6 of the diagonal and at most 0.005 of it. The convex hull counts, and vertices and faces keep their ids. A vertex
+     * that the hull swallows is never reported; a face that it swallows is reported where it is the nearest of those below the
+     * hull's face. A mesh whose faces all run clockwise seen from outside is turned. SWIFT_LEGACY_STRICT refuses both.
      */
     bool Add_Object(const SWIFT_Real* vertices, const int* faces, int num_vertices, int num_faces, int& id,
                     bool fixed = DEFAULT_FIXED, const SWIFT_Orientation& orient = DEFAULT_ORIENTATION,
@@ -151,7 +157,8 @@ public:
      * Pointers that are NULL ask for nothing.
      *
      * All pairs within the tolerance are listed, whatever the broad phase. Only where it is on and the tolerance is
-     * SWIFT_INFINITY, pairs are listed whose enlarged boxes overlap, and those that intersect.
+     * SWIFT_INFINITY, pairs are listed whose enlarged boxes overlap, and those that intersect. Cubes are measured as of old: from
+     * the centroid, of objects by Add_Convex_Object and Add_General_Object from the origin of their frame, at least.
      */
     bool Query_Intersection(bool early_exit, int& num_pairs, int** oids);
 
@@ -179,8 +186,8 @@ public:
 
     /*
      * SWIFT++: `num_contacts` contacts for each pair, which follow each other in the other arrays; -1 for an intersecting pair,
-     * which takes one place and four feature ids. Where neither object is a decomposition there is one contact; else each is
-     * nearer than those before it, and the last one is the nearest.
+     * which takes one place and four feature ids. Where neither object is a decomposition there is one contact; else the nearest is
+     * the first, and each is farther than those before it, by more than 1e-9 of the two radii: no point comes twice.
      */
     bool Query_Contact_Determination(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids, int** num_contacts,
                                      SWIFT_Real** distances = NO_DISTANCES, SWIFT_Real** nearest_pts = NO_NEAREST_PTS,
@@ -202,7 +209,7 @@ public:
      */
     bool Get_Depth(int k, swiftprox_depth_answer& depth) const;
 
-    /* With true, of a mesh added later that is not convex the convex hull counts; face ids are -1 then. At first it is refused. */
+    /* With true, of a mesh added later that is refused otherwise the convex hull counts; face ids are -1 then. At first false. */
     void Set_Take_Hull(bool take_hull);
 
     /* The scene, and the name of an object in it (null where there is none), for calls of swiftprox that change neither objects nor
@@ -218,9 +225,9 @@ private:
     bool has_broad_phase_;
     swift_legacy::Convexity convexity_;
 
-    bool insert(std::vector<swift_legacy::Part>& parts, bool fixed, int& id);
+    bool insert(const char* method, std::vector<swift_legacy::Part>& parts, bool fixed, int& id);
     bool add_one(const swift_legacy::LevelArrays& levels, const swift_legacy::CopySource& source,
-                 const swift_legacy::PartSettings& settings, swift_legacy::Verbosity verbosity, bool fixed, int& id);
+                 const swift_legacy::PartSettings& settings, const swift_legacy::Adder& adder, bool fixed, int& id);
     bool add_pieces(const std::vector<swift_legacy::LevelArrays>& pieces, const swift_legacy::PieceArrays& arrays, bool fixed,
                     int& id);
     bool has_object(int id, const char* method) const;

@@ -12,6 +12,8 @@
  *                           both, side by side. Needed where a fifth argument NULL or nullptr of Query_Contact_Determination
  *                           could be of either. With 2, Query_Exact_Distance leaves out pairs at exactly the tolerance, as SWIFT++
  *                           does.
+ *   SWIFT_LEGACY_STRICT     meshes are convex up to 1e-6 of their diagonal and counter-clockwise from outside, or refused: else
+ *                           what the precision of their coordinates excuses is taken, and a mesh that is inside out is turned.
  *   SWIFT_LEGACY_QUIET      nothing is printed.
  *   SWIFT_LEGACY_MIN_MAX    SWIFT.h defines the macros min and max of SWIFT 1.x, where there are none.
  *   SWIFT_LEGACY_ALL_PAIRS  queries with the tolerance SWIFT_INFINITY list all pairs also where the broad phase is on, else those

@@ -6,14 +6,23 @@
 #define SWIFT_FILEIO_H
 
 #include <fstream>
+#include <iostream>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "SWIFT_common.h"
 
-/* Old readers name it without its namespace. */
+/* The headers of old brought them without their namespace, and programs name them so. */
+using std::cerr;
+using std::cin;
+using std::cout;
+using std::endl;
 using std::ifstream;
+using std::ios;
+using std::istream;
+using std::ofstream;
+using std::ostream;
 
 class SWIFT_File_Reader {
 public:

@@ -1,6 +1,7 @@
 //! Which of the caller's polygons lie on which merged face.
 
-use std::collections::HashMap;
+use std::cmp::Ordering;
+use std::collections::{BinaryHeap, HashMap};
 use std::ops::Range;
 
 use crate::base::error::Result;
@@ -262,42 +263,78 @@ fn polygon_normal(points: &[Vector], corners: &[u32]) -> Vector {
     corners[1..].windows(2).map(|pair| offset(pair[0]).cross(&offset(pair[1]))).sum()
 }
 
-/// Labels for the faces that hold no polygon, with those faces: each the lowest label of the neighbour with the closest normal,
-/// spreading from faces that have one.
+/// Labels for the faces that hold no polygon, with those faces. They spread from faces that have one, across the flattest edge
+/// first: of a polygon that is not quite plane, and so several faces of the hull, all get its label before any gets another's.
 fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32], progress: &mut Progress) -> Result<Vec<(u32, u32)>> {
     let mut lowest = filled(None, polyhedron.faces.len())?;
     for (label, face) in holders.iter().enumerate().rev() {
         lowest[*face as usize] = Some(label as u32);
     }
-    let mut waiting: Vec<u32> = collected((0..lowest.len() as u32).filter(|f| lowest[*f as usize].is_none()))?;
+    let mut links = BinaryHeap::new();
+    for (face, label) in (0..).zip(&lowest) {
+        if let Some(label) = *label {
+            add_links(&mut links, polyhedron, &lowest, face, label)?;
+        }
+    }
     let mut borrowed = Vec::new();
-    // The faces are connected across edges and one has a label, so each round labels some.
-    while !waiting.is_empty() {
-        progress.steps(waiting.len(), borrowed.len(), lowest.len())?;
-        let labelled = |&face: &u32| Some((face, label_beside(polyhedron, &lowest, face)?));
-        let round: Vec<(u32, u32)> = collected(waiting.iter().filter_map(labelled))?;
-        if round.is_empty() {
-            break;
-        }
-        for &(face, label) in &round {
+    while let Some(Link { face, label, .. }) = links.pop() {
+        progress.step(borrowed.len(), lowest.len())?;
+        if lowest[face as usize].is_none() {
             lowest[face as usize] = Some(label);
+            push(&mut borrowed, (face, label))?;
+            add_links(&mut links, polyhedron, &lowest, face, label)?;
         }
-        waiting.retain(|f| lowest[*f as usize].is_none());
-        extend(&mut borrowed, round)?;
     }
     Ok(borrowed)
 }
 
-/// The lowest label of the labelled neighbour of `face` with the closest normal.
-fn label_beside(polyhedron: &Polyhedron, lowest: &[Option<u32>], face: u32) -> Option<u32> {
+/// An edge from a face with a label to one without. The greatest comes first: the flattest, then that of the lowest numbers.
+struct Link {
+    /// The cosine between the normals.
+    flatness: f64,
+    /// The face without a label.
+    face: u32,
+    /// The other one's.
+    label: u32,
+}
+
+impl Ord for Link {
+    fn cmp(&self, other: &Link) -> Ordering {
+        let numbers = |link: &Link| (link.face, link.label);
+        self.flatness.total_cmp(&other.flatness).then(numbers(other).cmp(&numbers(self)))
+    }
+}
+
+impl PartialOrd for Link {
+    fn partial_cmp(&self, other: &Link) -> Option<Ordering> {
+        Some(self.cmp(other))
+    }
+}
+
+impl PartialEq for Link {
+    fn eq(&self, other: &Link) -> bool {
+        self.cmp(other).is_eq()
+    }
+}
+
+impl Eq for Link {}
+
+/// From a face to those beside it that have no label.
+fn add_links(
+    links: &mut BinaryHeap<Link>,
+    polyhedron: &Polyhedron,
+    lowest: &[Option<u32>],
+    face: u32,
+    label: u32,
+) -> Result<()> {
     let Face { first_side, side_count, .. } = polyhedron.faces[face as usize];
-    polyhedron.sides[first_side as usize..(first_side + side_count) as usize]
-        .iter()
-        .map(|side| &polyhedron.edges[*side as usize])
-        .filter_map(|edge| {
-            let neighbour = if edge.left() == face { edge.right() } else { edge.left() };
-            Some((edge.normals[0].dot(&edge.normals[1]), neighbour, lowest[neighbour as usize]?))
-        })
-        .max_by(|(a, f, _), (b, g, _)| a.total_cmp(b).then(g.cmp(f)))
-        .map(|(_, _, label)| label)
+    for side in &polyhedron.sides[first_side as usize..(first_side + side_count) as usize] {
+        let edge = &polyhedron.edges[*side as usize];
+        let face = if edge.left() == face { edge.right() } else { edge.left() };
+        if lowest[face as usize].is_none() {
+            links.try_reserve(1).map_err(|e| lacking::<Link>(1, &e))?;
+            links.push(Link { flatness: edge.normals[0].dot(&edge.normals[1]), face, label });
+        }
+    }
+    Ok(())
 }

@@ -6,8 +6,9 @@ use std::sync::Arc;
 use super::arrays::{copy_triangles, copy_vertices, read_arrays, read_path, read_vectors};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::{Checked, StatusCode, Versioned, guard, input, keep_panics_quiet, output, write_struct};
-use crate::shape::Shape;
+use crate::build::hull::check_points;
 use crate::shape::file as shape_file;
+use crate::shape::{Shape, precision_tolerance};
 
 /// What a shape is. Set struct_size to sizeof(swiftprox_shape_info) before asking for it.
 #[derive(Debug, Clone, Copy)]
@@ -94,6 +95,29 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
         let making = read_options(options)?;
         let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
         Ok(making.run(|options, progress| Shape::from_mesh_in_steps(&mesh, options, progress))?)
+    })
+}
+
+/// Writes how far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal:
+/// four units of the last place in which they are written (decimals, significant digits, floats), at least 1e-9 and at most 0.005.
+/// `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
+///
+/// SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
+/// SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
+/// or vertices where there are some.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_mesh_estimate_tolerance(
+    vertices: *const f64,
+    vertex_count: usize,
+    tolerance: *mut f64,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(tolerance, "tolerance", f64::NAN)?;
+        let vertices = read_vectors(vertices, vertex_count, "vertices")?;
+        check_points(&vertices)?;
+        tolerance.write(precision_tolerance(&vertices));
+        Ok(())
     })
 }
 

@@ -32,7 +32,8 @@ pub struct CShapeOptions {
     /// See rotation; positive. Default: 1.
     pub scale: f64,
     /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-    /// which means 1e-9, and 1e-6 for meshes that went through single precision (STL).
+    /// which means 1e-9, and 1e-6 for meshes that went through single precision (STL); with SWIFTPROX_INPUT_NEARLY_CONVEX, if that
+    /// is more, what swiftprox_mesh_estimate_tolerance says.
     pub convexity_tolerance: f64,
     /// Learns how far the building of the shape is, and can cancel it. Default: null.
     pub progress: ProgressCallback,

@@ -2,6 +2,8 @@
 //! even flat.
 
 mod polygon_mesh;
+mod precision;
 pub mod io;
 
 pub use polygon_mesh::*;
+pub use precision::coordinate_unit;

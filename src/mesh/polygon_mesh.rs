@@ -143,6 +143,13 @@ impl PolygonMesh {
         Ok(Some((mesh, Numbers { vertices: order, faces })))
     }
 
+    /// Turns every face round; the starts divide the indices.
+    pub(crate) fn turn(&mut self) {
+        for ends in self.starts.windows(2) {
+            self.indices[ends[0] as usize..ends[1] as usize].reverse();
+        }
+    }
+
     /// The vertex indices of face `f`.
     pub fn face(&self, f: usize) -> &[u32] {
         &self.indices[self.starts[f] as usize..self.starts[f + 1] as usize]

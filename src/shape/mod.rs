@@ -13,12 +13,12 @@ use crate::base::memory::{OnNeed, copied, found, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
-use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface};
+use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface, is_inside_out};
 use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::build::mass::inertia;
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use crate::mesh::io::read_mesh;
-use crate::mesh::{Numbers, PolygonMesh, check_vertex};
+use crate::mesh::{Numbers, PolygonMesh, check_vertex, coordinate_unit};
 use crate::polyhedron::Polyhedron;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
@@ -43,6 +43,23 @@ const CONVEXITY_TOLERANCE: f64 = 1e-9;
 /// The same for meshes that went through single precision.
 const SINGLE_PRECISION_CONVEXITY_TOLERANCE: f64 = 1e-6;
 
+/// How far a mesh may be from convex whose coordinates are off by so many units of their last place: a vertex by √3 of them, which
+/// is two roundings along each axis, and another one the other way ([`coordinate_unit`]).
+const UNITS_ALLOWED: f64 = 4.0;
+
+/// The most that coarse coordinates excuse: what is farther from convex looks dented.
+const MOST_EXCUSED: f64 = 5e-3;
+
+/// How far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal: four
+/// units of their last place, at least 1e-9 and at most 0.005.
+///
+/// It depends on the coordinates as they were written down, before any transform.
+pub fn precision_tolerance(vertices: &[Vector]) -> f64 {
+    let eighth = eighth_diagonal(vertices);
+    let found = if eighth > 0.0 { UNITS_ALLOWED / 8.0 * (coordinate_unit(vertices) / eighth) } else { 0.0 };
+    found.clamp(CONVEXITY_TOLERANCE, MOST_EXCUSED)
+}
+
 /// What to do with input that is not a closed convex mesh with interior.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
@@ -55,6 +72,12 @@ pub enum InputPolicy {
     /// Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
     /// mesh; otherwise they are ignored, and a face's label is its own index.
     Hull = 2,
+    /// As flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces all
+    /// run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. What the hull swallows is never
+    /// the feature of an answer where it is a vertex; a face shares the hull's face over it, and is named where it is the nearest
+    /// of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
+    /// last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
+    NearlyConvex = 3,
 }
 
 /// How a shape is made.
@@ -70,7 +93,7 @@ pub struct ShapeOptions {
     /// See `rotation`; positive and finite.
     pub scale: f64,
     /// Largest distance of a vertex outside a face of accepted input, relative to the bounding-box diagonal. `None`: 1e-9, or
-    /// 1e-6 for meshes that went through single precision.
+    /// 1e-6 for meshes that went through single precision; with [`InputPolicy::NearlyConvex`] also [`precision_tolerance`].
     pub convexity_tolerance: Option<f64>,
     /// Levels of detail.
     pub hierarchy: HierarchyOptions,
@@ -146,7 +169,11 @@ impl Shape {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
-        let mesh = PolygonMesh {
+        let least_tolerance = match options.input {
+            InputPolicy::NearlyConvex => precision_tolerance(&mesh.vertices),
+            InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull => CONVEXITY_TOLERANCE,
+        };
+        let mut mesh = PolygonMesh {
             vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
             indices: copied(&mesh.indices)?,
             starts: copied(&mesh.starts)?,
@@ -157,36 +184,43 @@ impl Shape {
                 check_range("convexity_tolerance", tolerance, 0.0..=f64::MAX)?;
                 tolerance
             }
-            None if mesh.single_precision => SINGLE_PRECISION_CONVEXITY_TOLERANCE,
-            None => CONVEXITY_TOLERANCE,
+            None if mesh.single_precision => least_tolerance.max(SINGLE_PRECISION_CONVEXITY_TOLERANCE),
+            None => least_tolerance,
         };
         let tolerance = tolerance * eighth_diagonal(&mesh.vertices) * 8.0;
         check_points(&mesh.vertices)?;
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
-        let check_as_given =
-            |progress: &mut Progress| check_mesh_in_steps(&mesh, tolerance, allow_flat, progress).map_err(with_cure);
+        let check_as_given = |mesh: &PolygonMesh, progress: &mut Progress| {
+            check_mesh_in_steps(mesh, tolerance, allow_flat, progress).map_err(with_cure)
+        };
         // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
         let order = along_curve(&mesh.vertices, &mut of_body.part(0.0, 0.02))?;
-        let Some((ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {
+        let Some((mut ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {
             return match options.input {
-                InputPolicy::Strict | InputPolicy::Flat => {
-                    check_as_given(&mut of_body).and(Err(Error::Bug("faces that are none passed the check".into())))
+                InputPolicy::Strict | InputPolicy::Flat | InputPolicy::NearlyConvex => {
+                    check_as_given(&mesh, &mut of_body)
+                        .and(Err(Error::Bug("faces that are none passed the check".into())))
                 }
                 InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, &mut progress.part(0.05, 1.0)),
             };
         };
         let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.05, 0.25))?;
         let closed = check_surface(&ordered, &mut of_body.part(0.25, 0.36));
+        let turns = options.input == InputPolicy::NearlyConvex && closed.is_ok();
+        if turns && is_inside_out(&ordered, &mut of_body.part(0.36, 0.36))? {
+            ordered.turn();
+            mesh.turn();
+        }
         let checked = closed
             .and_then(|()| check_convexity(&ordered, &hull, tolerance, allow_flat, &mut of_body.part(0.36, 0.45)));
         let is_as_promised = found(checked)?.is_some();
         let polygons = match options.input {
             // A message is about the caller's numbers. A face may pass by a plane that the search meets in one order only: that is
             // good enough, as the plane is one of the hull whichever way led there.
-            InputPolicy::Strict | InputPolicy::Flat => {
+            InputPolicy::Strict | InputPolicy::Flat | InputPolicy::NearlyConvex => {
                 if !is_as_promised {
-                    check_as_given(&mut of_body.part(0.45, 0.45))?;
+                    check_as_given(&mesh, &mut of_body.part(0.45, 0.45))?;
                 }
                 Some(&ordered)
             }
@@ -426,7 +460,7 @@ impl Shape {
     fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let least = match options.input {
             InputPolicy::Strict => 3,
-            InputPolicy::Flat => 2,
+            InputPolicy::Flat | InputPolicy::NearlyConvex => 2,
             InputPolicy::Hull => 0,
         };
         if polyhedron.dimension < least {

@@ -1,6 +1,7 @@
 //! Mesh files, shapes, saved shapes, and the bodies that tests share.
 
 mod mesh_io;
+mod nearly_convex;
 mod scaled;
 mod shape_file;
 mod inertia;

@@ -61,8 +61,9 @@ struct Mesh {
     std::size_t face_count;
     std::vector<int> vertex_labels;     /* the caller's number of each vertex; empty when that is its place */
     std::vector<int> face_labels;       /* the caller's number of each face; empty when that is its place */
+    double tolerance;                   /* how far from convex its text excuses, as a part of the diagonal, once that is found out */
 
-    Mesh() : face_count(0) {}
+    Mesh() : face_count(0), tolerance(0) {}
 
     std::size_t vertex_count() const
     {

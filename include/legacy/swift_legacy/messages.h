@@ -41,10 +41,10 @@ inline void report_no_object(int id, const char* method)
     report("Error: Object id out of range given to " + std::string(method) + ": " + text(id));
 }
 
-/* How messages about a piece begin that is being added. */
-inline std::string about_piece(int object, int piece)
+/* How messages about a piece begin that a method is adding. */
+inline std::string about_piece(const char* method, int object, int piece)
 {
-    return "Error (Add_Object obj " + text(object) + " piece " + text(piece) + "): ";
+    return "Error (" + std::string(method) + " obj " + text(object) + " piece " + text(piece) + "): ";
 }
 
 } // namespace swift_legacy

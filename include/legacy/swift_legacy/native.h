@@ -13,10 +13,7 @@
 
 namespace swift_legacy {
 
-/*
- * How far a vertex may lie outside a face, as a fraction of the bounding box's diagonal: vertices came through floats and text
- * files.
- */
+/* How far a vertex may lie outside a face in any case, as a part of the bounding box's diagonal. */
 const double CONVEXITY_TOLERANCE = 1e-6;
 
 /* How many levels of detail a caller may give: a limit of SWIFT 1.x. */
@@ -58,13 +55,29 @@ inline swiftprox_mesh native_mesh(const Mesh& mesh)
     return native;
 }
 
+/* To be called before any transform, which hides how coordinates were written. */
+inline void find_tolerance(Mesh& mesh)
+{
+    mesh.tolerance = CONVEXITY_TOLERANCE;
+#ifndef SWIFT_LEGACY_STRICT
+    double found;
+    if (swiftprox_mesh_estimate_tolerance(&mesh.vertices[0], mesh.vertex_count(), &found) == SWIFTPROX_OK) {
+        mesh.tolerance = std::max(mesh.tolerance, found);
+    }
+#endif
+}
+
 /* A shape, or null after a failure, which swiftprox_library_last_error_message explains. levels[0] is the body. */
 inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const LevelOptions& level_options)
 {
     swiftprox_shape_options options;
     swiftprox_shape_options_init(&options);
+#ifdef SWIFT_LEGACY_STRICT
     options.input = SWIFTPROX_INPUT_FLAT;
-    options.convexity_tolerance = CONVEXITY_TOLERANCE;
+#else
+    options.input = SWIFTPROX_INPUT_NEARLY_CONVEX;
+#endif
+    options.convexity_tolerance = levels[0].tolerance;
     swiftprox_shape_tuning tuning;
     swiftprox_shape_tuning_init(&tuning);
     const swiftprox_shape* shape = NULL;

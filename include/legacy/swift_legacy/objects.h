@@ -11,6 +11,46 @@ namespace swift_legacy {
 /* How a part's box is made: a cube that holds the part however it turns, or the tight box. */
 enum BoxKind { BOX_CUBE, BOX_TIGHT };
 
+/* About what cubes lie: SWIFT 1.x measures them from the centroid, SWIFT++ from the origin of the local frame. */
+enum BoxCentre { BOX_ABOUT_CENTROID, BOX_ABOUT_ORIGIN };
+
+/* A box along the axes of the world. */
+struct Box {
+    double lower[3];
+    double upper[3];
+
+    void begin_at(const double* point)
+    {
+        std::copy(point, point + 3, lower);
+        std::copy(point, point + 3, upper);
+    }
+
+    void take_in(const double* point)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            lower[axis] = std::min(lower[axis], point[axis]);
+            upper[axis] = std::max(upper[axis], point[axis]);
+        }
+    }
+
+    void grow(double margin)
+    {
+        for (int axis = 0; axis < 3; ++axis) {
+            lower[axis] -= margin;
+            upper[axis] += margin;
+        }
+    }
+};
+
+inline bool overlap(const Box& a, const Box& b)
+{
+    bool are_apart = false;
+    for (int axis = 0; axis < 3; ++axis) {
+        are_apart = are_apart || a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
+    }
+    return !are_apart;
+}
+
 /*
  * What queries list: a convex piece, or several that count as one (of a decomposition). With the broad phase on, its enlarged box
  * says whether a query without a tolerance lists it.
@@ -18,18 +58,16 @@ enum BoxKind { BOX_CUBE, BOX_TIGHT };
 struct Part {
     std::vector<Piece> pieces;
     BoxKind box;
+    BoxCentre box_centre;
     double enlargement_relative;
     double enlargement_absolute;
-    double centre[3];
-    double radius;
-    double lower[3]; /* the box in the world, where Object::has_boxes */
-    double upper[3];
+    double centroid[3];
+    double radius; /* about what the cube lies about */
+    Box world_box; /* where Object::has_boxes */
 
-    Part() : box(BOX_CUBE), enlargement_relative(0), enlargement_absolute(0), radius(0)
+    Part() : box(BOX_CUBE), box_centre(BOX_ABOUT_CENTROID), enlargement_relative(0), enlargement_absolute(0), radius(0), world_box()
     {
-        std::fill(centre, centre + 3, 0.0);
-        std::fill(lower, lower + 3, 0.0);
-        std::fill(upper, upper + 3, 0.0);
+        std::fill(centroid, centroid + 3, 0.0);
     }
 
     double enlargement() const
@@ -37,17 +75,19 @@ struct Part {
         return enlargement_relative * radius + enlargement_absolute;
     }
 
-    /* Once the pieces stand. */
+    /* Once the pieces stand and it is known about what the cube lies. */
     void measure()
     {
-        SurfaceCentroid centroid;
+        SurfaceCentroid sum;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
-            centroid.add(pieces[i]->body());
+            sum.add(pieces[i]->body());
         }
-        radius = 0;
         for (int axis = 0; axis < 3; ++axis) {
-            centre[axis] = centroid[axis];
+            centroid[axis] = sum[axis];
         }
+        const double origin[3] = {0, 0, 0};
+        const double* centre = box_centre == BOX_ABOUT_ORIGIN ? origin : centroid;
+        radius = 0;
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             for (std::size_t v = 0; v < pieces[i]->body().vertex_count(); ++v) {
                 radius = std::max(radius, std::sqrt(pieces[i]->square_distance(static_cast<uint32_t>(v), centre)));
@@ -55,30 +95,34 @@ struct Part {
         }
     }
 
+    /* The cube that is measured from the origin reaches as far about the centroid as well: it holds those of all versions. */
     void place_box(const double* pose)
     {
-        place(pose, centre, lower);
-        std::copy(lower, lower + 3, upper);
-        double margin = enlargement();
+        double point[3];
+        place(pose, centroid, point);
+        world_box.begin_at(point);
         if (box == BOX_CUBE) {
-            margin += radius;
-        } else {
-            double point[3];
-            for (std::size_t i = 0; i < pieces.size(); ++i) {
-                const std::vector<double>& vertices = pieces[i]->body().vertices;
-                for (std::size_t v = 0; v < vertices.size(); v += 3) {
-                    place(pose, &vertices[v], point);
-                    for (int axis = 0; axis < 3; ++axis) {
-                        lower[axis] = std::min(lower[axis], point[axis]);
-                        upper[axis] = std::max(upper[axis], point[axis]);
-                    }
-                }
+            if (box_centre == BOX_ABOUT_ORIGIN) {
+                const double world_origin[3] = {pose[3], pose[7], pose[11]};
+                world_box.take_in(world_origin);
+            }
+            world_box.grow(radius + enlargement());
+            return;
+        }
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            const std::vector<double>& vertices = pieces[i]->body().vertices;
+            for (std::size_t v = 0; v < vertices.size(); v += 3) {
+                place(pose, &vertices[v], point);
+                world_box.take_in(point);
             }
         }
-        for (int axis = 0; axis < 3; ++axis) {
-            lower[axis] -= margin;
-            upper[axis] += margin;
-        }
+        world_box.grow(enlargement());
+    }
+
+    /* Half of the longest side that its box can have: the centroid is within the body. */
+    double half_side() const
+    {
+        return (box_centre == BOX_ABOUT_ORIGIN ? 1.5 : 1.0) * radius + std::max(0.0, enlargement());
     }
 
 private:
@@ -89,15 +133,6 @@ private:
         }
     }
 };
-
-inline bool overlap(const Part& a, const Part& b)
-{
-    bool are_apart = false;
-    for (int axis = 0; axis < 3; ++axis) {
-        are_apart = are_apart || a.lower[axis] > b.upper[axis] || b.lower[axis] > a.upper[axis];
-    }
-    return !are_apart;
-}
 
 struct Object {
     swiftprox_object_id native;
@@ -256,7 +291,7 @@ public:
         for (std::size_t i = 0; i < created_.size(); ++i) {
             const std::vector<Part>& parts = (*this)[created_[i]].parts;
             for (std::size_t part = 0; part < parts.size(); ++part) {
-                half = std::max(half, parts[part].radius + std::max(0.0, parts[part].enlargement()));
+                half = std::max(half, parts[part].half_side());
             }
         }
         /* Of each the diagonal, 2 * sqrt(3) * half, and more for the rounding. */

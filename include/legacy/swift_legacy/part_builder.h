@@ -31,6 +31,19 @@ struct PartSettings {
 /* What messages of a failed mesh end in: some add methods say more than others did. */
 enum Verbosity { SAYS_WHY, SAYS_CREATION_FAILED };
 
+/* Which method adds, in the words of old, which call most of them Add_Object. */
+struct Adder {
+    const char* method;
+    Verbosity verbosity;
+    BoxCentre box_centre;
+    const char* cure; /* what a program can do about a mesh that is refused */
+
+    Adder(const char* name, Verbosity says, BoxCentre centre)
+        : method(name), verbosity(says), box_centre(centre), cure("after Set_Take_Hull(true) the convex hull of the vertices is taken")
+    {
+    }
+};
+
 /* One piece as the caller gives it: its levels in arrays or files, the body first, each with its input transform. */
 struct LevelArrays {
     const SWIFT_Real* const* vertices;
@@ -80,6 +93,7 @@ struct LevelArrays {
                 return false;
             }
         }
+        find_tolerance(mesh);
         mesh.transform(transform(level));
         return true;
     }
@@ -129,15 +143,15 @@ inline int level_count(const int* counts, int piece)
 
 class PartBuilder {
 public:
-    PartBuilder(const Objects& objects, bool is_fixed, Convexity convexity, Verbosity verbosity)
-        : objects_(objects), object_(objects.next_id()), is_fixed_(is_fixed), convexity_(convexity), verbosity_(verbosity)
+    PartBuilder(const Objects& objects, bool is_fixed, Convexity convexity, const Adder& adder)
+        : objects_(objects), object_(objects.next_id()), is_fixed_(is_fixed), convexity_(convexity), adder_(adder)
     {
     }
 
     /* One piece, from levels or as a copy. */
     bool build(int index, const LevelArrays& arrays, const CopySource& source, const PartSettings& settings, Part& part) const
     {
-        const std::string about = about_piece(object_, index);
+        const std::string about = about_piece(adder_.method, object_, index);
         if (source.object >= 0) {
             return from_copy(index, source, arrays.transform(0), settings, part);
         }
@@ -152,7 +166,9 @@ public:
         std::vector<Mesh> levels(static_cast<std::size_t>(arrays.count));
         for (int level = 0; level < arrays.count; ++level) {
             if (!arrays.read(level, about, levels[static_cast<std::size_t>(level)])) {
-                if (verbosity_ == SAYS_CREATION_FAILED) {
+                if (arrays.filenames != NULL) {
+                    report(about + "File read failed");
+                } else if (adder_.verbosity == SAYS_CREATION_FAILED) {
                     report(about + "Mesh creation failed");
                 }
                 return false;
@@ -165,7 +181,7 @@ public:
     bool from_levels(int index, std::vector<Mesh>& levels, const PartSettings& settings, Part& part) const
     {
         if (settings.box_setting == BOX_SETTING_COPY) {
-            report(about_piece(object_, index) + "Cannot set box type to COPY when copy is not done");
+            report(about_piece(adder_.method, object_, index) + "Cannot set box type to COPY when copy is not done");
             return false;
         }
         part.pieces.resize(1);
@@ -197,12 +213,12 @@ public:
     bool from_copy(int index, const CopySource& source, const Transform& transform, const PartSettings& settings, Part& part) const
     {
         if (!objects_.has(source.object)) {
-            report(about_piece(object_, index) + "Invalid object id given to copy a piece: " + text(source.object));
+            report(about_piece(adder_.method, object_, index) + "Invalid object id given to copy a piece: " + text(source.object));
             return false;
         }
         const Object& object = objects_[source.object];
         if (static_cast<std::size_t>(source.piece) >= object.parts.size()) {
-            report(about_piece(object_, index) + "Invalid piece id given to copy a piece: " + text(source.piece));
+            report(about_piece(adder_.method, object_, index) + "Invalid piece id given to copy a piece: " + text(source.piece));
             return false;
         }
         const Part& original = object.parts[static_cast<std::size_t>(source.piece)];
@@ -232,7 +248,7 @@ private:
     int object_;
     bool is_fixed_;
     Convexity convexity_;
-    Verbosity verbosity_;
+    const Adder adder_;
 
     /* A body that SWIFT is to choose a box for gets the tight one. */
     BoxKind box_of_new(int setting) const
@@ -240,9 +256,10 @@ private:
         return !is_fixed_ && (setting == BOX_SETTING_DEFAULT || setting == BOX_SETTING_CUBE) ? BOX_CUBE : BOX_TIGHT;
     }
 
-    static void finish(const PartSettings& settings, BoxKind box, Part& part)
+    void finish(const PartSettings& settings, BoxKind box, Part& part) const
     {
         part.box = box;
+        part.box_centre = adder_.box_centre;
         part.enlargement_relative = settings.enlargement_relative;
         part.enlargement_absolute = settings.enlargement_absolute;
         part.measure();
@@ -251,14 +268,19 @@ private:
     /* Right after the failure. */
     void say_why(int index, const Mesh& mesh) const
     {
-        const std::string why = swiftprox_library_last_error_message();
+        std::string why = swiftprox_library_last_error_message();
         const std::string fault = surface_fault(mesh);
         if (!fault.empty()) {
             report(fault);
         }
-        report(about_piece(object_, index) + why);
-        if (verbosity_ == SAYS_CREATION_FAILED) {
-            report(about_piece(object_, index) + "Mesh creation failed");
+        /* What a program in C would set. */
+        const std::size_t advice = why.find("; the input policy ");
+        if (advice != std::string::npos) {
+            why = why.substr(0, advice) + "; " + adder_.cure;
+        }
+        report(about_piece(adder_.method, object_, index) + why);
+        if (adder_.verbosity == SAYS_CREATION_FAILED) {
+            report(about_piece(adder_.method, object_, index) + "Mesh creation failed");
         }
     }
 };

@@ -39,18 +39,31 @@ struct Entry {
     }
 };
 
+/* Pieces of one part that find one point say distances that differ by rounding: by less than this part of the two parts' radii. */
+const double CONTACT_MARGIN = 1e-9;
+
 class Results {
 public:
+    Results() : is_early_(false) {}
+
     void clear()
     {
         nearest_.clear();
         keep_nearest();
     }
 
-    /* Takes what a query lists, by object 1, into the order by the object that was created later. The objects are ranked. */
+    /*
+     * Takes what a query lists, by object 1, into the order by the object that was created later. The objects are ranked. Of a
+     * query that ended early the pair that ended it is taken: it stands in the arrays, and is not counted.
+     */
     void take(const swiftprox_scene_answer& answer, const Objects& objects)
     {
         keep_nearest();
+        is_early_ = answer.found != NULL;
+        if (is_early_) {
+            nearest_.assign(1, Entry(*answer.found));
+            return;
+        }
         nearest_.resize(answer.count);
         if (answer.count == 1) {
             nearest_[0] = Entry(answer.pairs[0]);
@@ -93,21 +106,21 @@ public:
                 while (last < end && !by_parts(all[first], all[last])) {
                     ++last;
                 }
-                unite(&all[first], &all[first] + (last - first));
+                unite(&all[first], &all[first] + (last - first), by_parts.margin(all[first]));
             }
         }
     }
 
     int count() const
     {
-        return static_cast<int>(nearest_.size());
+        return is_early_ ? 0 : static_cast<int>(nearest_.size());
     }
 
     /* Entry k of the distances; null where there is none. */
     const Found* found(int k) const
     {
         const std::vector<Entry>& shown = contacts();
-        return k < 0 || static_cast<std::size_t>(k) >= shown.size() ? NULL : shown[static_cast<std::size_t>(k)].found;
+        return is_early_ || k < 0 || static_cast<std::size_t>(k) >= shown.size() ? NULL : shown[static_cast<std::size_t>(k)].found;
     }
 
     /* Queries that do not tell contacts apart list the nearest one of each pair. */
@@ -119,25 +132,25 @@ public:
 
     int* write_ids()
     {
-        ids_.resize(2 * nearest_.size());
+        int* ids = room_in(ids_, 2 * nearest_.size());
         for (std::size_t k = 0; k < nearest_.size(); ++k) {
-            ids_[2 * k] = nearest_[k].lower_id;
-            ids_[2 * k + 1] = nearest_[k].higher_id;
+            ids[2 * k] = nearest_[k].lower_id;
+            ids[2 * k + 1] = nearest_[k].higher_id;
         }
-        return begin_of(ids_);
+        return ids;
     }
 
     int* write_parts(const Objects& objects)
     {
         const std::vector<Entry>& shown = contacts();
-        parts_.resize(2 * shown.size());
+        int* parts = room_in(parts_, 2 * shown.size());
         for (std::size_t k = 0; k < shown.size(); ++k) {
             const Found& found = *shown[k].found;
             const std::size_t first = 2 * k + (is_swapped(found) ? 1 : 0);
-            parts_[first] = objects[static_cast<int>(found.user_data1)].part_of[found.piece1];
-            parts_[4 * k + 1 - first] = objects[static_cast<int>(found.user_data2)].part_of[found.piece2];
+            parts[first] = objects[static_cast<int>(found.user_data1)].part_of[found.piece1];
+            parts[4 * k + 1 - first] = objects[static_cast<int>(found.user_data2)].part_of[found.piece2];
         }
-        return begin_of(parts_);
+        return parts;
     }
 
     int* write_counts()
@@ -145,42 +158,42 @@ public:
         if (!contacts_.empty()) {
             return begin_of(contact_counts_);
         }
-        counts_.resize(nearest_.size());
+        int* counts = room_in(counts_, nearest_.size());
         for (std::size_t k = 0; k < nearest_.size(); ++k) {
-            counts_[k] = nearest_[k].distance < 0 ? -1 : 1;
+            counts[k] = nearest_[k].distance < 0 ? -1 : 1;
         }
-        return begin_of(counts_);
+        return counts;
     }
 
     SWIFT_Real* write_distances()
     {
         const std::vector<Entry>& shown = contacts();
-        distances_.resize(shown.size());
+        SWIFT_Real* distances = room_in(distances_, shown.size());
         for (std::size_t k = 0; k < shown.size(); ++k) {
-            distances_[k] = shown[k].distance;
+            distances[k] = shown[k].distance;
         }
-        return begin_of(distances_);
+        return distances;
     }
 
     /* The lower ends of the intervals, and what the upper ends are beyond them. */
     SWIFT_Real* write_lower_ends(SWIFT_Real** errors)
     {
-        distances_.resize(nearest_.size());
-        errors_.resize(nearest_.size());
+        SWIFT_Real* lower_ends = room_in(distances_, nearest_.size());
+        SWIFT_Real* widths = room_in(errors_, nearest_.size());
         for (std::size_t k = 0; k < nearest_.size(); ++k) {
             const swiftprox_pair_answer& answer = nearest_[k].found->answer;
             if (nearest_[k].distance < 0) {
-                distances_[k] = -1;
-                errors_[k] = 0;
+                lower_ends[k] = -1;
+                widths[k] = 0;
             } else {
-                distances_[k] = rounded_down(answer.lower);
-                errors_[k] = width(distances_[k], answer.upper);
+                lower_ends[k] = rounded_down(answer.lower);
+                widths[k] = width(lower_ends[k], answer.upper);
             }
         }
         if (errors != NULL) {
-            *errors = begin_of(errors_);
+            *errors = widths;
         }
-        return begin_of(distances_);
+        return lower_ends;
     }
 
     /* Distances, points and normals, those of which the pointer is not null, in one go: what is found is large. */
@@ -244,6 +257,7 @@ public:
     }
 
 private:
+    bool is_early_; /* the query ended at the one entry that there is */
     std::vector<Entry> nearest_;  /* one for each listed pair */
     std::vector<Entry> contacts_; /* those of all pairs, where pairs have several; else empty */
     std::vector<int> contact_counts_;
@@ -267,6 +281,14 @@ private:
         bool operator()(const Entry& a, const Entry& b) const
         {
             return parts(a) < parts(b);
+        }
+
+        /* By how much a contact has to be nearer than another one of its two parts not to be the same. */
+        double margin(const Entry& entry) const
+        {
+            const std::pair<int, int> of = parts(entry);
+            return CONTACT_MARGIN * (object1->parts[static_cast<std::size_t>(of.first)].radius +
+                                     object2->parts[static_cast<std::size_t>(of.second)].radius);
         }
     };
 
@@ -292,8 +314,8 @@ private:
         return contacts_.empty() ? nearest_ : contacts_;
     }
 
-    /* Adds an entry: the first intersecting pair of pieces, else those that are nearer than all before them. */
-    void unite(const Entry* begin, const Entry* end)
+    /* Adds an entry: the first intersecting pair of pieces, else those that are nearer than all before them, the nearest first. */
+    void unite(const Entry* begin, const Entry* end, double margin)
     {
         const std::size_t before = contacts_.size();
         for (const Entry* entry = begin; entry != end; ++entry) {
@@ -304,12 +326,17 @@ private:
                 nearest_.push_back(*entry);
                 return;
             }
-            if (contacts_.size() == before || entry->found->answer.distance < contacts_.back().found->answer.distance) {
+            const bool is_first = contacts_.size() == before;
+            const double gain = is_first ? 0 : contacts_.back().found->answer.distance - entry->found->answer.distance;
+            if (is_first || gain > margin) {
                 contacts_.push_back(*entry);
+            } else if (gain > 0) {
+                contacts_.back() = *entry;
             }
         }
+        std::reverse(contacts_.begin() + static_cast<std::ptrdiff_t>(before), contacts_.end());
         contact_counts_.push_back(static_cast<int>(contacts_.size() - before));
-        nearest_.push_back(contacts_.back());
+        nearest_.push_back(contacts_[before]);
     }
 
     /* An array of so many numbers, where it is asked for. */
@@ -318,8 +345,7 @@ private:
         if (wanted == NULL) {
             return NULL;
         }
-        numbers.resize(count);
-        *wanted = begin_of(numbers);
+        *wanted = room_in(numbers, count);
         return *wanted;
     }
 
@@ -330,9 +356,26 @@ private:
         to[2] = static_cast<SWIFT_Real>(factor * from[2]);
     }
 
+    /*
+     * Room for so many numbers. Old programs read the first entry without looking whether there is one: where there is none it is
+     * zeros. Arrays do not shrink, so that queries which list now more and now less do not fill them anew.
+     */
+    template <class Value> static Value* room_in(std::vector<Value>& values, std::size_t count)
+    {
+        const std::size_t largest_entry = 6;
+        if (values.size() < std::max(count, largest_entry)) {
+            values.resize(std::max(count, largest_entry));
+        }
+        if (count == 0) {
+            std::fill(values.begin(), values.begin() + largest_entry, Value());
+        }
+        return &values[0];
+    }
+
+    /* Of what was appended one by one. */
     template <class Value> static Value* begin_of(std::vector<Value>& values)
     {
-        return values.empty() ? NULL : &values[0];
+        return values.empty() ? room_in(values, 0) : &values[0];
     }
 
     static SWIFT_Real rounded_down(double x)

@@ -36,7 +36,7 @@ inline bool SWIFT_Scene::has_object(int id, const char* method) const
 }
 
 /* Hands the parts over to the scene. */
-inline bool SWIFT_Scene::insert(std::vector<swift_legacy::Part>& parts, bool fixed, int& id)
+inline bool SWIFT_Scene::insert(const char* method, std::vector<swift_legacy::Part>& parts, bool fixed, int& id)
 {
     swift_legacy::Object object;
     object.take(parts);
@@ -53,7 +53,7 @@ inline bool SWIFT_Scene::insert(std::vector<swift_legacy::Part>& parts, bool fix
     swiftprox_object_id native;
     const swiftprox_status status = swiftprox_scene_add_object(scene_, &shapes[0], shapes.size(), &options, &native);
     if (status != SWIFTPROX_OK) {
-        swift_legacy::report_failure(swift_legacy::about_piece(next, 0));
+        swift_legacy::report_failure(swift_legacy::about_piece(method, next, 0));
         return false;
     }
     objects_.add(native, fixed, object);
@@ -62,21 +62,22 @@ inline bool SWIFT_Scene::insert(std::vector<swift_legacy::Part>& parts, bool fix
 }
 
 inline bool SWIFT_Scene::add_one(const swift_legacy::LevelArrays& levels, const swift_legacy::CopySource& source,
-                                 const swift_legacy::PartSettings& settings, swift_legacy::Verbosity verbosity, bool fixed, int& id)
+                                 const swift_legacy::PartSettings& settings, const swift_legacy::Adder& adder, bool fixed, int& id)
 {
-    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, verbosity);
+    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, adder);
     std::vector<swift_legacy::Part> parts(1);
-    return builder.build(0, levels, source, settings, parts[0]) && insert(parts, fixed, id);
+    return builder.build(0, levels, source, settings, parts[0]) && insert(adder.method, parts, fixed, id);
 }
 
 inline bool SWIFT_Scene::add_pieces(const std::vector<swift_legacy::LevelArrays>& pieces, const swift_legacy::PieceArrays& arrays,
                                     bool fixed, int& id)
 {
+    const swift_legacy::Adder adder("Add_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_CENTROID);
     if (pieces.empty()) {
-        swift_legacy::report(swift_legacy::about_piece(objects_.next_id(), 0) + "the number of pieces is not positive");
+        swift_legacy::report(swift_legacy::about_piece(adder.method, objects_.next_id(), 0) + "the number of pieces is not positive");
         return false;
     }
-    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, swift_legacy::SAYS_CREATION_FAILED);
+    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, adder);
     std::vector<swift_legacy::Part> parts(pieces.size());
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const int piece = static_cast<int>(i);
@@ -84,7 +85,7 @@ inline bool SWIFT_Scene::add_pieces(const std::vector<swift_legacy::LevelArrays>
             return false;
         }
     }
-    return insert(parts, fixed, id);
+    return insert(adder.method, parts, fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Object(const SWIFT_Real* vertices, const int* faces, int num_vertices, int num_faces, int& id,
@@ -96,7 +97,8 @@ inline bool SWIFT_Scene::Add_Object(const SWIFT_Real* vertices, const int* faces
     levels.from_arrays(&vertices, &faces, &num_vertices, &num_faces, &face_valences);
     const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
                                               swift_legacy::LevelOptions(min_tri_count, qslim_tri_ratio));
-    return add_one(levels, swift_legacy::CopySource(copy_oid, copy_pid), settings, swift_legacy::SAYS_WHY, fixed, id);
+    return add_one(levels, swift_legacy::CopySource(copy_oid, copy_pid), settings,
+                   swift_legacy::Adder("Add_Object", swift_legacy::SAYS_WHY, swift_legacy::BOX_ABOUT_CENTROID), fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Object(const char* filename, int& id, bool fixed, const SWIFT_Orientation& orient,
@@ -107,47 +109,50 @@ inline bool SWIFT_Scene::Add_Object(const char* filename, int& id, bool fixed, c
     levels.filenames = &filename;
     const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
                                               swift_legacy::LevelOptions(min_tri_count, qslim_tri_ratio));
-    return add_one(levels, swift_legacy::CopySource(-1, -1), settings, swift_legacy::SAYS_CREATION_FAILED, fixed, id);
+    return add_one(levels, swift_legacy::CopySource(-1, -1), settings,
+                   swift_legacy::Adder("Add_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_CENTROID), fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Convex_Object(const SWIFT_Real* vertices, const int* faces, int num_vertices, int num_faces, int& id,
                                            bool fixed, const SWIFT_Orientation& orient, const SWIFT_Translation& trans,
                                            SWIFT_Real scale, int box_setting, SWIFT_Real box_enl_rel, SWIFT_Real box_enl_abs,
-                                           const int* face_valences, SWIFT_Real cube_aspect_ratio)
+                                           const int* face_valences, SWIFT_Real)
 {
-    return Add_Object(vertices, faces, num_vertices, num_faces, id, fixed, orient, trans, scale, box_setting, box_enl_rel,
-                      box_enl_abs, face_valences, DEFAULT_COPY, DEFAULT_COPY, DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO,
-                      cube_aspect_ratio);
+    swift_legacy::LevelArrays levels(&orient, &trans, &scale, 1);
+    levels.from_arrays(&vertices, &faces, &num_vertices, &num_faces, &face_valences);
+    const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
+                                              swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
+    return add_one(levels, swift_legacy::CopySource(-1, -1), settings,
+                   swift_legacy::Adder("Add_Convex_Object", swift_legacy::SAYS_WHY, swift_legacy::BOX_ABOUT_ORIGIN), fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_General_Object(const char* filename, int& id, bool fixed, const SWIFT_Orientation& orient,
                                             const SWIFT_Translation& trans, SWIFT_Real scale, SPLIT_TYPE, int box_setting,
-                                            SWIFT_Real box_enl_rel, SWIFT_Real box_enl_abs, SWIFT_Real cube_aspect_ratio)
+                                            SWIFT_Real box_enl_rel, SWIFT_Real box_enl_abs, SWIFT_Real)
 {
+    swift_legacy::Adder adder("Add_General_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_ORIGIN);
+    adder.cure = "give what is not convex as a decomposition file (Convex_Decomposition), which SWIFT++'s decomposer writes; after "
+                 "Set_Take_Hull(true) the convex hull of the vertices is taken";
+    const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
+                                              swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
     std::vector<swift_legacy::Mesh> pieces;
-    switch (swift_legacy::pieces_from_file(filename, pieces)) {
-    case swift_legacy::PIECE_FILE_REFUSED:
+    const swift_legacy::PieceFileResult kind = swift_legacy::pieces_from_file(filename, pieces);
+    if (kind == swift_legacy::PIECE_FILE_REFUSED) {
         return false;
-    case swift_legacy::PIECE_FILE_NONE:
-        if (Add_Object(filename, id, fixed, orient, trans, scale, box_setting, box_enl_rel, box_enl_abs, DEFAULT_MIN_TCOUNT,
-                       DEFAULT_QSLIM_TRATIO, cube_aspect_ratio)) {
-            return true;
-        }
-        swift_legacy::report("Error (Add_General_Object): a mesh file is taken when its mesh is convex. Give one that is not as a "
-                             "decomposition file (Convex_Decomposition), which SWIFT++'s decomposer writes");
-        return false;
-    case swift_legacy::PIECE_FILE_READ:
-        break;
+    }
+    if (kind == swift_legacy::PIECE_FILE_NONE) {
+        swift_legacy::LevelArrays levels(&orient, &trans, &scale, 1);
+        levels.filenames = &filename;
+        return add_one(levels, swift_legacy::CopySource(-1, -1), settings, adder, fixed, id);
     }
     const swift_legacy::Transform transform(orient, trans, scale);
     for (std::size_t i = 0; i < pieces.size(); ++i) {
+        swift_legacy::find_tolerance(pieces[i]);
         pieces[i].transform(transform);
     }
-    const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
-                                              swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
-    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, swift_legacy::SAYS_CREATION_FAILED);
+    const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, adder);
     std::vector<swift_legacy::Part> parts(1);
-    return builder.from_decomposition(pieces, settings, parts[0]) && insert(parts, fixed, id);
+    return builder.from_decomposition(pieces, settings, parts[0]) && insert(adder.method, parts, fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Pieced_Object(const SWIFT_Real* const* vertices, const int* const* faces, const int* num_vertices,
@@ -200,7 +205,8 @@ inline bool SWIFT_Scene::Add_Hierarchical_Object(const SWIFT_Real* const* vertic
     levels.from_arrays(vertices, faces, num_vertices, num_faces, face_valences);
     const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
                                               swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
-    return add_one(levels, swift_legacy::CopySource(-1, -1), settings, swift_legacy::SAYS_CREATION_FAILED, fixed, id);
+    return add_one(levels, swift_legacy::CopySource(-1, -1), settings,
+                   swift_legacy::Adder("Add_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_CENTROID), fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Hierarchical_Object(const char* const* filenames, int num_levels, int& id, bool fixed,
@@ -213,7 +219,8 @@ inline bool SWIFT_Scene::Add_Hierarchical_Object(const char* const* filenames, i
     levels.filenames = filenames == NULL ? &none : filenames;
     const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
                                               swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
-    return add_one(levels, swift_legacy::CopySource(-1, -1), settings, swift_legacy::SAYS_CREATION_FAILED, fixed, id);
+    return add_one(levels, swift_legacy::CopySource(-1, -1), settings,
+                   swift_legacy::Adder("Add_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_CENTROID), fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Hierarchical_Pieced_Object(

@@ -13,7 +13,7 @@ inline void SWIFT_Scene::keep_overlapping_boxes()
         const swift_legacy::Found& found = *listed[i].found;
         const swift_legacy::Part& part1 = placed_part(found.user_data1, found.piece1);
         const swift_legacy::Part& part2 = placed_part(found.user_data2, found.piece2);
-        if (swift_legacy::is_intersecting(found) || swift_legacy::overlap(part1, part2)) {
+        if (swift_legacy::is_intersecting(found) || swift_legacy::overlap(part1.world_box, part2.world_box)) {
             listed[kept++] = listed[i];
         }
     }

@@ -83,7 +83,7 @@ pub fn check_convexity(
     let boundary = Boundary::new(hull, &position, &mut progress.part(0.0, 0.2))?;
     let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
     let surface = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.2, 0.3))?;
-    if hull.dimension == 3 && surface.volume < -surface.volume_rounding() {
+    if hull.dimension == 3 && surface.is_inside_out() {
         return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
     }
     let allowed = exact.to_scaled(tolerance).min(WHOLE) + ROUNDING;
@@ -113,6 +113,18 @@ pub fn check_convexity(
         ));
     }
     check_single_cover(mesh, &boundary, &surface, allowed, &mut progress.part(0.9, 1.0))
+}
+
+/// Whether all faces of a mesh that passed [`super::check_surface`] run clockwise seen from outside.
+///
+/// # Errors
+/// [`Error::Memory`].
+pub fn is_inside_out(mesh: &PolygonMesh, progress: &mut Progress) -> Result<bool> {
+    let exact = ExactPoints::new(&mesh.vertices)?;
+    let origin = exact.approximate(mesh.indices[0]);
+    let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v) - origin))?;
+    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
+    Ok(Extent::of((0..mesh.face_count()).map(polygon), progress)?.is_inside_out())
 }
 
 /// A vertex farther from a plane than allowed.
@@ -249,6 +261,10 @@ impl Extent {
             sum.faces += 1;
         }
         Ok(sum)
+    }
+
+    fn is_inside_out(&self) -> bool {
+        self.volume < -self.volume_rounding()
     }
 
     /// Each face's term is at most its area times the size (below 4 in scaled units) over 3, the

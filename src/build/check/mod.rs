@@ -7,7 +7,7 @@ mod proof;
 
 use convexity::{Side, most_inward};
 
-pub use convexity::check_convexity;
+pub use convexity::{check_convexity, is_inside_out};
 pub use proof::{check_hull, check_hull_in_steps};
 
 use crate::base::error::{Error, Result};
