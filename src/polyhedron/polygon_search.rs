@@ -238,8 +238,8 @@ impl<'a> FaceToDivide<'a> {
         line.normal.dot(self.middle(k)) < line.offset
     }
 
-    /// Of lines along edges of three of the polygons the one that leaves the fewest to look at. Where all leave too many on one side,
-    /// the polygons are halved across the direction in which they spread most.
+    /// Of lines along edges of three of the polygons the one that leaves the fewest to look at. Where all leave too many on one
+    /// side, the polygons are halved across the direction in which they spread most.
     fn best_line(&self, range: &mut [u32]) -> Line {
         let mut best = (range.len() - range.len() / LEAST_SHARE + 1, None);
         for part in [2, 1, 3] {
@@ -282,8 +282,8 @@ impl<'a> FaceToDivide<'a> {
         Line { normal: Vector::ith(axis, 1.0), offset: height(half) }
     }
 
-    /// Puts the polygons on the near side first, in the order that they had: a fan's are in order around its hub. Gives their number,
-    /// half of them where all are on one side.
+    /// Puts the polygons on the near side first, in the order that they had: a fan's are in order around its hub. Gives their
+    /// number, or half of all where one side has too few.
     fn order_by(&mut self, line: &Line, range: &mut [u32]) -> usize {
         let (mut near, mut far) = (0, 0);
         for i in 0..range.len() {

@@ -148,7 +148,7 @@ fn rounded_box() -> Vec<Vector> {
 /// The hull of a gear: flat tips, and no teeth between them.
 fn gear(teeth: u32) -> Vec<Vector> {
     let tip = |i: u32| {
-        let angle = TAU * (f64::from(i / 2) + if i % 2 == 0 { 0.0 } else { 0.4 }) / f64::from(teeth);
+        let angle = TAU * (f64::from(i / 2) + 0.4 * f64::from(i % 2)) / f64::from(teeth);
         [-0.2, 0.2].map(|z| Vector::new(angle.cos(), angle.sin(), z))
     };
     (0..2 * teeth).flat_map(tip).collect()

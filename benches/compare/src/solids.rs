@@ -33,8 +33,7 @@ pub fn run(options: &Options, wanted: &[String]) -> Result<(), String> {
             for &step in &options.steps {
                 let poses = motion(options, orbit, step)?;
                 methods.iter_mut().for_each(|method| method.load(&poses));
-                let replies: Vec<_> =
-                    methods.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
+                let replies: Vec<_> = methods.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
                 let times = time_methods(&mut methods, poses.len(), options.passes);
                 for (m, method) in methods.iter().enumerate() {
                     let scene = (body.name.as_str(), body.mesh.vertices.len(), orbit.as_str(), step);
