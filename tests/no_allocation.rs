@@ -9,9 +9,10 @@ use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
-use swiftprox::shape::Shape;
+use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::counting::{Counting, allocations};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
+use testkit::solids::{Form, SOLIDS};
 
 #[global_allocator]
 static ALLOCATOR: Counting = Counting;
@@ -25,6 +26,9 @@ fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
         assert!(!leveled.hierarchy().levels.is_empty());
         shapes.extend([plain, Arc::new(leveled)]);
     }
+    // Witness points on its caps of triangles are named by a search.
+    let cylinder = SOLIDS.iter().find(|solid| solid.name == "cylinder-64").unwrap().mesh(Form::Turned).unwrap();
+    shapes.push(Arc::new(Shape::from_mesh(&cylinder, &ShapeOptions::default()).unwrap()));
     shapes.iter().for_each(|shape| shape.prepare(&mut Progress::new(&mut |_| true)).unwrap());
     shapes
 }

@@ -42,7 +42,7 @@ use crate::base::simd::environment::{with_callers, with_default};
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::scene::ContactDetail;
 use crate::shape::InputPolicy;
-use structs::{Versioned, init_struct, read_struct, write_struct};
+use structs::{Versioned, init_struct, read_struct, view_struct, write_struct};
 
 /// What a call returns. The numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

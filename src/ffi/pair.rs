@@ -1,9 +1,11 @@
 //! Pair queries: thin doors to `pair`, in front of functions that take some tens of nanoseconds. Nothing is copied; poses
 //! and configuration are read where the caller has them.
 
+use std::mem::MaybeUninit;
+
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use super::{
-    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, init_struct, input, read_enumerator, read_struct,
+    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, init_struct, input, read_enumerator, view_struct,
 };
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
@@ -253,17 +255,9 @@ unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConfig> {
     if config.is_null() {
         return Ok(PairConfig::default());
     }
-    let of_this_size;
-    // SAFETY: not null; the struct begins with its size.
-    let size = unsafe { config.cast::<usize>().read() };
-    let config = if size == size_of::<CPairConfig>() {
-        // SAFETY: as large as today's struct, whose members are plain numbers and a pointer.
-        unsafe { &*config }
-    } else {
-        // SAFETY: by the caller.
-        of_this_size = unsafe { read_struct(config, CPairConfig::DEFAULT) }?;
-        &of_this_size
-    };
+    let mut older = MaybeUninit::uninit();
+    // SAFETY: not null, the rest by the caller.
+    let config = unsafe { view_struct(config, &CPairConfig::DEFAULT, &mut older) }?;
     // SAFETY: by the caller.
     let PairTuning { start, levels, refinement } = unsafe { read_pair_tuning(config.tuning) }?;
     Ok(PairConfig {

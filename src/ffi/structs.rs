@@ -97,6 +97,25 @@ pub(super) unsafe fn read_struct<T: Versioned>(pointer: *const T, defaults: T) -
     }
 }
 
+/// A caller's struct where it is, if it has today's size: nothing is copied. Else `older` holds what [`read_struct`] makes of it.
+///
+/// # Safety
+/// `pointer` is not null and points to as many readable bytes as its struct_size says, unchanged for `'a`.
+#[inline(always)]
+pub(super) unsafe fn view_struct<'a, T: Versioned>(
+    pointer: *const T,
+    defaults: &T,
+    older: &'a mut MaybeUninit<T>,
+) -> Checked<&'a T> {
+    // SAFETY: not null; struct_size is the first member.
+    if unsafe { pointer.cast::<usize>().read() } == size_of::<T>() {
+        // SAFETY: as large as today's struct, of which any bytes are valid.
+        return Ok(unsafe { &*pointer });
+    }
+    // SAFETY: by the caller.
+    Ok(older.write(unsafe { read_struct(pointer, *defaults) }?))
+}
+
 /// Fills a caller's info as far as its struct_size says; what only a newer header knows becomes zero.
 ///
 /// # Safety

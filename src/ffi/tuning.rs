@@ -1,8 +1,10 @@
 //! Levels of detail and look-up tables: how they are made, how queries use them, and what a shape has of them.
 
+use std::mem::MaybeUninit;
+
 use super::{
     Checked, HierarchyNumber, LevelsNumber, LookupNumber, RefinementNumber, StartNumber, StatusCode, Versioned, guard,
-    init_struct, input, read_enumerator, read_struct, write_struct,
+    init_struct, input, read_enumerator, read_struct, view_struct, write_struct,
 };
 use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::pair::{Levels, PairConfig, Refinement, Start};
@@ -141,8 +143,9 @@ pub(super) unsafe fn read_pair_tuning(tuning: *const CPairTuning) -> Checked<Pai
         let PairConfig { start, levels, refinement, .. } = PairConfig::default();
         return Ok(PairTuning { start, levels, refinement });
     }
-    // SAFETY: by the caller.
-    let tuning = unsafe { read_struct(tuning, CPairTuning::DEFAULT) }?;
+    let mut older = MaybeUninit::uninit();
+    // SAFETY: not null, the rest by the caller.
+    let tuning = unsafe { view_struct(tuning, &CPairTuning::DEFAULT, &mut older) }?;
     Ok(PairTuning {
         start: read_enumerator(tuning.start, "tuning->start", "swiftprox_start")?,
         levels: read_enumerator(tuning.levels, "tuning->levels", "swiftprox_levels")?,
@@ -216,7 +219,8 @@ pub unsafe extern "C" fn swiftprox_shape_get_tuning_info(shape: *const Shape, in
             lookup: lookup as i32,
             level_count: hierarchy.levels.len(),
             level_bytes: hierarchy.heap_bytes(),
-            lookup_bytes: polyhedron.lookup.heap_bytes(),
+            // What few vertices are looked at in is the shape's own.
+            lookup_bytes: if lookup == LookupKind::None { 0 } else { polyhedron.lookup.heap_bytes() },
             lookup_resolution: resolution as u32,
         };
         // SAFETY: the header's pointer rules.

@@ -9,10 +9,11 @@
 //! object far from its own origin loses no digits. The centre is zero unless an axis range [m−h, m+h] has h ≤ |m|/3.
 
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::copied;
 use crate::base::normal::unit;
 use crate::polyhedron::lookup::Lookup;
+use crate::polyhedron::polygon_search::PolygonSearch;
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
 pub const NONE: u32 = u32::MAX;
@@ -240,6 +241,8 @@ pub struct Polyhedron {
     pub polygon_corners: Vec<Vector>,
     /// See `polygon_corners`; one more entry than `face_labels`, or empty without a mesh.
     pub polygon_starts: Vec<u32>,
+    /// Finds the polygon that holds a point of a face of many.
+    pub polygon_search: PolygonSearch,
 }
 
 impl Polyhedron {
@@ -270,6 +273,7 @@ impl Polyhedron {
             face_label_starts: copied(&self.face_label_starts)?,
             polygon_corners: copied(&self.polygon_corners)?,
             polygon_starts: copied(&self.polygon_starts)?,
+            polygon_search: PolygonSearch::new(),
         })
     }
 
@@ -301,29 +305,6 @@ impl Polyhedron {
     pub fn labels_of_face(&self, face: u32) -> &[u32] {
         let face = face as usize;
         &self.face_labels[self.face_label_starts[face] as usize..self.face_label_starts[face + 1] as usize]
-    }
-
-    /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
-    /// rounding puts it in none. Time in proportion to the polygons merged into the face.
-    pub fn polygon_at(&self, face: u32, point: &Vector) -> u32 {
-        let labels = self.labels_of_face(face);
-        let first = self.face_label_starts[face as usize] as usize;
-        if labels.len() == 1 || self.polygon_starts.is_empty() {
-            return labels[0];
-        }
-        let normal = &self.faces[face as usize].normal;
-        let mut best = (f64::INFINITY, labels[0]);
-        for (k, &label) in labels.iter().enumerate() {
-            let range = self.polygon_starts[first + k] as usize..self.polygon_starts[first + k + 1] as usize;
-            let misses = misses_polygon(&self.polygon_corners[range], normal, point);
-            if misses < best.0 {
-                best = (misses, label);
-            }
-            if misses == 0.0 {
-                break;
-            }
-        }
-        best.1
     }
 
     /// How many of the vertices are corners of merged faces, by Euler's formula; all without faces.
@@ -465,6 +446,7 @@ impl Polyhedron {
             face_label_starts,
             polygon_corners,
             polygon_starts,
+            polygon_search,
             mass: _,
             lookup,
         } = self;
@@ -483,6 +465,7 @@ impl Polyhedron {
             + size_of_val(&face_label_starts[..])
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
+            + polygon_search.heap_bytes()
             + lookup.heap_bytes()
     }
 }
@@ -525,20 +508,4 @@ impl PlaneBlock {
     pub fn value(&self, lane: usize, point: &Vector) -> f64 {
         self.x[lane] * point.x + self.y[lane] * point.y + self.z[lane] * point.z + self.offset[lane]
     }
-}
-
-/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the
-/// sharp corner of a sliver a point may violate the sides by next to nothing and still be far away.
-fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
-    let (mut is_inside, mut nearest) = (true, f64::INFINITY);
-    for (i, a) in corners.iter().enumerate() {
-        let along = corners[(i + 1) % corners.len()] - a;
-        let from = point - a;
-        is_inside &= normal.cross(&along).dot(&from) >= 0.0;
-        let square = along.norm_squared();
-        // A side without length is a point.
-        let t = if square > 0.0 { clamp(from.dot(&along) / square, 0.0, 1.0) } else { 0.0 };
-        nearest = nearest.min((from - along * t).norm());
-    }
-    if is_inside { 0.0 } else { nearest }
 }

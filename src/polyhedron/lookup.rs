@@ -67,6 +67,18 @@ impl Cells {
     }
 }
 
+/// Eight vertices side by side, as multiples of the body's radius. Those that a body does not have repeat its last one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C, align(32))]
+pub struct VertexBlock {
+    /// First components.
+    pub x: [f32; 8],
+    /// Second components.
+    pub y: [f32; 8],
+    /// Third components.
+    pub z: [f32; 8],
+}
+
 /// Vertices near points on several spheres.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shells {
@@ -305,7 +317,7 @@ pub struct Lookup {
 pub enum Plan {
     /// None.
     None,
-    /// None, as the body has so few vertices that all are looked at.
+    /// The vertices themselves: so few that all are looked at.
     AllVertices {
         /// How often, see [`Shells::rounds`].
         rounds: u32,
@@ -334,13 +346,13 @@ impl PartialEq for Lookup {
 impl Lookup {
     /// No table.
     pub fn none() -> Lookup {
-        Lookup::without_table(Plan::None, f64::INFINITY)
+        Lookup::with_table(Plan::None, f64::INFINITY, Table::None)
     }
 
-    /// A plan that needs no table.
-    pub fn without_table(plan: Plan, jump: f64) -> Lookup {
+    /// A plan with its table.
+    pub fn with_table(plan: Plan, jump: f64, table: Table) -> Lookup {
         // Made, so that no query has to: small bodies are shared without a lock.
-        Lookup { plan, jump, made: OnNeed::from(Table::None) }
+        Lookup { plan, jump, made: OnNeed::from(table) }
     }
 
     /// The same plan without the table.
@@ -370,6 +382,7 @@ impl Lookup {
     pub fn heap_bytes(&self) -> usize {
         match self.made.get() {
             None | Some(Table::None) => 0,
+            Some(Table::AllVertices(blocks)) => size_of_val(&blocks[..]),
             Some(Table::Shells(shells)) => {
                 shells.cells.bytes() + size_of_val(&shells.positions[..]) + size_of_val(&shells.radii[..])
             }
@@ -384,8 +397,10 @@ impl Lookup {
 #[derive(Debug, Clone, PartialEq)]
 #[allow(clippy::large_enum_variant, reason = "one for a body, and a look-up should not begin with a further pointer")]
 pub enum Table {
-    /// [`Plan::None`] and [`Plan::AllVertices`].
+    /// [`Plan::None`].
     None,
+    /// [`Plan::AllVertices`].
+    AllVertices(Vec<VertexBlock>),
     /// [`Plan::Shells`].
     Shells(Shells),
     /// [`Plan::Spherical`].

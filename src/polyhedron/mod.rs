@@ -3,7 +3,9 @@
 
 #[doc(hidden)]
 pub mod lookup;
+pub(crate) mod polygon_search;
 mod layout;
+mod polygon_at;
 pub(crate) mod triangulation;
 pub(crate) mod surface_walk;
 

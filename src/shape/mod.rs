@@ -437,6 +437,7 @@ impl Shape {
         const SHARE_OF_TABLE: f64 = 0.06;
         progress.report(0.0)?;
         insist_on_table(&self.polyhedron)?;
+        self.polyhedron.insist_on_polygon_search()?;
         if self.lacks_levels() {
             progress.report(SHARE_OF_TABLE)?;
             let levels = match self.build_levels(&mut progress.part(SHARE_OF_TABLE, 1.0)) {

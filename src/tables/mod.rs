@@ -11,7 +11,7 @@ pub use options::{LookupKind, LookupOptions};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, collected, filled, found, push};
-use crate::polyhedron::lookup::{Lookup, Plan, ShellSamples, Shells, Spherical, Table};
+use crate::polyhedron::lookup::{Lookup, Plan, ShellSamples, Shells, Spherical, Table, VertexBlock};
 use crate::polyhedron::surface_walk::{Surface, nearest_of};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 
@@ -66,7 +66,8 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
             return Ok(Lookup::none());
         }
         let rounds = rounds(&Thickness::of(polyhedron), vertex_count);
-        return Ok(Lookup::without_table(Plan::AllVertices { rounds }, tuning::JUMP_OF_FEW * spacing));
+        let table = Table::AllVertices(all_vertices(polyhedron)?);
+        return Ok(Lookup::with_table(Plan::AllVertices { rounds }, tuning::JUMP_OF_FEW * spacing, table));
     }
     let jump = match plan {
         Plan::Spherical { .. } => tuning::JUMP_OF_SPHERICAL,
@@ -102,7 +103,7 @@ pub fn farthest(polyhedron: &Polyhedron, towards: &Vector) -> Option<u32> {
     match table(polyhedron) {
         Table::Shells(table) => Some(table.farthest([towards.x as f32, towards.y as f32, towards.z as f32])),
         Table::Spherical(table) => Some(table.towards(towards)),
-        Table::None => None,
+        Table::AllVertices(_) | Table::None => None,
     }
 }
 
@@ -138,12 +139,27 @@ pub fn insist_on_table(polyhedron: &Polyhedron) -> Result<()> {
 /// [`Error::Memory`].
 pub fn build_table(polyhedron: &Polyhedron) -> Result<Table> {
     Ok(match polyhedron.lookup.plan {
-        Plan::None | Plan::AllVertices { .. } => Table::None,
+        Plan::None => Table::None,
+        Plan::AllVertices { .. } => Table::AllVertices(all_vertices(polyhedron)?),
         Plan::Shells { resolution } => Table::Shells(shells(polyhedron, resolution)?),
         Plan::Spherical { resolution, radius_factor } => {
             Table::Spherical(spherical(polyhedron, resolution, radius_factor)?)
         }
     })
+}
+
+/// The vertices of a body, eight at a time.
+fn all_vertices(polyhedron: &Polyhedron) -> Result<Vec<VertexBlock>> {
+    let block = |vertices: &[Vertex]| {
+        let component = |axis: usize| {
+            std::array::from_fn(|lane| {
+                let vertex = &vertices[lane.min(vertices.len() - 1)];
+                (vertex.position[axis] / polyhedron.radius) as f32
+            })
+        };
+        VertexBlock { x: component(0), y: component(1), z: component(2) }
+    };
+    collected(polyhedron.vertices.chunks(8).map(block))
 }
 
 /// Cells along a side such that a shell has a few for every vertex.

@@ -8,7 +8,7 @@
 //! |---|---|
 //! | jump of round and of thin bodies | thin ones need more look-ups; not measured apart from the turn below |
 //! | jump of the spherical table | it is looked up once, to a start that may be far from the nearest features |
-//! | jump of few vertices | bodies of 31 vertices begin anew between 45° and 90°, boxes never |
+//! | jump of few vertices | boxes begin anew beyond 100°, bodies of 31 vertices beyond 50°: a fifth of a random query; 4 or 3 save no more |
 //! | one or two rounds from the last vertices | up to a fifth of a query of long bodies and plates after steps of 7° to 15° |
 //! | a jump that bodies in each other may have come apart by | from the least jump on, verdicts on plates take 69 % longer at 5° |
 //! | a turn that makes the last enclosure no hint | without it, and with jumps of 3.5, verdicts on plates take 24 % longer at 10° |
@@ -25,7 +25,7 @@ pub const JUMP_OF_THIN: f64 = 4.0;
 pub const JUMP_OF_SPHERICAL: f64 = 5.7;
 
 /// The same of bodies of few vertices, which need no table.
-pub const JUMP_OF_FEW: f64 = 8.0;
+pub const JUMP_OF_FEW: f64 = 5.0;
 
 /// Up to the root of this times the jump one round of look-ups from the last vertices is enough.
 pub const ONE_ROUND: f64 = 5.0;

@@ -10,6 +10,7 @@ pub mod models;
 pub mod orbits;
 pub mod random_scene;
 pub mod shapes;
+pub mod solids;
 
 pub mod any_size;
 pub mod cases;

@@ -17,13 +17,17 @@ pub fn ellipsoid(half_axes: [f64; 3], n: usize) -> Result<PolygonMesh> {
     let mut random = Random::new(seed);
     let half_axes = Vector::from(half_axes);
     let points: Vec<Vector> = (0..n).map(|_| random.direction().component_mul(&half_axes)).collect();
-    let mut mesh = hull_mesh(&points)?;
+    Ok(normalised(hull_mesh(&points)?))
+}
+
+/// A closed triangle mesh with its centre of mass at the origin and a bounding radius of 1.
+pub fn normalised(mut mesh: PolygonMesh) -> PolygonMesh {
     let centre = centre_of_mass(&mesh);
     let radius = mesh.vertices.iter().map(|v| (v - centre).norm()).fold(0.0, f64::max);
     for v in &mut mesh.vertices {
         *v = (*v - centre) / radius;
     }
-    Ok(mesh)
+    mesh
 }
 
 /// Hull of `n` random points in the unit ball: vertices of very different valence and edges of very different length.
@@ -135,13 +139,13 @@ pub fn moment_curve(n: usize) -> Result<PolygonMesh> {
 }
 
 /// Corner `i` of a regular polygon on the unit circle at height z.
-fn on_circle(i: u32, sides: u32, z: f64) -> Vector {
+pub(crate) fn on_circle(i: u32, sides: u32, z: f64) -> Vector {
     let angle = std::f64::consts::TAU * f64::from(i % sides) / f64::from(sides);
     Vector::new(angle.cos(), angle.sin(), z)
 }
 
 /// The hull of points as a mesh over the hull's own vertices.
-fn hull_mesh(points: &[Vector]) -> Result<PolygonMesh> {
+pub fn hull_mesh(points: &[Vector]) -> Result<PolygonMesh> {
     let hull = convex_hull(points)?;
     let mut own = vec![0; points.len()];
     for (new, &old) in (0..).zip(&hull.vertices) {

@@ -17,6 +17,7 @@ mod options;
 mod parry;
 mod report;
 mod setting;
+mod solids;
 mod timing;
 
 use std::process::ExitCode;
@@ -43,6 +44,8 @@ fn main() -> ExitCode {
         }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
+        } else if let Some(wanted) = &options.solids {
+            solids::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {
             crowd::run(&options, counts)
         } else if options.build {

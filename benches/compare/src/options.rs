@@ -27,6 +27,9 @@ usage: compare [options]
   --figures LIST    time the figures of Ehmann & Lin (2000) instead: of 5 to 12, choice (the automatic choice against the
                     fixed ones), error (approximate distances), size (models of up to 200,000 triangles), or all; a
                     figure has its own sizes, orbits and steps
+  --solids LIST     time exact distance of boxes, prisms, bodies of revolution and ellipsoids whose names begin so, or all,
+                    beside parry instead; on the orbits and at the
+                    steps of those options; --meshes DIR adds the hulls of the OFF files in DIR
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene but for three steps
@@ -61,6 +64,9 @@ pub struct Options {
     pub depths: Option<[String; 4]>,
     /// Which figures; empty: all.
     pub figures: Option<Vec<String>>,
+    /// Beginnings of names; empty: all.
+    pub solids: Option<Vec<String>>,
+    pub meshes: Option<PathBuf>,
     pub csv: Option<PathBuf>,
     pub help: bool,
 }
@@ -86,6 +92,8 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         answers: None,
         depths: None,
         figures: None,
+        solids: None,
+        meshes: None,
         csv: None,
         help: false,
     };
@@ -120,6 +128,10 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--figures" => {
                 options.figures = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
+            "--solids" => {
+                options.solids = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
+            }
+            "--meshes" => options.meshes = Some(value()?.into()),
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,
             _ => return Err(format!("{name}: no such option (see --help)")),

@@ -169,6 +169,43 @@ fn print_means(rows: &[&Row]) {
     }
 }
 
+/// A table with a row for each body and orbit: ns a query of the first method and how many times as long the peer takes, at each
+/// step; then the geometric means and the least of the ratios.
+pub fn print_ratios(rows: &[Row]) {
+    let steps = in_order(rows.iter().map(|r| r.step));
+    let head: Vec<String> = steps.iter().map(Step::to_string).collect();
+    println!("| body | vertices | orbit | {} |", head.join(" | "));
+    println!("|---|--:|---|{}", "--:|".repeat(steps.len()));
+    let own = rows.first().map_or("", |r| &r.method);
+    let mut ratios = vec![Vec::new(); steps.len()];
+    for (model, n, orbit) in in_order(rows.iter().map(|r| (&r.model, r.n, &r.orbit))) {
+        print!("| {model} | {n} | {orbit} |");
+        for (step, ratios) in steps.iter().zip(&mut ratios) {
+            let time = |is_own: bool| {
+                let is_here = |r: &&Row| (&r.model, r.n, &r.orbit) == (model, n, orbit) && r.step == *step;
+                rows.iter().filter(is_here).find(|r| (r.method == own) == is_own).map(|r| r.time.best)
+            };
+            match (time(true), time(false)) {
+                (Some(own), Some(peer)) => {
+                    ratios.push(peer / own);
+                    print!(" {own:.0} ({:.2}) |", peer / own);
+                }
+                (Some(own), None) => print!(" {own:.0} |"),
+                (None, _) => print!(" |"),
+            }
+        }
+        println!();
+    }
+    if ratios.iter().all(|ratios| !ratios.is_empty()) {
+        let line = |name: &str, of: &dyn Fn(&[f64]) -> f64| {
+            let cells: Vec<String> = ratios.iter().map(|ratios| format!("{:.2}", of(ratios))).collect();
+            println!("| {name} | | | {} |", cells.join(" | "));
+        };
+        line("geometric mean", &|ratios| geometric_mean(ratios.iter().copied()));
+        line("least", &|ratios| ratios.iter().copied().fold(f64::INFINITY, f64::min));
+    }
+}
+
 pub fn print_build(rows: &[BuildRow]) {
     println!("| model | vertices | method | best ms | median ms | bytes |\n|---|--:|---|--:|--:|--:|");
     for r in rows {

@@ -18,6 +18,7 @@ use crate::build::merge::{MergedFaces, Triangles, merge_bound, merge_faces};
 use crate::build::slack::RiseBounds;
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
+use crate::polyhedron::polygon_search::PolygonSearch;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use layout::{MergedHull, neighbours_of};
@@ -234,6 +235,7 @@ impl HullSurface {
             face_label_starts: Vec::new(),
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
+            polygon_search: PolygonSearch::new(),
             mass,
             lookup: Lookup::none(),
         };

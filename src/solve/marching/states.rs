@@ -4,9 +4,10 @@
 use super::Step;
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
 use super::shortcuts::{NEARLY_UNIT, is_passed, over_another_feature, past_the_end};
-use super::walks::{behind, walk_along_edge, walk_over_face};
+use super::walks::{Descent, WIDE_FACE, behind, walk_along_edge, walk_over_face};
 use crate::base::math::{UNIT_ROUNDOFF, clamp};
 use crate::base::simd::Lanes;
+use crate::polyhedron::NONE;
 use crate::solve::certificate::{
     Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_in_cone, of_facing_face,
     reciprocal_length,
@@ -14,7 +15,7 @@ use crate::solve::certificate::{
 use crate::solve::frame::Frame;
 use crate::solve::state::{State, ordered};
 use crate::solve::voronoi::{
-    Corner, STRICT, VertexTest, edge_direction, end_of, plane_slopes, plane_values, test_vertex, violated_side,
+    Corner, Rule, STRICT, VertexTest, edge_direction, end_of, plane_slopes, plane_values, test_vertex, violated_side,
 };
 
 #[inline(always)]
@@ -223,6 +224,12 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let towards_far = body.rotate_back(direction).negate();
     let test = test_corner::<L, C>(corner, towards_far, NEARLY_UNIT, STRICT);
     if let VertexTest::Leaves { edge: leaving, head, .. } = test {
+        if (record.side_count >= WIDE_FACE) & (C::RULE == Rule::Most) {
+            let lower = L::out_of_line(&mut Descent::of::<NEAR>(frame, face, towards_far, head));
+            if lower != NONE {
+                return Step::to(State::vertex_face(NEAR, lower, face));
+            }
+        }
         return walk_over_face::<L, NEAR>(frame, vertex, face, [point, values], [leaving, head]);
     }
     let foot = normal.negated_mul_add(L::splat(height), point);

@@ -1,13 +1,16 @@
 //! Walks of a vertex or a point along an edge over a face of the other body: to where it leaves the face's prism, to the edge's
 //! end, or into the face.
 
+use super::shortcuts::NEARLY_UNIT;
 use super::{Step, Transition};
 use crate::base::math::Vector;
-use crate::base::simd::Lanes;
-use crate::polyhedron::{NONE, PlaneBlock, Polyhedron};
-use crate::solve::frame::Frame;
+use crate::base::simd::{Lanes, Work};
+use crate::polyhedron::{NONE, PlaneBlock, Polyhedron, clear_slope};
+use crate::solve::frame::{Body, Frame};
 use crate::solve::state::{State, ordered};
-use crate::solve::voronoi::{edge_direction, exit_of_prism, plane_slopes, plane_values};
+use crate::solve::voronoi::{
+    Corner, Rule, edge_direction, exit_of_prism, plane_slopes, plane_values, steepest, violated_side,
+};
 
 /// A vertex over a face descends along the edge `leaving` to the neighbour `head`, towards the face: to the edge's end, or to the
 /// side of the prism where it leaves.
@@ -48,6 +51,90 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
         }
         _ => State::vertex_face(NEAR, end, face),
     })
+}
+
+/// Faces of so many sides are wide enough for a vertex to descend over them by several edges. Each takes a step of marching, and
+/// two searches among the sides.
+pub(super) const WIDE_FACE: u32 = 8;
+
+/// Edges of a descent; what is longer is gone down in several.
+const LONGEST_DESCENT: usize = 64;
+
+/// A vertex of a body over a wide face of the other body goes down the steepest edges, and not over the rim.
+// The bodies are copied: a reference to the frame would have it put into memory in every query (5 % of a coherent one).
+pub(super) struct Descent<'a, L> {
+    /// The vertex's body.
+    near: Body<'a, L>,
+    /// The face's body.
+    far: Body<'a, L>,
+    tolerance: f64,
+    face: u32,
+    /// Towards the face, as the vertex's body sees it; nearly unit.
+    down: L,
+    /// The vertex below it.
+    next: u32,
+}
+
+impl<L: Lanes> Work for Descent<'_, L> {
+    /// A lower vertex over the face, or [`NONE`] where bisection finds none.
+    type Output = u32;
+
+    #[inline(always)]
+    fn run(&mut self) -> u32 {
+        let mut way = [self.next; LONGEST_DESCENT];
+        let last = self.descend(&mut way);
+        // The lowest comes first: where the face is wider than the body it is over the face.
+        let (mut found, mut low, mut high, mut probe) = (NONE, 0, last + 1, last);
+        loop {
+            if self.is_over_face(way[probe]) {
+                found = way[probe];
+                low = probe + 1;
+            } else {
+                high = probe;
+            }
+            if low >= high {
+                return found;
+            }
+            probe = low + (high - low) / 2;
+        }
+    }
+}
+
+impl<'a, L: Lanes> Descent<'a, L> {
+    #[inline(always)]
+    pub(super) fn of<const NEAR: usize>(frame: &Frame<'a, L>, face: u32, down: L, next: u32) -> Descent<'a, L> {
+        let (near, far) = (frame.bodies[NEAR], frame.bodies[1 - NEAR]);
+        Descent { near, far, tolerance: frame.tolerance, face, down, next }
+    }
+
+    /// Writes the vertices of the way down behind the first and gives the place of the last. Hubs are not passed: to look at all
+    /// of their neighbours takes longer than a step.
+    #[inline(always)]
+    fn descend(&self, way: &mut [u32; LONGEST_DESCENT]) -> usize {
+        for last in 0..LONGEST_DESCENT - 1 {
+            let Some(corner) = Corner::of(self.near.polyhedron, way[last]) else { return last };
+            if corner.record.more > 1 {
+                return last;
+            }
+            let (slope, edge, head) = steepest(corner, self.down);
+            if !(slope > clear_slope(NEARLY_UNIT)) | (edge == NONE) {
+                return last;
+            }
+            way[last + 1] = head;
+        }
+        LONGEST_DESCENT - 1
+    }
+
+    #[inline(always)]
+    fn is_over_face(&self, vertex: u32) -> bool {
+        let Descent { near, far, .. } = self;
+        let face = &far.polyhedron.faces[self.face as usize];
+        let position = &near.polyhedron.vertices[vertex as usize].position;
+        let point = far.rotate_back(near.rotate(position).add(near.offset));
+        let values = plane_values(&face.planes, point);
+        let [height, ..] = values.to_array();
+        (height > 0.0) && violated_side(Rule::Most, far.polyhedron, face, [point, values], self.tolerance).is_none()
+    }
 }
 
 /// The point at parameter `t` of body NEAR's edge lies over the face beside the other body's edge: walks along the edge, which
