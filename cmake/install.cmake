@@ -39,7 +39,8 @@ install(FILES LICENSE-APACHE LICENSE-MIT DESTINATION "${doc_dir}" COMPONENT swif
 install(FILES "${SWIFTPROX_LIBRARY_DIR}/libswiftprox.so" "${SWIFTPROX_STATIC}"
   DESTINATION "${CMAKE_INSTALL_LIBDIR}" COMPONENT swiftprox_development)
 install(FILES "${SWIFTPROX_INCLUDE_DIR}/swiftprox.h" "${SWIFTPROX_INCLUDE_DIR}/swiftprox_tuning.h"
-  DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT swiftprox_development)
+  "${SWIFTPROX_INCLUDE_DIR}/swiftprox.hpp" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT swiftprox_development)
+install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/swiftprox" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}" COMPONENT swiftprox_development)
 install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/legacy" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/swiftprox"
   COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swiftproxConfigVersion.cmake"

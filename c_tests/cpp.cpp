@@ -1,0 +1,302 @@
+/* The C++ interface over that of C: values, ranges, exceptions and their twins. With -fno-exceptions the twins alone. */
+#include "swiftprox.hpp"
+
+#include "check.h"
+
+#include <cmath>
+#include <cstring>
+
+using swiftprox::Placed;
+using swiftprox::Pose;
+using swiftprox::Shape;
+
+/* Defaults are those of C: each member but struct_size, which the compiler says. */
+template <class C, class Config> static void check_defaults(const Config &config, void (*init)(C *, std::size_t))
+{
+    C expected;
+    std::memset(&expected, 0, sizeof expected);
+    init(&expected, sizeof expected);
+    C given;
+    std::memset(&given, 0, sizeof given);
+    given = config;
+    CHECK(std::memcmp(&expected, &given, sizeof expected) == 0);
+}
+
+static void defaults()
+{
+    using namespace swiftprox;
+    check_defaults(PairConfig{}.to_c(), swiftprox_pair_config_init_sized);
+    check_defaults(DepthConfig{}.to_c(), swiftprox_depth_config_init_sized);
+    check_defaults(ManifoldConfig{}.to_c(), swiftprox_manifold_config_init_sized);
+    check_defaults(SceneOptions{}.to_c(), swiftprox_scene_options_init_sized);
+    check_defaults(ObjectOptions{}.to_c(), swiftprox_object_options_init_sized);
+    check_defaults(SceneQuery{}.to_c(), swiftprox_scene_query_init_sized);
+    check_defaults(ShapeTuning{}.to_c(), swiftprox_shape_tuning_init_sized);
+    check_defaults(PairTuning{}.to_c(), swiftprox_pair_tuning_init_sized);
+    swiftprox_shape_tuning tuning;
+    const ShapeOptions options; // of which the C struct points into
+    swiftprox_shape_options shape = options.to_c(tuning);
+    shape.tuning = nullptr;
+    shape.progress_user = nullptr;
+    check_defaults(shape, swiftprox_shape_options_init_sized);
+}
+
+/* A unit cube about the origin. */
+static swiftprox::Result<Shape> cube()
+{
+    const std::array<double, 24> corners{-.5, -.5, -.5, .5, -.5, -.5, -.5, .5, -.5, .5, .5, -.5,
+                                         -.5, -.5, .5,  .5, -.5, .5,  -.5, .5, .5,  .5, .5, .5};
+    const std::vector<std::uint32_t> quads{0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
+    const std::array<std::uint32_t, 6> valences{4, 4, 4, 4, 4, 4};
+    return Shape::try_from_mesh(corners, quads, valences);
+}
+
+/* A stand-in for Eigen's transforms: matrix() with entries (row, column). */
+struct Transform {
+    struct Matrix {
+        float entries[4][4];
+        float operator()(int row, int column) const { return entries[row][column]; }
+    } inner;
+    const Matrix &matrix() const { return inner; }
+};
+
+static void poses()
+{
+    const double h = std::sqrt(0.5);
+    const Pose turned({0, -1, 0, 1, 0, 0, 0, 0, 1}, {1, 2, 3});
+    // A quarter about z, of a quaternion three times as long as a unit one.
+    const Pose quaternion = Pose::from_quaternion(3 * h, 0, 0, 3 * h, {1, 2, 3});
+    const double columns[16] = {0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1};
+    const Pose column_major = Pose::from_column_major(columns);
+    const Pose transform(Transform{{{{0, -1, 0, 1}, {1, 0, 0, 2}, {0, 0, 1, 3}, {0, 0, 0, 1}}}});
+    for (std::size_t i = 0; i < 12; ++i) {
+        CHECK(std::fabs(quaternion.rows()[i] - turned.rows()[i]) < 1e-15);
+    }
+    CHECK(column_major.rows() == turned.rows());
+    CHECK(transform.rows() == turned.rows());
+    CHECK(Pose::from_quaternion(1e-200, 0, 0, 0).rows() == Pose().rows());
+    CHECK(Pose::from_quaternion(1e200, 0, 0, 0).rows() == Pose().rows());
+}
+
+static void shapes()
+{
+    const auto made = cube();
+    CHECK_OK(made.status);
+    const Shape &box = made.value;
+    const auto info = box.try_info();
+    CHECK(info && info.value.vertex_count == 8 && info.value.face_count == 6 && info.value.triangle_count == 12);
+    std::vector<std::uint32_t> labels;
+    const auto vertices = box.try_vertices(&labels);
+    CHECK(vertices && vertices.value.size() == 24 && labels.size() == 8);
+    CHECK(box.try_triangles().value.size() == 36);
+    CHECK(box.try_level_vertices(0).value.size() == 24);
+    CHECK(box.try_level_triangles(0).value.size() == 36);
+    CHECK(box.try_level_vertices(7).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(box.try_tuning_info().value.level_count == 0);
+    CHECK_OK(box.try_prepare().status);
+    const auto large = box.try_scaled(2);
+    CHECK(large && large.value.try_info().value.volume == 8);
+    const swiftprox_mesh mesh = {vertices.value.data(), 8, nullptr, nullptr, 0};
+    const std::array<swiftprox_mesh, 1> levels{mesh};
+    swiftprox::ShapeOptions hull;
+    hull.input = SWIFTPROX_INPUT_HULL;
+    CHECK_OK(Shape::try_from_levels(levels, hull).status);
+
+    // Lengths that C has to take on trust.
+    const std::vector<double> coordinates(11);
+    const std::vector<std::uint32_t> four{0, 1, 2, 3};
+    CHECK(Shape::try_from_points(coordinates).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(Shape::try_from_mesh(vertices.value, four).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    const auto wrong = Shape::try_from_mesh(vertices.value, four, std::vector<std::uint32_t>{3});
+    CHECK(wrong.status == SWIFTPROX_ERROR_INVALID_ARGUMENT && std::strstr(wrong.message(), "valences") != nullptr);
+
+    // A build that is told to stop.
+    swiftprox::ShapeOptions stopped;
+    int reports = 0;
+    stopped.progress = [&reports](double) { return ++reports > 1000; };
+    CHECK(Shape::try_from_points(vertices.value, stopped).status == SWIFTPROX_ERROR_CANCELLED && reports == 1);
+
+    // Shares: a copy outlives its original, what was moved away is none.
+    Shape first = box;
+    Shape second = std::move(first);
+    CHECK(!first && second);
+    first = second;
+    second = Shape();
+    CHECK(first.try_info().value.vertex_count == 8);
+}
+
+static void pairs()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    const Pose here, apart = Pose::at(3, 0, 0), into = Pose::at(0.75, 0, 0);
+    swiftprox::PairCache cache;
+    const auto distance = swiftprox::try_distance({box, here}, {box, apart}, cache);
+    CHECK(distance && distance.value.lower <= 2 && distance.value.upper >= 2);
+    CHECK_OK(swiftprox::try_verify({box, here}, {box, apart}, distance.value).status);
+    CHECK(swiftprox::try_verify({box, here}, {box, into}, distance.value).status == SWIFTPROX_ERROR_UNVERIFIED);
+    CHECK(!swiftprox::try_intersect({box, here}, {box, apart}, cache).value);
+    CHECK(swiftprox::try_intersect({box, here}, {box, into}, cache).value);
+    CHECK(swiftprox::try_contact({box, here}, {box, into}, cache).value.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+    swiftprox::PairConfig config;
+    config.absolute_error = 0.5;
+    const auto rough = swiftprox::try_approximate({box, here}, {box, apart}, cache, config);
+    CHECK(rough && rough.value.upper - rough.value.lower <= 0.5);
+    swiftprox::DepthCache depths;
+    const auto depth = swiftprox::try_depth({box, here}, {box, into}, depths);
+    CHECK(depth && depth.value.lower <= 0.25 && depth.value.upper >= 0.25);
+    CHECK_OK(swiftprox::try_depth_verify({box, here}, {box, into}, depths, depth.value).status);
+    swiftprox::ManifoldCache manifolds;
+    std::array<swiftprox_manifold_point, 8> points;
+    const auto manifold = swiftprox::try_manifold({box, here}, {box, into}, manifolds, points);
+    CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
+    CHECK(swiftprox::try_distance({box, Pose(std::array<double, 12>{})}, {box, here}, cache).status == SWIFTPROX_ERROR_POSE);
+    CHECK(swiftprox::try_distance({Shape(), here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
+}
+
+static void scenes(const std::string &folder)
+{
+    const auto made = cube();
+    auto created = swiftprox::Scene::try_create();
+    CHECK_OK(created.status);
+    swiftprox::Scene scene = std::move(created.value);
+    const std::string recording = folder + "/cpp.swiftrec";
+    CHECK_OK(scene.try_record(recording).status);
+
+    swiftprox::ObjectOptions options;
+    options.user_data = 7;
+    const auto a = scene.try_add(made.value, options), b = scene.try_add(made.value);
+    const std::array<Shape, 2> pieces{made.value, made.value};
+    const auto c = scene.try_add(pieces);
+    CHECK(a && b && c && a.value != b.value);
+    CHECK_OK(scene.try_set_piece_pose(c.value, 1, Pose::at(0, 5, 0)).status);
+    const std::array<swiftprox_object_id, 2> moved{b.value, c.value};
+    const std::array<Pose, 2> to{Pose::at(0.75, 0, 0), Pose::at(10, 0, 0)};
+    CHECK_OK(scene.try_set_poses(moved, to).status);
+    CHECK(scene.try_set_poses(moved, std::vector<Pose>(1)).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(scene.try_piece_pose(c.value, 1).value.rows() == Pose::at(10, 5, 0).rows());
+    CHECK(scene.try_object_info(a.value).value.user_data == 7);
+    CHECK(scene.try_object_ids().value.size() == 3);
+    CHECK(scene.try_piece(c.value, 1).value.get() == made.value.get());
+
+    swiftprox::SceneQuery query;
+    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
+    const auto touching = scene.try_query_contacts(query);
+    CHECK(touching && touching.value.count == 1 && touching.value.intersecting == 1);
+    std::size_t listed = 0;
+    for (const swiftprox_pair_result &pair : swiftprox::pairs(touching.value)) {
+        CHECK(pair.object1 == a.value && pair.object2 == b.value && pair.user_data1 == 7);
+        ++listed;
+    }
+    CHECK(listed == 1);
+    const auto where = scene.try_get_contacts();
+    CHECK(swiftprox::contacts(where.value).size() == 1);
+    CHECK(swiftprox::points(where.value, swiftprox::contacts(where.value)[0]).size() == 4);
+    CHECK(scene.try_query_exact_distance().value.count == 5); // pairs of pieces
+    CHECK(scene.try_query_object(c.value, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
+    CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);
+    const auto events = scene.try_query_events();
+    CHECK(swiftprox::began(events.value).size() == 1 && swiftprox::ended(events.value).empty());
+
+    // A filter goes with the scene, wherever that is moved.
+    int asked = 0;
+    CHECK_OK(scene.try_set_pair_filter([&asked](swiftprox_object_id, swiftprox_object_id) { return ++asked < 0; }).status);
+    swiftprox::Scene other = std::move(scene);
+    CHECK(other.try_query_intersection().value.count == 0 && asked > 0);
+    CHECK(scene.try_query_intersection().status == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK_OK(other.try_set_pair_filter(nullptr).status);
+    CHECK(other.try_query_intersection().value.count == 1);
+
+    CHECK_OK(other.try_set_pairs({}).status);
+    CHECK(other.try_query_intersection().value.count == 0);
+    CHECK_OK(other.try_find_pairs().status);
+    CHECK_OK(other.try_deactivate_pair(a.value, b.value).status);
+    CHECK(!other.try_is_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
+    CHECK(other.try_query_intersection().value.count == 0);
+    CHECK_OK(other.try_remove_object(a.value).status);
+    CHECK(other.try_remove_object(a.value).status == SWIFTPROX_ERROR_HANDLE);
+    CHECK(other.try_statistics().value.queries > 0);
+    CHECK_OK(other.try_end_recording().status);
+    CHECK_OK(other.try_destroy().status);
+
+    auto opened = swiftprox::Replay::try_open(recording);
+    CHECK_OK(opened.status);
+    int steps = 0;
+    for (auto step = opened.value.try_read(); step && step.value.has_step; step = opened.value.try_read()) {
+        CHECK_OK(opened.value.try_change().status);
+        if (step.value.has_query) {
+            bool identical = false;
+            CHECK_OK(opened.value.try_ask(SWIFTPROX_DEFAULT_TOLERANCE, &identical).status);
+            CHECK(identical);
+            ++steps;
+        }
+    }
+    CHECK(steps > 5);
+    CHECK(opened.value.scene().try_object_ids().value.size() == 2);
+}
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+/* The plain forms: what is right is returned, what is wrong is thrown with its status and message. */
+static void exceptions()
+{
+    const Shape box = swiftprox::take(cube());
+    swiftprox::PairCache cache;
+    CHECK(swiftprox::distance({box, Pose()}, {box, Pose::at(3, 0, 0)}, cache).outcome == SWIFTPROX_OUTCOME_SEPARATED);
+    CHECK(swiftprox::intersect({box, Pose()}, {box, Pose()}, cache));
+    swiftprox::Scene scene;
+    const swiftprox_object_id id = scene.add(box);
+    scene.set_pose(id, Pose::at(1, 2, 3));
+    CHECK(scene.piece_pose(id).rows() == Pose::at(1, 2, 3).rows());
+    swiftprox_status status = SWIFTPROX_OK;
+    try {
+        scene.set_pose(swiftprox_object_id{}, Pose());
+    } catch (const swiftprox::Error &error) {
+        status = error.status();
+        CHECK(std::strcmp(error.what(), swiftprox_library_last_error_message()) == 0 && error.what()[0] != '\0');
+    }
+    CHECK(status == SWIFTPROX_ERROR_HANDLE);
+    try {
+        status = SWIFTPROX_OK;
+        static_cast<void>(Shape::from_file("/no such folder/no such file.off"));
+    } catch (const std::runtime_error &error) {
+        status = SWIFTPROX_ERROR_FILE;
+        CHECK(std::strstr(error.what(), "no such file.off") != nullptr);
+    }
+    CHECK(status == SWIFTPROX_ERROR_FILE);
+    swiftprox::library::check_version();
+}
+#endif
+
+/* A reader in C++ of a format of its own: four vertices and four triangles. */
+static void mesh_readers(const std::string &folder)
+{
+    const auto read = [](void *, const char *, std::size_t, swiftprox_mesh_sink *raw) -> std::int32_t {
+        swiftprox::MeshSink sink(raw);
+        static_cast<void>(sink.try_add_vertices(std::array<double, 12>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1}));
+        static_cast<void>(sink.try_add_faces(std::array<std::uint32_t, 12>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}));
+        return 0;
+    };
+    CHECK_OK(swiftprox::library::try_register_mesh_reader("CORNER", read).status);
+    const std::string path = folder + "/cpp.corner";
+    std::FILE *file = std::fopen(path.c_str(), "w");
+    CHECK(file != nullptr && std::fputs("CORNER\n", file) >= 0 && std::fclose(file) == 0);
+    CHECK(Shape::try_from_file(path).value.try_info().value.vertex_count == 4);
+    CHECK_OK(swiftprox::library::try_register_mesh_reader("CORNER", nullptr).status);
+    CHECK(std::strcmp(swiftprox::to_string(SWIFTPROX_OUTCOME_SEPARATED),
+                      swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_SEPARATED)) == 0);
+}
+
+int main(int argc, char **argv)
+{
+    const std::string folder = argc > 1 ? argv[1] : ".";
+    defaults();
+    poses();
+    shapes();
+    pairs();
+    scenes(folder);
+    mesh_readers(folder);
+#if SWIFTPROX_HAS_EXCEPTIONS
+    exceptions();
+#endif
+    return check_report("cpp");
+}

@@ -1,0 +1,24 @@
+/*
+ * swiftprox for C++17 and newer: values, ranges and exceptions over the interface of C, and nothing else. All is inline.
+ *
+ * What a function does, in which frame and unit, and how it fails stands at the function of C of the same name: swiftprox::distance
+ * is swiftprox_pair_distance, Scene::set_pose is swiftprox_scene_set_pose. Answers, infos and statistics are the structs of C.
+ *
+ * Failure. Functions throw swiftprox::Error, which carries the status and the library's message. Each has a twin, try_..., that
+ * throws nothing and returns a Result: a status and a value. With -fno-exceptions only these are there.
+ *
+ * Ownership. Shape is a share: copying one takes a share, and is cheap. Scene and Replay own theirs and can only be moved.
+ * Ranges that a scene hands out are its own, valid as long as swiftprox.h says for that answer.
+ *
+ * Configs. Their members begin with the defaults of C. Other values are set by name: scene.contacts({.margin = 0.1}) by C++20.
+ */
+#ifndef SWIFTPROX_HPP
+#define SWIFTPROX_HPP
+
+#include "swiftprox/library.hpp"
+#include "swiftprox/pair.hpp"
+#include "swiftprox/pose.hpp"
+#include "swiftprox/scene.hpp"
+#include "swiftprox/shape.hpp"
+
+#endif

@@ -1,0 +1,136 @@
+/* Queries of two shapes, two poses and a cache. */
+#ifndef SWIFTPROX_PAIR_HPP
+#define SWIFTPROX_PAIR_HPP
+
+#include "shape.hpp"
+
+namespace swiftprox
+{
+
+/** What a pair remembers: keep one for each pair. Cold when made. */
+struct PairCache : swiftprox_pair_cache {
+    PairCache() noexcept : swiftprox_pair_cache{} {}
+};
+struct DepthCache : swiftprox_depth_cache {
+    DepthCache() noexcept : swiftprox_depth_cache{} {}
+};
+struct ManifoldCache : swiftprox_manifold_cache {
+    ManifoldCache() noexcept : swiftprox_manifold_cache{} {}
+};
+
+/** A shape where it is, for the time of a call. */
+struct Placed {
+    const Shape &shape;
+    const Pose &pose;
+};
+
+namespace detail
+{
+using PairCall = swiftprox_status (*)(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
+                                      swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
+inline Result<swiftprox_pair_answer> pair(PairCall call, Placed a, Placed b, PairCache &cache, const PairConfig &config) noexcept
+{
+    const swiftprox_pair_config c = config.to_c();
+    Result<swiftprox_pair_answer> result;
+    result.status = call(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+    return result;
+}
+} // namespace detail
+
+inline Result<swiftprox_pair_answer> try_distance(Placed a, Placed b, PairCache &cache, const PairConfig &config = {}) noexcept
+{
+    return detail::pair(swiftprox_pair_distance, a, b, cache, config);
+}
+inline Result<swiftprox_pair_answer> try_contact(Placed a, Placed b, PairCache &cache, const PairConfig &config = {}) noexcept
+{
+    return detail::pair(swiftprox_pair_contact, a, b, cache, config);
+}
+inline Result<swiftprox_pair_answer> try_intersection(Placed a, Placed b, PairCache &cache, const PairConfig &config = {}) noexcept
+{
+    return detail::pair(swiftprox_pair_intersection, a, b, cache, config);
+}
+inline Result<swiftprox_pair_answer> try_approximate(Placed a, Placed b, PairCache &cache, const PairConfig &config) noexcept
+{
+    return detail::pair(swiftprox_pair_approximate, a, b, cache, config);
+}
+/** Whether two objects have a common point, touching included. */
+inline Result<bool> try_intersect(Placed a, Placed b, PairCache &cache, const PairConfig &config = {}) noexcept
+{
+    const Result<swiftprox_pair_answer> answer = try_intersection(a, b, cache, config);
+    Result<bool> result;
+    result.status = answer.status;
+    result.value = answer.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+    return result;
+}
+inline Result<swiftprox_depth_answer> try_depth(Placed a, Placed b, DepthCache &cache, const DepthConfig &config = {}) noexcept
+{
+    const swiftprox_depth_config c = config.to_c();
+    Result<swiftprox_depth_answer> result;
+    result.status = swiftprox_pair_depth(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+    return result;
+}
+/** Writes the points into `points`, as many as there is room for. */
+inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache &cache, Range<swiftprox_manifold_point> points,
+                                               const ManifoldConfig &config = {}) noexcept
+{
+    const swiftprox_manifold_config c = config.to_c();
+    Result<swiftprox_manifold> result;
+    result.status = swiftprox_pair_manifold(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, points.data(),
+                                            points.size(), &result.value);
+    return result;
+}
+/** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
+inline Result<void> try_verify(Placed a, Placed b, const swiftprox_pair_answer &answer) noexcept
+{
+    return detail::status(
+        swiftprox_pair_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &answer));
+}
+inline Result<void> try_depth_verify(Placed a, Placed b, const DepthCache &cache, const swiftprox_depth_answer &answer) noexcept
+{
+    return detail::status(
+        swiftprox_pair_depth_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &answer));
+}
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+inline swiftprox_pair_answer distance(Placed a, Placed b, PairCache &cache, const PairConfig &config = {})
+{
+    return take(try_distance(a, b, cache, config));
+}
+inline swiftprox_pair_answer contact(Placed a, Placed b, PairCache &cache, const PairConfig &config = {})
+{
+    return take(try_contact(a, b, cache, config));
+}
+inline swiftprox_pair_answer intersection(Placed a, Placed b, PairCache &cache, const PairConfig &config = {})
+{
+    return take(try_intersection(a, b, cache, config));
+}
+inline swiftprox_pair_answer approximate(Placed a, Placed b, PairCache &cache, const PairConfig &config)
+{
+    return take(try_approximate(a, b, cache, config));
+}
+inline bool intersect(Placed a, Placed b, PairCache &cache, const PairConfig &config = {})
+{
+    return take(try_intersect(a, b, cache, config));
+}
+inline swiftprox_depth_answer depth(Placed a, Placed b, DepthCache &cache, const DepthConfig &config = {})
+{
+    return take(try_depth(a, b, cache, config));
+}
+inline swiftprox_manifold manifold(Placed a, Placed b, ManifoldCache &cache, Range<swiftprox_manifold_point> points,
+                                   const ManifoldConfig &config = {})
+{
+    return take(try_manifold(a, b, cache, points, config));
+}
+inline void verify(Placed a, Placed b, const swiftprox_pair_answer &answer)
+{
+    take(try_verify(a, b, answer));
+}
+inline void depth_verify(Placed a, Placed b, const DepthCache &cache, const swiftprox_depth_answer &answer)
+{
+    take(try_depth_verify(a, b, cache, answer));
+}
+#endif
+
+} // namespace swiftprox
+
+#endif

@@ -1,0 +1,538 @@
+/* Scenes: objects with ids and poses, queries over all pairs; recordings played back. */
+#ifndef SWIFTPROX_SCENE_HPP
+#define SWIFTPROX_SCENE_HPP
+
+#include "shape.hpp"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+/** Two ids name the same object if their bits are equal. */
+inline bool operator==(swiftprox_object_id a, swiftprox_object_id b) noexcept
+{
+    return a.bits == b.bits;
+}
+inline bool operator!=(swiftprox_object_id a, swiftprox_object_id b) noexcept
+{
+    return a.bits != b.bits;
+}
+
+namespace swiftprox
+{
+
+namespace detail
+{
+// A Pose is its 12 doubles, so that an array of poses is what C takes.
+static_assert(std::is_standard_layout_v<Pose> && sizeof(Pose) == 12 * sizeof(double), "poses are 12 doubles each");
+inline const double *rows_of(Range<const Pose> poses) noexcept
+{
+    return poses.data() ? poses.data()->data() : nullptr;
+}
+
+/** An id to point at where there are no pairs: C takes no null pointer there. */
+inline const swiftprox_object_id *no_pairs() noexcept
+{
+    static const swiftprox_object_id none{};
+    return &none;
+}
+
+template <class Call> Result<bool> flag(Call &&call)
+{
+    std::int32_t value = 0;
+    Result<bool> result;
+    result.status = call(&value);
+    result.value = value != 0;
+    return result;
+}
+} // namespace detail
+
+/** The pairs that an answer lists. */
+inline Range<const swiftprox_pair_result> pairs(const swiftprox_scene_answer &answer) noexcept
+{
+    return {answer.pairs, answer.count};
+}
+inline Range<const swiftprox_contact> contacts(const swiftprox_scene_contacts &of) noexcept
+{
+    return {of.contacts, of.count};
+}
+/** The points where the pair of a contact meets. */
+inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_contacts &of, const swiftprox_contact &contact) noexcept
+{
+    return {of.points + contact.first_point, contact.manifold.point_count};
+}
+inline Range<const swiftprox_object_pair> began(const swiftprox_scene_events &events) noexcept
+{
+    return {events.began, events.began_count};
+}
+inline Range<const swiftprox_object_pair> ended(const swiftprox_scene_events &events) noexcept
+{
+    return {events.ended, events.ended_count};
+}
+
+/** The calls of a scene that somebody else owns. */
+class SceneView
+{
+  public:
+    explicit SceneView(swiftprox_scene *scene) noexcept : scene_(scene) {}
+    swiftprox_scene *get() const noexcept { return scene_; }
+
+    /** An object of one convex piece. */
+    Result<swiftprox_object_id> try_add(const Shape &shape, const ObjectOptions &options = {})
+    {
+        const swiftprox_object_options c = options.to_c();
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_shape(scene_, shape.get(), &c, id);
+        });
+    }
+    /** An object of several convex pieces in one local frame. */
+    Result<swiftprox_object_id> try_add(Range<const Shape> pieces, const ObjectOptions &options = {})
+    {
+        const swiftprox_object_options c = options.to_c();
+        std::vector<const swiftprox_shape *> shapes;
+        for (const Shape &piece : pieces) {
+            shapes.push_back(piece.get());
+        }
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_object(scene_, shapes.data(), shapes.size(), &c, id);
+        });
+    }
+    Result<swiftprox_object_id> try_add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
+                                             Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
+                                             const ObjectOptions &options = {})
+    {
+        if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
+            return detail::refused<swiftprox_object_id>(fault);
+        }
+        swiftprox_shape_tuning tuning;
+        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
+        const swiftprox_object_options c = options.to_c();
+        const std::size_t faces = valences.empty() ? indices.size() / 3 : valences.size();
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_mesh(scene_, vertices.data(), vertices.size() / 3, indices.data(),
+                                            valences.empty() ? nullptr : valences.data(), faces, &shape_c, &c, id);
+        });
+    }
+    Result<swiftprox_object_id> try_add_file(const std::string &path, const ShapeOptions &shape_options = {},
+                                             const ObjectOptions &options = {})
+    {
+        swiftprox_shape_tuning tuning;
+        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
+        const swiftprox_object_options c = options.to_c();
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_file(scene_, path.c_str(), &shape_c, &c, id);
+        });
+    }
+    Result<swiftprox_object_id> try_copy_object(swiftprox_object_id original)
+    {
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_copy_object(scene_, original, id);
+        });
+    }
+    Result<void> try_remove_object(swiftprox_object_id id) { return detail::status(swiftprox_scene_remove_object(scene_, id)); }
+    Result<bool> try_is_object_valid(swiftprox_object_id id) const
+    {
+        return detail::flag([&](std::int32_t *flag) {
+            return swiftprox_scene_is_object_valid(scene_, id, flag);
+        });
+    }
+    /** In order of creation. */
+    Result<std::vector<swiftprox_object_id>> try_object_ids() const
+    {
+        Result<std::vector<swiftprox_object_id>> result;
+        std::size_t count = 0;
+        result.status = swiftprox_scene_copy_object_ids(scene_, nullptr, 0, &count);
+        if (result && count > 0) {
+            result.value.resize(count);
+            result.status = swiftprox_scene_copy_object_ids(scene_, result.value.data(), count, &count);
+        }
+        return result;
+    }
+    Result<void> try_set_pose(swiftprox_object_id id, const Pose &pose)
+    {
+        return detail::status(swiftprox_scene_set_pose(scene_, id, pose.data()));
+    }
+    Result<void> try_set_transform(swiftprox_object_id id, const std::array<double, 9> &rotation,
+                                   const std::array<double, 3> &translation)
+    {
+        return detail::status(swiftprox_scene_set_transform(scene_, id, rotation.data(), translation.data()));
+    }
+    /** A pose for each of the ids. */
+    Result<void> try_set_poses(Range<const swiftprox_object_id> ids, Range<const Pose> poses)
+    {
+        if (ids.size() != poses.size()) {
+            return detail::refused<void>("poses: there are not as many as ids");
+        }
+        return detail::status(swiftprox_scene_set_poses(scene_, ids.data(), detail::rows_of(poses), poses.size()));
+    }
+    /** Of all objects that are not fixed, in order of creation. */
+    Result<void> try_set_all_poses(Range<const Pose> poses)
+    {
+        return detail::status(swiftprox_scene_set_all_poses(scene_, detail::rows_of(poses), poses.size()));
+    }
+    /** 9 numbers of rotations and 3 of translations an object. */
+    Result<void> try_set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    {
+        if (rotations.size() % 9 != 0 || translations.size() % 3 != 0 || rotations.size() / 9 != translations.size() / 3) {
+            return detail::refused<void>("rotations, translations: they are not 9 and 3 numbers an object");
+        }
+        const std::size_t count = translations.size() / 3;
+        return detail::status(swiftprox_scene_set_all_transforms(scene_, rotations.data(), translations.data(), count));
+    }
+    Result<void> try_set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
+    {
+        return detail::status(swiftprox_scene_set_piece_pose(scene_, id, piece, pose.data()));
+    }
+    Result<Pose> try_piece_pose(swiftprox_object_id id, std::uint32_t piece = 0) const
+    {
+        std::array<double, 12> rows{};
+        Result<Pose> result;
+        result.status = swiftprox_scene_get_piece_pose(scene_, id, piece, rows.data());
+        result.value = Pose(rows);
+        return result;
+    }
+    Result<void> try_set_fixed(swiftprox_object_id id, bool fixed)
+    {
+        return detail::status(swiftprox_scene_set_fixed(scene_, id, fixed ? 1 : 0));
+    }
+    Result<void> try_set_user_data(swiftprox_object_id id, std::uint64_t user_data)
+    {
+        return detail::status(swiftprox_scene_set_user_data(scene_, id, user_data));
+    }
+    Result<swiftprox_object_info> try_object_info(swiftprox_object_id id) const
+    {
+        return detail::asked<swiftprox_object_info>([&](swiftprox_object_info *info) {
+            info->struct_size = sizeof *info;
+            return swiftprox_scene_get_object_info(scene_, id, info);
+        });
+    }
+    /** A share of its own. */
+    Result<Shape> try_piece(swiftprox_object_id id, std::size_t piece = 0) const
+    {
+        const swiftprox_shape *shape = nullptr;
+        Result<Shape> result;
+        result.status = swiftprox_scene_get_piece(scene_, id, piece, &shape);
+        result.value = Shape::adopt(shape ? swiftprox_shape_retain(shape) : nullptr);
+        return result;
+    }
+    Result<swiftprox_scene_answer> try_query_intersection(const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_intersection(scene_, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_tolerance(const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_tolerance(scene_, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_exact_distance(const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_exact_distance(scene_, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_approximate_distance(const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_approximate_distance(scene_, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_contacts(const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_contacts(scene_, &c, answer);
+        });
+    }
+    /** What the last query of contacts said beside its answers. */
+    Result<swiftprox_scene_contacts> try_get_contacts() const
+    {
+        return detail::asked<swiftprox_scene_contacts>([&](swiftprox_scene_contacts *contacts) {
+            return swiftprox_scene_get_contacts(scene_, contacts);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_object(scene_, id, kind, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_answer> try_query_placed(const Shape &shape, const Pose &pose, swiftprox_query_kind kind,
+                                                    const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_placed(scene_, shape.get(), pose.data(), kind, &c, answer);
+        });
+    }
+    Result<swiftprox_scene_events> try_query_events(double distance = 0)
+    {
+        return detail::asked<swiftprox_scene_events>([&](swiftprox_scene_events *events) {
+            return swiftprox_scene_query_events(scene_, distance, events);
+        });
+    }
+    Result<swiftprox_scene_statistics> try_statistics() const
+    {
+        return detail::asked<swiftprox_scene_statistics>([&](swiftprox_scene_statistics *statistics) {
+            return swiftprox_scene_get_statistics(scene_, statistics);
+        });
+    }
+    Result<void> try_reset_statistics() { return detail::status(swiftprox_scene_reset_statistics(scene_)); }
+    Result<void> try_shrink() { return detail::status(swiftprox_scene_shrink(scene_)); }
+    Result<void> try_activate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    {
+        return detail::status(swiftprox_scene_activate_pair(scene_, id1, id2));
+    }
+    Result<void> try_deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    {
+        return detail::status(swiftprox_scene_deactivate_pair(scene_, id1, id2));
+    }
+    Result<void> try_activate_object(swiftprox_object_id id)
+    {
+        return detail::status(swiftprox_scene_activate_object(scene_, id));
+    }
+    Result<void> try_deactivate_object(swiftprox_object_id id)
+    {
+        return detail::status(swiftprox_scene_deactivate_object(scene_, id));
+    }
+    Result<void> try_activate_all() { return detail::status(swiftprox_scene_activate_all(scene_)); }
+    Result<void> try_deactivate_all() { return detail::status(swiftprox_scene_deactivate_all(scene_)); }
+    Result<bool> try_is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
+    {
+        return detail::flag([&](std::int32_t *flag) {
+            return swiftprox_scene_is_pair_active(scene_, id1, id2, flag);
+        });
+    }
+    Result<void> try_set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
+    {
+        return detail::status(swiftprox_scene_set_filter(scene_, id, groups, mask));
+    }
+    Result<void> try_filter_again() { return detail::status(swiftprox_scene_filter_again(scene_)); }
+    Result<void> try_set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs)
+    {
+        const swiftprox_object_id *ids = pairs.empty() ? detail::no_pairs() : pairs.data()->data();
+        return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
+    }
+    Result<void> try_find_pairs() { return detail::status(swiftprox_scene_find_pairs(scene_)); }
+    Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
+    Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+    swiftprox_object_id add(const Shape &shape, const ObjectOptions &options = {}) { return take(try_add(shape, options)); }
+    swiftprox_object_id add(Range<const Shape> pieces, const ObjectOptions &options = {})
+    {
+        return take(try_add(pieces, options));
+    }
+    swiftprox_object_id add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
+                                 Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
+                                 const ObjectOptions &options = {})
+    {
+        return take(try_add_mesh(vertices, indices, valences, shape_options, options));
+    }
+    swiftprox_object_id add_file(const std::string &path, const ShapeOptions &shape_options = {}, const ObjectOptions &options = {})
+    {
+        return take(try_add_file(path, shape_options, options));
+    }
+    swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
+    void remove_object(swiftprox_object_id id) { take(try_remove_object(id)); }
+    bool is_object_valid(swiftprox_object_id id) const { return take(try_is_object_valid(id)); }
+    std::vector<swiftprox_object_id> object_ids() const { return take(try_object_ids()); }
+    void set_pose(swiftprox_object_id id, const Pose &pose) { take(try_set_pose(id, pose)); }
+    void set_transform(swiftprox_object_id id, const std::array<double, 9> &rotation, const std::array<double, 3> &translation)
+    {
+        take(try_set_transform(id, rotation, translation));
+    }
+    void set_poses(Range<const swiftprox_object_id> ids, Range<const Pose> poses) { take(try_set_poses(ids, poses)); }
+    void set_all_poses(Range<const Pose> poses) { take(try_set_all_poses(poses)); }
+    void set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    {
+        take(try_set_all_transforms(rotations, translations));
+    }
+    void set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
+    {
+        take(try_set_piece_pose(id, piece, pose));
+    }
+    Pose piece_pose(swiftprox_object_id id, std::uint32_t piece = 0) const { return take(try_piece_pose(id, piece)); }
+    void set_fixed(swiftprox_object_id id, bool fixed) { take(try_set_fixed(id, fixed)); }
+    void set_user_data(swiftprox_object_id id, std::uint64_t user_data) { take(try_set_user_data(id, user_data)); }
+    swiftprox_object_info object_info(swiftprox_object_id id) const { return take(try_object_info(id)); }
+    Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
+    swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
+    swiftprox_scene_answer query_tolerance(const SceneQuery &query = {}) { return take(try_query_tolerance(query)); }
+    swiftprox_scene_answer query_exact_distance(const SceneQuery &query = {}) { return take(try_query_exact_distance(query)); }
+    swiftprox_scene_answer query_approximate_distance(const SceneQuery &query = {})
+    {
+        return take(try_query_approximate_distance(query));
+    }
+    swiftprox_scene_answer query_contacts(const SceneQuery &query = {}) { return take(try_query_contacts(query)); }
+    swiftprox_scene_contacts get_contacts() const { return take(try_get_contacts()); }
+    swiftprox_scene_answer query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        return take(try_query_object(id, kind, query));
+    }
+    swiftprox_scene_answer query_placed(const Shape &shape, const Pose &pose, swiftprox_query_kind kind,
+                                        const SceneQuery &query = {})
+    {
+        return take(try_query_placed(shape, pose, kind, query));
+    }
+    swiftprox_scene_events query_events(double distance = 0) { return take(try_query_events(distance)); }
+    swiftprox_scene_statistics statistics() const { return take(try_statistics()); }
+    void reset_statistics() { take(try_reset_statistics()); }
+    void shrink() { take(try_shrink()); }
+    void activate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_activate_pair(id1, id2)); }
+    void deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_deactivate_pair(id1, id2)); }
+    void activate_object(swiftprox_object_id id) { take(try_activate_object(id)); }
+    void deactivate_object(swiftprox_object_id id) { take(try_deactivate_object(id)); }
+    void activate_all() { take(try_activate_all()); }
+    void deactivate_all() { take(try_deactivate_all()); }
+    bool is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_is_pair_active(id1, id2)); }
+    void set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
+    {
+        take(try_set_filter(id, groups, mask));
+    }
+    void filter_again() { take(try_filter_again()); }
+    void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
+    void find_pairs() { take(try_find_pairs()); }
+    void record(const std::string &path) { take(try_record(path)); }
+    void end_recording() { take(try_end_recording()); }
+#endif
+
+  protected:
+    swiftprox_scene *scene_ = nullptr;
+};
+
+/** Says whether a pair of objects is to be tested. It must not throw: the program would end. */
+using PairFilter = std::function<bool(swiftprox_object_id object1, swiftprox_object_id object2)>;
+
+/** A scene of the program's own. */
+class Scene : public SceneView
+{
+  public:
+    static Result<Scene> try_create(const SceneOptions &options = {})
+    {
+        const swiftprox_scene_options c = options.to_c();
+        Result<Scene> result;
+        result.status = swiftprox_scene_create(&c, &result.value.scene_);
+        return result;
+    }
+#if SWIFTPROX_HAS_EXCEPTIONS
+    Scene() : Scene(SceneOptions{}) {}
+    explicit Scene(const SceneOptions &options) : Scene(take(try_create(options))) {}
+#endif
+    /** No scene, as one that was moved away: calls answer SWIFTPROX_ERROR_NULL_POINTER. */
+    static Scene none() noexcept { return Scene(nullptr); }
+    Scene(Scene &&other) noexcept : SceneView(std::exchange(other.scene_, nullptr)), filter_(std::move(other.filter_)) {}
+    Scene &operator=(Scene &&other) noexcept
+    {
+        std::swap(scene_, other.scene_);
+        std::swap(filter_, other.filter_);
+        return *this;
+    }
+    ~Scene()
+    {
+        // What cannot be written of a recording the log is told; try_end_recording says it.
+        static_cast<void>(try_destroy());
+    }
+    /** Ends the scene now, and says how that went. */
+    Result<void> try_destroy() noexcept { return detail::status(swiftprox_scene_destroy(std::exchange(scene_, nullptr))); }
+    /** Asks `filter` of each pair whether it is to be tested; an empty one: none is asked. */
+    Result<void> try_set_pair_filter(PairFilter filter)
+    {
+        std::unique_ptr<PairFilter> kept = filter ? std::make_unique<PairFilter>(std::move(filter)) : nullptr;
+        const Result<void> result =
+            detail::status(swiftprox_scene_set_pair_filter(scene_, kept ? &Scene::ask_filter : nullptr, kept.get()));
+        if (result) {
+            filter_ = std::move(kept);
+        }
+        return result;
+    }
+#if SWIFTPROX_HAS_EXCEPTIONS
+    void set_pair_filter(PairFilter filter) { take(try_set_pair_filter(std::move(filter))); }
+#endif
+
+  private:
+    explicit Scene(std::nullptr_t) noexcept : SceneView(nullptr) {}
+
+    static std::int32_t ask_filter(swiftprox_object_id object1, swiftprox_object_id object2, void *user)
+    {
+        return (*static_cast<const PairFilter *>(user))(object1, object2) ? 1 : 0;
+    }
+
+    /** At a place of its own: the scene points at it, however this is moved. */
+    std::unique_ptr<PairFilter> filter_;
+};
+
+/** A recording played back. */
+class Replay
+{
+  public:
+    static Result<Replay> try_open(const std::string &path, const SceneOptions &options = {})
+    {
+        const swiftprox_scene_options c = options.to_c();
+        Result<Replay> result;
+        result.status = swiftprox_replay_open(path.c_str(), &c, &result.value.replay_);
+        return result;
+    }
+    Replay() noexcept = default;
+    Replay(Replay &&other) noexcept : replay_(std::exchange(other.replay_, nullptr)) {}
+    Replay &operator=(Replay &&other) noexcept
+    {
+        std::swap(replay_, other.replay_);
+        return *this;
+    }
+    ~Replay() { static_cast<void>(swiftprox_replay_close(replay_)); }
+    SceneView scene() const noexcept { return SceneView(swiftprox_replay_scene(replay_)); }
+    Result<swiftprox_replay_step_info> try_read()
+    {
+        return detail::asked<swiftprox_replay_step_info>([&](swiftprox_replay_step_info *step) {
+            step->struct_size = sizeof *step;
+            return swiftprox_replay_read(replay_, step);
+        });
+    }
+    Result<void> try_change() { return detail::status(swiftprox_replay_change(replay_)); }
+    /** `identical`, if not null: whether the answer is bit for bit the recorded one. */
+    Result<swiftprox_scene_answer> try_ask(double distance_tolerance = SWIFTPROX_DEFAULT_TOLERANCE, bool *identical = nullptr)
+    {
+        std::int32_t same = 0;
+        Result<swiftprox_scene_answer> result;
+        result.status = swiftprox_replay_ask(replay_, distance_tolerance, &result.value, &same);
+        if (identical) {
+            *identical = same != 0;
+        }
+        return result;
+    }
+    Result<std::uint32_t> try_number(swiftprox_object_id id) const
+    {
+        return detail::asked<std::uint32_t>(
+            [&](std::uint32_t *number) { return swiftprox_replay_get_number(replay_, id, number); });
+    }
+#if SWIFTPROX_HAS_EXCEPTIONS
+    static Replay open(const std::string &path, const SceneOptions &options = {}) { return take(try_open(path, options)); }
+    swiftprox_replay_step_info read() { return take(try_read()); }
+    void change() { take(try_change()); }
+    swiftprox_scene_answer ask(double distance_tolerance = SWIFTPROX_DEFAULT_TOLERANCE, bool *identical = nullptr)
+    {
+        return take(try_ask(distance_tolerance, identical));
+    }
+    std::uint32_t number(swiftprox_object_id id) const { return take(try_number(id)); }
+#endif
+
+  private:
+    swiftprox_replay *replay_ = nullptr;
+};
+
+} // namespace swiftprox
+
+#endif

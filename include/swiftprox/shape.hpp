@@ -1,0 +1,205 @@
+/* Shapes: shares of geometry. */
+#ifndef SWIFTPROX_SHAPE_HPP
+#define SWIFTPROX_SHAPE_HPP
+
+#include "configs.hpp"
+#include "result.hpp"
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace swiftprox
+{
+
+/** A share of a shape, or none. */
+class Shape
+{
+  public:
+    Shape() noexcept = default;
+    Shape(const Shape &other) noexcept : shape_(other.shape_ ? swiftprox_shape_retain(other.shape_) : nullptr) {}
+    Shape(Shape &&other) noexcept : shape_(std::exchange(other.shape_, nullptr)) {}
+    Shape &operator=(Shape other) noexcept
+    {
+        std::swap(shape_, other.shape_);
+        return *this;
+    }
+    ~Shape() { swiftprox_shape_release(shape_); }
+    /** Takes over a share that the caller owns. */
+    static Shape adopt(const swiftprox_shape *shape) noexcept
+    {
+        Shape result;
+        result.shape_ = shape;
+        return result;
+    }
+    const swiftprox_shape *get() const noexcept { return shape_; }
+    explicit operator bool() const noexcept { return shape_ != nullptr; }
+
+    /** 3 coordinates a vertex; the faces' vertex numbers, one face after the other; their sides, empty if all are triangles. */
+    static Result<Shape> try_from_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
+                                       Range<const std::uint32_t> valences = {}, const ShapeOptions &options = {})
+    {
+        if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
+            return detail::refused<Shape>(fault);
+        }
+        return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_from_mesh(vertices.data(), vertices.size() / 3, indices.data(),
+                                                    valences.empty() ? nullptr : valences.data(),
+                                                    valences.empty() ? indices.size() / 3 : valences.size(), c, shape);
+        });
+    }
+    /** The convex hull of points, 3 coordinates each. */
+    static Result<Shape> try_from_points(Range<const double> points, const ShapeOptions &options = {})
+    {
+        if (points.size() % 3 != 0) {
+            return detail::refused<Shape>("points: the number of coordinates is not a multiple of 3");
+        }
+        return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_from_points(points.data(), points.size() / 3, c, shape);
+        });
+    }
+    static Result<Shape> try_from_file(const std::string &path, const ShapeOptions &options = {})
+    {
+        return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_from_file(path.c_str(), c, shape);
+        });
+    }
+    static Result<Shape> try_from_levels(Range<const swiftprox_mesh> levels, const ShapeOptions &options = {})
+    {
+        return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_from_levels(levels.data(), levels.size(), c, shape);
+        });
+    }
+    static Result<Shape> try_load(const std::string &path, const Progress &progress = {})
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_load(path.c_str(), detail::callback_of(progress), detail::user_of(progress), shape);
+        });
+    }
+    Result<Shape> try_scaled(double scale, const Progress &progress = {}) const
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_scaled(shape_, scale, detail::callback_of(progress), detail::user_of(progress), shape);
+        });
+    }
+    Result<void> try_save(const std::string &path) const { return detail::status(swiftprox_shape_save(shape_, path.c_str())); }
+    Result<void> try_prepare(const Progress &progress = {}) const
+    {
+        return detail::status(swiftprox_shape_prepare(shape_, detail::callback_of(progress), detail::user_of(progress)));
+    }
+    Result<swiftprox_shape_info> try_info() const
+    {
+        return detail::asked<swiftprox_shape_info>([&](swiftprox_shape_info *info) {
+            info->struct_size = sizeof *info;
+            return swiftprox_shape_get_info(shape_, info);
+        });
+    }
+    Result<swiftprox_shape_tuning_info> try_tuning_info() const
+    {
+        return detail::asked<swiftprox_shape_tuning_info>([&](swiftprox_shape_tuning_info *info) {
+            info->struct_size = sizeof *info;
+            return swiftprox_shape_get_tuning_info(shape_, info);
+        });
+    }
+    Result<swiftprox_level_info> try_level_info(std::size_t level) const
+    {
+        return detail::asked<swiftprox_level_info>([&](swiftprox_level_info *info) {
+            info->struct_size = sizeof *info;
+            return swiftprox_shape_get_level_info(shape_, level, info);
+        });
+    }
+    /** The hull's vertices in the local frame, 3 coordinates each. `labels`, if not null: the caller's number of each. */
+    Result<std::vector<double>> try_vertices(std::vector<std::uint32_t> *labels = nullptr) const
+    {
+        const Result<swiftprox_shape_info> info = try_info();
+        return filled<double>(info, info.value.vertex_count, [&](double *vertices, std::size_t count) {
+            if (labels) {
+                labels->resize(count);
+            }
+            return swiftprox_shape_copy_vertices(shape_, vertices, labels ? labels->data() : nullptr, count);
+        });
+    }
+    /** The hull's triangles, 3 places in vertices() each. */
+    Result<std::vector<std::uint32_t>> try_triangles() const
+    {
+        const Result<swiftprox_shape_info> info = try_info();
+        return filled<std::uint32_t>(info, info.value.triangle_count, [&](std::uint32_t *corners, std::size_t count) {
+            return swiftprox_shape_copy_triangles(shape_, corners, count);
+        });
+    }
+    Result<std::vector<double>> try_level_vertices(std::size_t level) const
+    {
+        const Result<swiftprox_level_info> info = try_level_info(level);
+        return filled<double>(info, info.value.vertex_count, [&](double *vertices, std::size_t count) {
+            return swiftprox_shape_copy_level_vertices(shape_, level, vertices, count);
+        });
+    }
+    Result<std::vector<std::uint32_t>> try_level_triangles(std::size_t level) const
+    {
+        const Result<swiftprox_level_info> info = try_level_info(level);
+        return filled<std::uint32_t>(info, info.value.triangle_count, [&](std::uint32_t *corners, std::size_t count) {
+            return swiftprox_shape_copy_level_triangles(shape_, level, corners, count);
+        });
+    }
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+    static Shape from_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
+                           Range<const std::uint32_t> valences = {}, const ShapeOptions &options = {})
+    {
+        return take(try_from_mesh(vertices, indices, valences, options));
+    }
+    static Shape from_points(Range<const double> points, const ShapeOptions &options = {})
+    {
+        return take(try_from_points(points, options));
+    }
+    static Shape from_file(const std::string &path, const ShapeOptions &options = {})
+    {
+        return take(try_from_file(path, options));
+    }
+    static Shape from_levels(Range<const swiftprox_mesh> levels, const ShapeOptions &options = {})
+    {
+        return take(try_from_levels(levels, options));
+    }
+    static Shape load(const std::string &path, const Progress &progress = {}) { return take(try_load(path, progress)); }
+    Shape scaled(double scale, const Progress &progress = {}) const { return take(try_scaled(scale, progress)); }
+    void save(const std::string &path) const { take(try_save(path)); }
+    void prepare(const Progress &progress = {}) const { take(try_prepare(progress)); }
+    swiftprox_shape_info info() const { return take(try_info()); }
+    swiftprox_shape_tuning_info tuning_info() const { return take(try_tuning_info()); }
+    swiftprox_level_info level_info(std::size_t level) const { return take(try_level_info(level)); }
+    std::vector<double> vertices(std::vector<std::uint32_t> *labels = nullptr) const { return take(try_vertices(labels)); }
+    std::vector<std::uint32_t> triangles() const { return take(try_triangles()); }
+    std::vector<double> level_vertices(std::size_t level) const { return take(try_level_vertices(level)); }
+    std::vector<std::uint32_t> level_triangles(std::size_t level) const { return take(try_level_triangles(level)); }
+#endif
+
+  private:
+    template <class Call> static Result<Shape> made(const ShapeOptions &options, Call &&call)
+    {
+        swiftprox_shape_tuning tuning;
+        const swiftprox_shape_options c = options.to_c(tuning);
+        Result<Shape> result;
+        result.status = call(&c, &result.value.shape_);
+        return result;
+    }
+    /** Triples of numbers, as many as an info says. */
+    template <class T, class Info, class Call>
+    static Result<std::vector<T>> filled(const Result<Info> &info, std::size_t count, Call &&call)
+    {
+        Result<std::vector<T>> result;
+        result.status = info.status;
+        if (result) {
+            result.value.resize(3 * count);
+            result.status = call(result.value.data(), count);
+        }
+        return result;
+    }
+
+    const swiftprox_shape *shape_ = nullptr;
+};
+
+} // namespace swiftprox
+
+#endif
