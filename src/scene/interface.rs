@@ -301,7 +301,7 @@ impl Scene {
 
     /// What the last query said beside its answers: [`SceneAnswer::contacts`].
     pub fn contacts(&self) -> SceneContacts<'_> {
-        self.search.contacts()
+        self.search.answer().contacts
     }
 
     /// What the queries did.

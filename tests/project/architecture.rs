@@ -104,8 +104,8 @@ const STILL_IN_CIRCLES: [&str; 10] = [
     "solve/marching",
 ];
 
-/// Whatever way it names them: `crate::`, `super::`, in braces, or by a name that `mod.rs` passes on. What stands in `mod.rs` itself
-/// is used only by files that it does not use.
+/// Whatever way it names them: `crate::`, `super::`, in braces, or by a name that `mod.rs` passes on. What stands in `mod.rs`
+/// itself is used only by files that it does not use.
 #[test]
 fn a_file_uses_only_files_of_its_folder_that_stand_above_it() {
     let mut found = Vec::new();

@@ -271,6 +271,51 @@ fn repeated_queries_and_those_of_objects_agree() {
     check(&scene, &query, &said);
 }
 
+/// Answers of what rests are given again whatever else is asked in between, and though other bodies come and go. Any query between
+/// two of contacts used to end what the first had found; one that was refused had the next read contacts that were not there.
+#[test]
+fn answers_outlive_queries_of_other_kinds() {
+    let mut random = Random::new(0xa5);
+    let (mut scene, ids) = crowd(&mut random, 60, 1.8);
+    let query = asking(ContactDetail::Manifold, 0.05);
+    let told = |said: &Said| format!("{:?} {:?} {:?}", said.pairs, said.contacts, said.points);
+    let shape = cuboid([0.3; 3]);
+    let far = ObjectOptions { pose: Pose::new(&random.rotation(), &Vector::new(50.0, 0.0, 0.0)), ..Default::default() };
+    for id in ids.iter().take(5) {
+        let others = scene.add_object(vec![shape.clone()], &far).unwrap();
+        assert!(scene.query_contacts(&SceneQuery { margin: -1.0, ..query }).is_err());
+        let first = told(&copied(scene.query_contacts(&query).unwrap()));
+        scene.query_exact_distance(&SceneQuery { distance_tolerance: f64::NAN, ..query }).unwrap_err();
+        scene.query_intersection(&query).unwrap();
+        scene.query_exact_distance(&query).unwrap();
+        scene.query_approximate_distance(&SceneQuery { error_budget: 1.0, ..query }).unwrap();
+        scene.query_object(*id, Query::Distance, &query).unwrap();
+        scene.query_placed(&shape, &far.pose, Query::Contact, &query).unwrap();
+        scene.remove_object(others).unwrap();
+        scene.query_events(0.0).unwrap();
+        scene.reset_statistics();
+        let again = copied(scene.query_contacts(&query).unwrap());
+        let done = *scene.statistics();
+        assert!(done.pairs > 40 && done.unmoved == done.pairs, "{done:?}");
+        assert_eq!(told(&again), first);
+    }
+    // What moves is asked anew, after other queries too.
+    for _ in 0..5 {
+        step(&mut random, &mut scene, &ids[..3], 0.05);
+        scene.query_events(0.0).unwrap();
+        let moved = copied(scene.query_contacts(&query).unwrap());
+        check(&scene, &query, &moved);
+        let (mut fresh, _) = crowd(&mut Random::new(0xa5), 60, 1.8);
+        for (id, object) in ids.iter().zip(fresh.objects().map(|object| object.id()).collect::<Vec<_>>()) {
+            fresh.set_pose(object, scene.object(*id).unwrap().pose()).unwrap();
+        }
+        let listed = |said: &Said| {
+            said.pairs.iter().map(|pair| (pair.piece1, pair.piece2, pair.answer.outcome)).collect::<Vec<_>>()
+        };
+        assert_eq!(listed(&moved), listed(&copied(fresh.query_contacts(&query).unwrap())));
+    }
+}
+
 /// A scene that has gone through other poses says the same pairs, outcomes and depths as one that has not.
 #[test]
 fn the_past_changes_no_verdict() {

@@ -402,8 +402,10 @@ fn error_spent_is_what_distances_leave_open() {
     assert!(undecided > 0);
 }
 
-/// The steps of the first pair of a scene's list, asked behind another query.
+/// The steps of the first pair of a scene's list, which is asked anew: no answer with an old number is given again.
 fn steps(scene: &mut Scene) -> u32 {
+    let first = scene.objects().next().unwrap().id();
+    scene.set_user_data(first, 0).unwrap();
     scene.query_intersection(&SceneQuery::default()).unwrap();
     let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
     answer.pairs[0].answer.statistics.marching_steps

@@ -1,6 +1,7 @@
 //! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the
 //! sorted candidates says which come and which go.
 
+use std::ops::Range;
 use std::sync::Mutex;
 
 use crate::base::error::Result;
@@ -20,10 +21,15 @@ pub(crate) struct NearPair {
     pub apart_until: f64,
     /// Where its memory is.
     pub cache: u32,
-    /// Where in the results of the last pass its own is, or [`UNLISTED`].
-    pub result: u32,
     pub testing: Testing,
-    /// The last pass over the list looked at it and left nothing open.
+}
+
+/// What the last pass of one kind over the list found of a pair.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mark {
+    /// Where in that pass's results its own is, or [`UNLISTED`].
+    pub result: u32,
+    /// The pass looked at it and left nothing open.
     pub is_answered: bool,
     /// Of a listed one, whether it intersects, …
     pub intersects: bool,
@@ -31,22 +37,21 @@ pub(crate) struct NearPair {
     pub level: u8,
 }
 
+/// Passes of one kind give answers of the last one of their kind again.
+pub(crate) const KINDS_OF_PASSES: usize = 5;
+
 /// Of a pair that a pass does not list.
 pub(crate) const UNLISTED: u32 = u32::MAX;
 
 impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
-        NearPair {
-            proxies,
-            apart_until: f64::NEG_INFINITY,
-            cache: 0,
-            result: UNLISTED,
-            testing: Testing::Active,
-            is_answered: false,
-            intersects: false,
-            level: 0,
-        }
+        NearPair { proxies, apart_until: f64::NEG_INFINITY, cache: 0, testing: Testing::Active }
     }
+}
+
+impl Mark {
+    /// Of a pair that no pass has looked at.
+    pub const NONE: Mark = Mark { result: UNLISTED, is_answered: false, intersects: false, level: 0 };
 
     /// Its result, found among those of a part of the pairs, stands so many places later among all.
     pub fn shift_result(&mut self, places: u32) {
@@ -73,6 +78,8 @@ fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize 
 #[derive(Debug, Default)]
 pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
+    /// Of each kind of pass a mark for each pair, in their order; of kinds that were not made there are none.
+    pub marks: [Vec<Mark>; KINDS_OF_PASSES],
     /// What each pair's queries remember, in no order: pairs move when others come and go, this does not. Several threads may
     /// change theirs at once: [`locked`].
     pub caches: Vec<Mutex<PairCache>>,
@@ -82,8 +89,6 @@ pub(crate) struct NearPairs {
     free: Vec<u32>,
     /// Pairs that come, until they are merged.
     arrivals: Vec<NearPair>,
-    /// The number of the last pass that looked at the whole list.
-    pub last_pass: u64,
 }
 
 impl NearPairs {
@@ -121,11 +126,12 @@ impl NearPairs {
             self.free.push(self.pairs[at].cache);
             self.contacts.forget(self.pairs[at].cache);
             if kept < moved && moved < at {
-                self.pairs.copy_within(moved..at, kept);
+                self.move_pairs(moved..at, kept);
             }
             (kept, moved) = (kept + at - moved, at + 1);
         }
         self.pairs.drain(kept..moved);
+        self.marks_made().for_each(|marks| drop(marks.drain(kept..moved)));
         found.copy_within(next.., new);
         found.truncate(new + found.len() - next);
         self.merge(found, firsts, testing)
@@ -144,6 +150,9 @@ impl NearPairs {
         extend(arrivals, new_pairs.iter().map(|&pair| NearPair::new(pair)))?;
         arrivals.iter_mut().for_each(|pair| pair.testing = testing(pair.proxies));
         reserve(&mut self.pairs, arrivals.len())?;
+        for marks in self.marks.iter_mut().filter(|marks| !marks.is_empty()) {
+            reserve(marks, arrivals.len())?;
+        }
         let more = arrivals.len().saturating_sub(self.free.len());
         reserve(&mut self.caches, more)?;
         let room = self.caches.len() + more - self.free.len();
@@ -157,14 +166,39 @@ impl NearPairs {
         }
         let (mut old, mut new) = (self.pairs.len(), arrivals.len());
         self.pairs.extend_from_slice(arrivals);
-        while let Some(arrival) = new.checked_sub(1).map(|last| arrivals[last]) {
+        let count = self.pairs.len();
+        self.marks_made().for_each(|marks| marks.resize(count, Mark::NONE));
+        while let Some(arrival) = new.checked_sub(1).map(|last| self.arrivals[last]) {
             let before = count_before(&self.pairs[..old], firsts, arrival.proxies);
             if before < old {
-                self.pairs.copy_within(before..old, before + new);
+                self.move_pairs(before..old, before + new);
             }
             (old, new) = (before, new - 1);
             self.pairs[old + new] = arrival;
+            self.marks_made().for_each(|marks| marks[old + new] = Mark::NONE);
         }
+        Ok(())
+    }
+
+    /// Of the kinds of passes that were made.
+    fn marks_made(&mut self) -> impl Iterator<Item = &mut Vec<Mark>> {
+        self.marks.iter_mut().filter(|marks| !marks.is_empty())
+    }
+
+    /// Moves pairs, with their marks, within the list.
+    fn move_pairs(&mut self, pairs: Range<usize>, to: usize) {
+        self.marks_made().for_each(|marks| marks.copy_within(pairs.clone(), to));
+        self.pairs.copy_within(pairs, to);
+    }
+
+    /// Makes marks for passes of a kind, if there are none.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn make_marks(&mut self, kind: usize) -> Result<()> {
+        let missing = self.pairs.len() - self.marks[kind].len();
+        reserve(&mut self.marks[kind], missing)?;
+        self.marks[kind].resize(self.pairs.len(), Mark::NONE);
         Ok(())
     }
 
@@ -175,16 +209,16 @@ impl NearPairs {
         }
     }
 
-    /// Forgets depths of pairs that do not intersect.
-    pub fn forget_depths(&mut self) {
-        for pair in &self.pairs {
-            if pair.result == UNLISTED || !pair.intersects {
+    /// Forgets depths of pairs that do not intersect, as the last pass of this kind has found.
+    pub fn forget_depths(&mut self, kind: usize) {
+        for (pair, mark) in self.pairs.iter().zip(&self.marks[kind]) {
+            if mark.result == UNLISTED || !mark.intersects {
                 self.contacts.forget_depth(pair.cache);
             }
         }
     }
 
-    /// Gives back the room that the pairs do not need.
+    /// Gives back the room that the pairs do not need, and all marks.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory) if there is none for smaller lists; nothing has changed then.
@@ -196,7 +230,7 @@ impl NearPairs {
         for (place, pair) in (0..).zip(&mut pairs) {
             pair.cache = place;
         }
-        *self = NearPairs { pairs, caches, contacts, free, arrivals: Vec::new(), last_pass: self.last_pass };
+        *self = NearPairs { pairs, caches, contacts, free, ..NearPairs::default() };
         Ok(())
     }
 
@@ -230,6 +264,7 @@ mod tests {
         let mut random = Random::new(0x9a12);
         let (mut list, mut candidates) = (NearPairs::default(), Candidates::default());
         let mut model: BTreeMap<((u64, u64), [u32; 2]), u32> = BTreeMap::new();
+        let kind = 2;
         for round in 1..if cfg!(miri) { 20 } else { 400 } {
             let count = 40;
             // Objects of one, two and three pieces.
@@ -247,7 +282,9 @@ mod tests {
                     candidates.add(b, a).unwrap();
                 }
             }
+            list.make_marks(kind).unwrap();
             list.update(&mut candidates, &firsts, is_open, |_| Testing::Active).unwrap();
+            list.make_marks(kind).unwrap();
             candidates.clear();
             model.retain(|pair, _| !is_open(pair.1) || found.contains(pair));
             for pair in found {
@@ -257,10 +294,11 @@ mod tests {
             let caches: BTreeSet<u32> =
                 list.pairs.iter().map(|pair| pair.cache).chain(list.free.iter().copied()).collect();
             assert_eq!(caches.len(), list.caches.len(), "no two share one");
-            let listed: Vec<([u32; 2], u32)> = list.pairs.iter().map(|pair| (pair.proxies, pair.result)).collect();
+            let listed: Vec<([u32; 2], u32)> =
+                list.pairs.iter().zip(&list.marks[kind]).map(|(pair, mark)| (pair.proxies, mark.result)).collect();
             assert_eq!(listed, model.iter().map(|(pair, &mark)| (pair.1, mark)).collect::<Vec<_>>());
-            for pair in &mut list.pairs {
-                pair.result = round;
+            for (pair, mark) in list.pairs.iter().zip(&mut list.marks[kind]) {
+                mark.result = round;
                 model.insert((order(&firsts, pair.proxies), pair.proxies), round);
             }
         }

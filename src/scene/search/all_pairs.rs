@@ -7,7 +7,7 @@ use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{collected, with_capacity};
 use crate::pair::PairCache;
 use crate::scene::near::candidates::order;
-use crate::scene::near::near_pairs::{NearPair, NearPairs};
+use crate::scene::near::near_pairs::{Mark, NearPair, NearPairs};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Own, Pass};
 use crate::scene::world::testing::{Rules, Testing};
@@ -70,7 +70,9 @@ impl Block {
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let stopped = pass.run(&mut self.pairs, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
+        let marks = &mut [Mark::NONE; BLOCK][..self.pairs.len()];
+        let stopped =
+            pass.run(&mut self.pairs, marks, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
         for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
             if let Some(kept) = kept {
                 *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);

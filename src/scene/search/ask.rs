@@ -5,19 +5,19 @@ use std::sync::{Arc, Mutex};
 
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::base::memory::collected;
+use crate::base::memory::{collected, filled};
 use crate::base::simd::environment::with_default;
 use crate::base::workers::Workers;
 use crate::pair::Query;
 use crate::scene::near::broad_phase::BroadPhase;
-use crate::scene::near::near_pairs::{NearPair, NearPairs};
+use crate::scene::near::near_pairs::{KINDS_OF_PASSES, Mark, NearPair, NearPairs};
 use crate::scene::search::all_pairs::run_over_all;
 use crate::scene::search::events::Events;
 use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::gathering::{all_pairs_of, near_pairs_of, pairs_of_last};
 use crate::scene::search::narrow_phase::{Own, Pass};
 use crate::scene::search::parts::{PartFindings, run_in_parts};
-use crate::scene::search::query::{SceneAnswer, SceneContacts, SceneEvents, SceneQuery, Subject};
+use crate::scene::search::query::{SceneAnswer, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::request::Request;
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::content::World;
@@ -33,20 +33,40 @@ pub(crate) struct Ground<'a> {
     pub workers: &'a Workers,
 }
 
-/// What queries have found.
+/// What queries have found, each kind for itself: its answers stay good while queries of other kinds are made.
 #[derive(Debug, Default)]
 pub(crate) struct Search {
-    /// What the last pass asked of all pairs, if it came to its end.
-    last: Option<Request>,
-    findings: Findings,
-    /// The results of the pass before, or what is left of them.
-    before: Before,
-    /// The last query stopped at its last result.
+    kept: [Kept; KINDS],
+    /// Of which kind the last query was.
+    latest: usize,
+    /// It stopped at its last result.
     stopped: bool,
+    /// The results that a pass gives again, or what is left of them.
+    before: Before,
     /// What each part of a pass found.
     parts: Vec<PartFindings>,
     events: Events,
     pub statistics: SceneStatistics,
+}
+
+/// What the last query of a kind found.
+#[derive(Debug, Default)]
+struct Kept {
+    findings: Findings,
+    /// What it asked of all near pairs and the number of its pass, if that came to its end.
+    last: Option<(Request, u64)>,
+}
+
+/// The kinds over all pairs, whose numbers are those of their marks in the list, and one for what is asked of one body.
+const KINDS: usize = KINDS_OF_PASSES + 1;
+
+/// The number of a query's kind.
+fn number_of<Object, Shape>(subject: &Subject<Object, Shape>, kind: Query) -> usize {
+    match subject {
+        Subject::AllPairs => kind as usize,
+        Subject::Events => KINDS_OF_PASSES - 1,
+        Subject::Object(_) | Subject::Placed(..) => KINDS - 1,
+    }
 }
 
 impl Search {
@@ -62,6 +82,7 @@ impl Search {
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
         let counted = self.statistics;
+        self.latest = number_of(subject, kind);
         let found = with_default(|| match *subject {
             Subject::AllPairs | Subject::Events => self.ask_all(ground, &Request::new(kind, query)?),
             Subject::Object(id) => self.ask_object(ground, id, &Request::new(kind, query)?),
@@ -70,34 +91,30 @@ impl Search {
                 self.ask_placed(ground, shape, &pose, &Request::new(kind, query)?)
             }
         });
-        match found {
-            Ok(stopped) => self.stopped = stopped,
-            Err(error) => {
-                self.forget();
-                self.statistics = counted;
-                return Err(error);
-            }
+        self.stopped = matches!(found, Ok(true));
+        let Kept { findings, last } = &mut self.kept[self.latest];
+        if let Err(error) = found {
+            findings.clear();
+            *last = None;
+            self.statistics = counted;
+            return Err(error);
         }
         if self.stopped {
-            self.findings.contacts.keep_last();
+            findings.contacts.keep_last();
         }
         self.statistics.queries += 1;
         if kind != Query::Intersection {
-            self.statistics.error_spent += self.findings.error_spent();
+            self.statistics.error_spent += findings.error_spent();
         }
         Ok(self.answer())
     }
 
     /// What the last query found.
     pub fn answer(&self) -> SceneAnswer<'_> {
-        let (results, intersecting) = (self.findings.results(), self.findings.intersecting);
+        let Findings { intersecting, contacts, .. } = self.findings();
+        let results = self.findings().results();
         let (pairs, found) = if self.stopped { (&[][..], results.last()) } else { (results, None) };
-        SceneAnswer { intersecting, pairs, found, contacts: self.contacts() }
-    }
-
-    /// What it found beside its answers.
-    pub fn contacts(&self) -> SceneContacts<'_> {
-        self.findings.contacts.view()
+        SceneAnswer { intersecting: *intersecting, pairs, found, contacts: contacts.view() }
     }
 
     /// What has changed among the pairs of objects that the last query found.
@@ -105,13 +122,16 @@ impl Search {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); what was near stays remembered.
     pub fn compare(&mut self, objects: &ObjectTable) -> Result<SceneEvents<'_>> {
-        self.events.compare(self.findings.results(), objects)
+        self.events.compare(self.kept[self.latest].findings.results(), objects)
+    }
+
+    fn findings(&self) -> &Findings {
+        &self.kept[self.latest].findings
     }
 
     /// No answer of before is given again.
     pub fn forget(&mut self) {
-        self.findings.clear();
-        self.last = None;
+        self.kept.iter_mut().for_each(|kept| kept.last = None);
     }
 
     /// Gives back all room.
@@ -132,88 +152,81 @@ impl Search {
             return Ok(true);
         }
         self.statistics = counted;
-        let share = budget / self.findings.results().len().max(1) as f64;
+        let share = budget / self.findings().results().len().max(1) as f64;
         self.pass_over_all(ground, &request.with_error(share, 0.0))
     }
 
     /// One pass over the list, or where everything is near over all pairs.
     fn pass_over_all(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
-        let last = self.begin_pass(ground.world);
-        let stopped = if ground.world.keeps_list(request.tolerance) {
+        ground.world.passes += 1;
+        if ground.world.keeps_list(request.tolerance) {
             ground.near.update(ground.world, request.tolerance, ground.workers)?;
-            self.pass_over_list(ground, request, last.is_some_and(|last| last.is_same(request)))?
-        } else {
-            let (proxies, mut rules, _) = ground.world.parts();
-            let pass = Pass::new(request, proxies, None);
-            run_over_all(&pass, &mut rules, &mut ground.near.list, &mut self.findings)?
-        };
-        self.statistics.add(&self.findings.statistics);
-        if !stopped {
-            self.last = Some(*request);
+            return self.pass_over_list(ground, request);
         }
+        let Kept { findings, last } = &mut self.kept[self.latest];
+        *last = None;
+        findings.begin(None);
+        let (proxies, mut rules, _) = ground.world.parts();
+        let pass = Pass::new(request, proxies, None);
+        let stopped = run_over_all(&pass, &mut rules, &mut ground.near.list, findings)?;
+        self.statistics.add(&findings.statistics);
         Ok(stopped)
     }
 
-    /// The same over the list; `is_repeated`: the pass before asked the same.
-    fn pass_over_list(&mut self, ground: &mut Ground, request: &Request, is_repeated: bool) -> Result<bool> {
-        let (proxies, pass_number) = (&ground.world.proxies, ground.world.passes);
-        let list = &mut ground.near.list;
-        let gives_again =
-            is_repeated && list.last_pass + 1 == pass_number && self.before.find_moved(proxies, pass_number)?;
-        if gives_again {
-            self.findings.set_apart(&mut self.before);
-        }
+    /// The same over the list. Where the last pass of the kind asked the same, it gives the answers of what rests again.
+    fn pass_over_list(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
+        let (kind, proxies, list) = (self.latest, &ground.world.proxies, &mut ground.near.list);
+        let Kept { findings, last } = &mut self.kept[kind];
+        let gives_again = match last.take() {
+            Some((last, pass)) if last.is_same(request) => self.before.find_moved(proxies, pass)?,
+            _ => false,
+        };
+        findings.begin(gives_again.then_some(&mut self.before));
+        list.make_marks(kind)?;
         if request.details.is_some() {
             list.contacts.make_room(list.caches.len())?;
         }
         let pass = Pass::new(request, proxies, gives_again.then_some(&self.before));
         let stopped = if ground.workers.share(list.pairs.len()) && !request.early_exit {
-            run_in_parts(ground.workers, &mut self.parts, &pass, list, &mut self.findings)?;
+            run_in_parts(ground.workers, &mut self.parts, &pass, list, kind, findings)?;
             false
         } else {
-            let NearPairs { pairs, caches, contacts, .. } = list;
-            pass.run(pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?
+            let NearPairs { pairs, marks, caches, contacts, .. } = list;
+            pass.run(pairs, &mut marks[kind], &mut Own { caches, contacts: Some(contacts) }, findings)?
         };
         if gives_again {
-            self.findings.join(&mut self.before)?;
+            findings.join(&mut self.before)?;
         }
         if !stopped {
-            list.last_pass = pass_number;
+            *last = Some((*request, ground.world.passes));
             if request.details.is_some() {
-                list.forget_depths();
+                list.forget_depths(kind);
             }
         }
+        self.statistics.add(&findings.statistics);
         Ok(stopped)
-    }
-
-    /// Makes the last results those of before; what was asked for them if they are all there.
-    fn begin_pass(&mut self, world: &mut World) -> Option<Request> {
-        self.findings.begin(&mut self.before);
-        world.passes += 1;
-        self.last.take()
     }
 
     // --- Pairs of one body -------------------------------------------------------------------------------------------------------
 
     fn ask_object(&mut self, ground: &mut Ground, id: ObjectId, request: &Request) -> Result<bool> {
-        self.begin_pass(ground.world);
+        ground.world.passes += 1;
         if !ground.world.keeps_list(request.tolerance) {
             let mut pairs = all_pairs_of(ground.world, id)?;
             return self.pass_without_memory(ground.world, &mut pairs, request);
         }
         ground.near.update(ground.world, request.tolerance, ground.workers)?;
-        let NearPairs { caches, contacts, .. } = &mut ground.near.list;
-        contacts.make_room(if request.details.is_some() { caches.len() } else { 0 })?;
         let mut pairs = near_pairs_of(ground.world, &ground.near.list, id)?;
         let NearPairs { caches, contacts, .. } = &mut ground.near.list;
-        let pass = Pass::new(request, &ground.world.proxies, None);
-        let stopped = pass.run(&mut pairs, &mut Own { caches, contacts: Some(contacts) }, &mut self.findings)?;
-        self.statistics.add(&self.findings.statistics);
-        Ok(stopped)
+        if request.details.is_some() {
+            contacts.make_room(caches.len())?;
+        }
+        let memory = Own { caches, contacts: Some(contacts) };
+        self.pass_over_few(ground.world, &mut pairs, memory, request)
     }
 
     fn ask_placed(&mut self, ground: &mut Ground, shape: &Arc<Shape>, pose: &Pose, request: &Request) -> Result<bool> {
-        self.begin_pass(ground.world);
+        ground.world.passes += 1;
         // Boxes are good for their tolerance where the scene itself finds the pairs.
         let by_boxes = ground.world.given.is_none() && ground.world.keeps_list(request.tolerance);
         if by_boxes {
@@ -234,9 +247,21 @@ impl Search {
     /// Over pairs that remember nothing.
     fn pass_without_memory(&mut self, world: &World, pairs: &mut [NearPair], request: &Request) -> Result<bool> {
         let mut caches = collected(pairs.iter().map(|_| Mutex::default()))?;
-        let pass = Pass::new(request, &world.proxies, None);
-        let stopped = pass.run(pairs, &mut Own { caches: &mut caches, contacts: None }, &mut self.findings)?;
-        self.statistics.add(&self.findings.statistics);
+        self.pass_over_few(world, pairs, Own { caches: &mut caches, contacts: None }, request)
+    }
+
+    fn pass_over_few(
+        &mut self,
+        world: &World,
+        pairs: &mut [NearPair],
+        mut memory: Own,
+        request: &Request,
+    ) -> Result<bool> {
+        let findings = &mut self.kept[self.latest].findings;
+        findings.begin(None);
+        let mut marks = filled(Mark::NONE, pairs.len())?;
+        let stopped = Pass::new(request, &world.proxies, None).run(pairs, &mut marks, &mut memory, findings)?;
+        self.statistics.add(&findings.statistics);
         Ok(stopped)
     }
 }

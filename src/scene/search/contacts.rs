@@ -75,6 +75,10 @@ impl Contacts {
         self.points.clear();
     }
 
+    pub fn are_there(&self) -> bool {
+        !self.list.is_empty()
+    }
+
     pub fn view(&self) -> SceneContacts<'_> {
         SceneContacts { contacts: &self.list, points: &self.points }
     }

@@ -5,7 +5,7 @@
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push, reserve};
-use crate::scene::near::near_pairs::NearPair;
+use crate::scene::near::near_pairs::{Mark, NearPair};
 use crate::scene::search::contacts::Contacts;
 use crate::scene::search::query::PairResult;
 use crate::scene::search::statistics::SceneStatistics;
@@ -27,22 +27,22 @@ pub(crate) struct Before {
 }
 
 impl Before {
-    /// Finds out which pieces have moved since the pass before this one; whether they are so few that answers are given again.
+    /// Finds out which pieces have moved since a pass; whether they are so few that its answers are given again.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn find_moved(&mut self, proxies: &Proxies, pass: u64) -> Result<bool> {
         self.has_moved.clear();
-        extend(&mut self.has_moved, proxies.motions.iter().map(|motion| motion.moved + 1 >= pass))?;
+        extend(&mut self.has_moved, proxies.motions.iter().map(|motion| motion.moved >= pass))?;
         let count = self.has_moved.iter().filter(|&&has_moved| has_moved).count();
         Ok(count * MANY_MOVED < self.has_moved.len())
     }
 
     /// Whether neither piece has moved since the pass before answered the pair.
     #[inline(always)]
-    pub fn answers(&self, pair: &NearPair) -> bool {
+    pub fn answers(&self, pair: &NearPair, mark: &Mark) -> bool {
         let [a, b] = pair.proxies.map(|proxy| self.has_moved[proxy as usize]);
-        pair.is_answered & (pair.testing == Testing::Active) & !a & !b
+        mark.is_answered & (pair.testing == Testing::Active) & !a & !b
     }
 }
 
@@ -76,9 +76,15 @@ enum Source {
 }
 
 impl Findings {
-    /// For another pass: what was found is what was found before.
-    pub fn begin(&mut self, before: &mut Before) {
-        std::mem::swap(&mut self.contacts, &mut before.contacts);
+    /// For another pass. If it gives most results of before again these stay where they are, and new ones are written elsewhere
+    /// until both are [joined](Findings::join).
+    pub fn begin(&mut self, before: Option<&mut Before>) {
+        if let Some(before) = before {
+            std::mem::swap(&mut self.slots, &mut before.results);
+            if self.contacts.are_there() {
+                std::mem::swap(&mut self.contacts, &mut before.contacts);
+            }
+        }
         self.clear();
     }
 
@@ -94,12 +100,6 @@ impl Findings {
     /// Those of the pass, in the scene's order.
     pub fn results(&self) -> &[PairResult] {
         &self.slots[..self.written]
-    }
-
-    /// Leaves the results of before where they are, for a pass that gives most of them again. New ones are written elsewhere until
-    /// both are [joined](Findings::join).
-    pub fn set_apart(&mut self, before: &mut Before) {
-        std::mem::swap(&mut self.slots, &mut before.results);
     }
 
     /// Puts new results between those of before that are listed again. These move within their array, each once at most.
@@ -227,8 +227,7 @@ mod tests {
         let (mut findings, mut before, mut numbers) = (Findings::default(), Before::default(), 0..);
         let mut expected: Vec<u64> = Vec::new();
         for _ in 0..if cfg!(miri) { 10 } else { 500 } {
-            findings.begin(&mut before);
-            findings.set_apart(&mut before);
+            findings.begin(Some(&mut before));
             let mut parts = [Findings::default(), Findings::default()];
             let (old, split) = (std::mem::take(&mut expected), random.below(40));
             let [come, go] = [random.below(4), random.below(4)];

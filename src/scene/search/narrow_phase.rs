@@ -18,7 +18,7 @@ use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, Reference};
 use crate::scene::near::contact_memory::ContactMemory;
-use crate::scene::near::near_pairs::{NearPair, UNLISTED};
+use crate::scene::near::near_pairs::{Mark, NearPair, UNLISTED};
 use crate::scene::search::contacts::Details;
 use crate::scene::search::findings::{Before, Findings, make_room};
 use crate::scene::search::query::PairResult;
@@ -158,24 +158,25 @@ impl<'a> Pass<'a> {
     pub fn run<C: Caches + ?Sized>(
         &self,
         pairs: &mut [NearPair],
+        marks: &mut [Mark],
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
         let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
-        for pairs in pairs.chunks_mut(BLOCK) {
-            self.look_at_all(pairs, &mut left, &mut findings.statistics);
+        for (pairs, marks) in pairs.chunks_mut(BLOCK).zip(marks.chunks_mut(BLOCK)) {
+            self.look_at_all(pairs, marks, &mut left, &mut findings.statistics);
             make_room(&mut findings.slots, findings.written + left.count)?;
             let mut next = 0;
             while let Some((at, look)) = left.get(next) {
                 if let Some((ahead, look)) = left.get(next + TEST_AHEAD) {
                     self.prefetch(look, &pairs[ahead], caches);
                 }
-                let pair = &mut pairs[at];
+                let (pair, mark) = (&mut pairs[at], &mut marks[at]);
                 let stops = match look {
                     Look::Settled => false,
-                    Look::Again => self.list_again(pair, findings)?,
+                    Look::Again => self.list_again(mark, findings)?,
                     Look::Intersects | Look::Test => {
-                        self.decide(look, pair, caches, findings)? && self.list(pair, caches, findings)?
+                        self.decide(look, pair, mark, caches, findings)? && self.list(pair, mark, caches, findings)?
                     }
                 };
                 if stops {
@@ -189,24 +190,25 @@ impl<'a> Pass<'a> {
 
     /// Looks at a block.
     #[inline(always)]
-    fn look_at_all(&self, pairs: &mut [NearPair], left: &mut Left, statistics: &mut SceneStatistics) {
+    fn look_at_all(&self, pairs: &[NearPair], marks: &mut [Mark], left: &mut Left, statistics: &mut SceneStatistics) {
         left.count = 0;
         let mut unlisted = 0;
-        for k in 0..pairs.len() {
-            if let Some(ahead) = pairs.get(k + LOOK_AHEAD)
-                && !self.is_unmoved(ahead)
+        for k in 0..pairs.len().min(marks.len()) {
+            if let (Some(pair), Some(mark)) = (pairs.get(k + LOOK_AHEAD), marks.get(k + LOOK_AHEAD))
+                && !self.is_unmoved(pair, mark)
             {
-                self.prefetch_rows(ahead);
+                self.prefetch_rows(pair);
             }
-            let pair = &mut pairs[k];
-            if self.is_unmoved(pair) {
-                let is_listed = pair.result != UNLISTED;
+            let (pair, mark) = (&pairs[k], &mut marks[k]);
+            if self.is_unmoved(pair, mark) {
+                let is_listed = mark.result != UNLISTED;
                 left.add_if(is_listed, k, Look::Again);
                 unlisted += u64::from(!is_listed);
                 continue;
             }
-            match self.look(pair, statistics) {
-                Look::Settled => pair.result = UNLISTED,
+            mark.is_answered = pair.testing == Testing::Active;
+            match if mark.is_answered { self.look(pair, statistics) } else { Look::Settled } {
+                Look::Settled => mark.result = UNLISTED,
                 look => left.add_if(true, k, look),
             }
         }
@@ -215,16 +217,12 @@ impl<'a> Pass<'a> {
 
     /// Whether neither piece has moved since the same query before.
     #[inline(always)]
-    fn is_unmoved(&self, pair: &NearPair) -> bool {
-        self.before.is_some_and(|before| before.answers(pair))
+    fn is_unmoved(&self, pair: &NearPair, mark: &Mark) -> bool {
+        self.before.is_some_and(|before| before.answers(pair, mark))
     }
 
     #[inline(always)]
-    fn look(&self, pair: &mut NearPair, statistics: &mut SceneStatistics) -> Look {
-        pair.is_answered = pair.testing == Testing::Active;
-        if !pair.is_answered {
-            return Look::Settled;
-        }
+    fn look(&self, pair: &NearPair, statistics: &mut SceneStatistics) -> Look {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
         if are_far_apart(spheres1, spheres2, self.tolerance) {
@@ -271,16 +269,16 @@ impl<'a> Pass<'a> {
 
     /// Lists a pair with its result of before; true if the query is to stop there.
     #[inline(always)]
-    fn list_again(&self, pair: &mut NearPair, findings: &mut Findings) -> Result<bool> {
-        let at = pair.result as usize;
+    fn list_again(&self, mark: &mut Mark, findings: &mut Findings) -> Result<bool> {
+        let at = mark.result as usize;
         if let (Some(_), Some(before)) = (self.request.details, self.before) {
             findings.contacts.again(&before.contacts, at)?;
         }
-        pair.result = findings.listed as u32;
+        mark.result = findings.listed as u32;
         findings.list_again(at)?;
-        findings.statistics.count_unmoved(1, pair.level);
-        findings.intersecting |= pair.intersects;
-        Ok(pair.intersects & self.request.early_exit)
+        findings.statistics.count_unmoved(1, mark.level);
+        findings.intersecting |= mark.intersects;
+        Ok(mark.intersects & self.request.early_exit)
     }
 
     /// Answers for a pair in the next free slot; whether the answer is listed.
@@ -289,6 +287,7 @@ impl<'a> Pass<'a> {
         &self,
         look: Look,
         pair: &mut NearPair,
+        mark: &mut Mark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
@@ -297,7 +296,7 @@ impl<'a> Pass<'a> {
             *answer = INSCRIBED;
         } else {
             *answer = PairAnswer::default();
-            caches.change(pair.cache, |cache| self.test(pair, cache, answer))?;
+            caches.change(pair.cache, |cache| self.test(pair, mark, cache, answer))?;
         }
         findings.statistics.count(answer);
         let is_listed = match answer.outcome {
@@ -306,30 +305,36 @@ impl<'a> Pass<'a> {
             Outcome::Beyond | Outcome::None => false,
         };
         if !is_listed {
-            pair.result = UNLISTED;
+            mark.result = UNLISTED;
         }
         Ok(is_listed)
     }
 
     /// Lists the pair whose answer was written last; true if the query is to stop there.
     #[inline(always)]
-    fn list<C: Caches + ?Sized>(&self, pair: &mut NearPair, caches: &mut C, findings: &mut Findings) -> Result<bool> {
+    fn list<C: Caches + ?Sized>(
+        &self,
+        pair: &NearPair,
+        mark: &mut Mark,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
         let at = findings.written;
         let answer = &findings.slots[at].answer;
-        (pair.intersects, pair.level) = (answer.outcome == Outcome::Intersecting, level_of(answer));
+        (mark.intersects, mark.level) = (answer.outcome == Outcome::Intersecting, level_of(answer));
         if let Some(details) = &self.request.details {
-            self.find_details(details, pair, at, caches, findings)?;
+            self.find_details(details, pair, mark, caches, findings)?;
         }
         self.sign(pair, &mut findings.slots[at]);
-        pair.result = findings.listed as u32;
+        mark.result = findings.listed as u32;
         findings.list_new()?;
-        findings.intersecting |= pair.intersects;
-        Ok(pair.intersects & self.request.early_exit)
+        findings.intersecting |= mark.intersects;
+        Ok(mark.intersects & self.request.early_exit)
     }
 
     /// Asks the pair layer.
     #[inline(always)]
-    fn test(&self, pair: &mut NearPair, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
+    fn test(&self, pair: &mut NearPair, mark: &mut Mark, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
@@ -337,31 +342,31 @@ impl<'a> Pass<'a> {
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
-            pair.is_answered = false;
+            mark.is_answered = false;
         }
         Ok(())
     }
 
-    /// What is asked beside the answer, which is the one at `at`.
+    /// What is asked beside the answer that was written last.
     #[inline(never)]
     fn find_details<C: Caches + ?Sized>(
         &self,
         details: &Details,
-        pair: &mut NearPair,
-        at: usize,
+        pair: &NearPair,
+        mark: &mut Mark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<()> {
-        let Findings { slots, contacts, .. } = findings;
-        let answer = &slots[at].answer;
+        let Findings { slots, written, contacts, .. } = findings;
+        let answer = &slots[*written].answer;
         let bodies =
             pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));
-        caches.change_contact(pair.cache, pair.intersects, |reference, cache| {
+        caches.change_contact(pair.cache, mark.intersects, |reference, cache| {
             details.find(bodies, answer, reference, cache, contacts)
         })?;
         // As of distances.
         if contacts.last_ending() == Some(DepthEnding::Budget) {
-            pair.is_answered = false;
+            mark.is_answered = false;
         }
         Ok(())
     }

@@ -10,7 +10,7 @@ use crate::base::simd::prefetch;
 use crate::base::workers::Workers;
 use crate::pair::{DepthCache, PairCache, Reference};
 use crate::scene::near::contact_memory::ContactMemory;
-use crate::scene::near::near_pairs::{NearPair, NearPairs};
+use crate::scene::near::near_pairs::{Mark, NearPair, NearPairs};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Caches, Pass};
 
@@ -84,7 +84,7 @@ impl Caches for Together<'_> {
     }
 }
 
-/// As [`Pass::run`] over all near pairs, which never stops early, by several threads.
+/// As [`Pass::run`] over all near pairs with the marks of a kind, which never stops early, by several threads.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -93,21 +93,23 @@ pub(crate) fn run_in_parts(
     kept: &mut Vec<PartFindings>,
     pass: &Pass,
     near: &mut NearPairs,
+    kind: usize,
     findings: &mut Findings,
 ) -> Result<()> {
-    let NearPairs { pairs, caches, contacts, .. } = near;
+    let NearPairs { pairs, marks, caches, contacts, .. } = near;
+    let marks = &mut marks[kind];
     let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
     let count = pairs.len().div_ceil(size);
     reserve(kept, count.saturating_sub(kept.len()))?;
     kept.resize_with(count.max(kept.len()), PartFindings::default);
     let kept = &mut kept[..count];
-    let run = |(pairs, found): (&mut [NearPair], &mut PartFindings)| {
+    let run = |((pairs, marks), found): ((&mut [NearPair], &mut [Mark]), &mut PartFindings)| {
         let PartFindings { findings, written } = found;
         findings.clear();
         written.clear();
-        pass.run(pairs, &mut Together { caches, contacts, written }, findings)
+        pass.run(pairs, marks, &mut Together { caches, contacts, written }, findings)
     };
-    let results = workers.map(pairs.chunks_mut(size).zip(kept.iter_mut()), run)?;
+    let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
     let mut firsts = with_capacity(count)?;
     for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
         result?;
@@ -115,10 +117,10 @@ pub(crate) fn run_in_parts(
         written.put(contacts)?;
     }
     let rooms = findings.rooms(kept.iter().map(|part| part.findings.written))?;
-    let parts = pairs.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
-    workers.map(parts, |(((pairs, first), room), part)| {
+    let parts = marks.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
+    workers.map(parts, |(((marks, first), room), part)| {
         room.copy_from_slice(part.findings.results());
-        pairs.iter_mut().for_each(|pair| pair.shift_result(first));
+        marks.iter_mut().for_each(|mark| mark.shift_result(first));
     })?;
     Ok(())
 }
