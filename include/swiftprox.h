@@ -717,7 +717,7 @@ swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1
  * Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
  *
  * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
- * answer is unknown, it holds no outcome, a vertex of its proof does not exist, or a normal or points are said of objects so large or far
+ * answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
  * apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
  */
 SWIFTPROX_NODISCARD
@@ -1958,7 +1958,7 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
 /**
  * Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
  * listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
- * number in common. That holds on every machine, except for queries with a step budget, whose answers are not checked. The answer is
+ * number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
  * as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
  * intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
  *
@@ -2072,7 +2072,7 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
  * skipped and the magic with the rest of the file, all but the byte order mark.
  *
  * The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
- * under a magic that has one replaces it, a null callback takes it back (and does nothing where there was no other). The callback may be
+ * under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
  * called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
  * and no other thread is still reading a file by it.
  *

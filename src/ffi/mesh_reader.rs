@@ -91,7 +91,7 @@ impl MeshSink {
 /// skipped and the magic with the rest of the file, all but the byte order mark.
 ///
 /// The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
-/// under a magic that has one replaces it, a null callback takes it back (and does nothing where there was no other). The callback may be
+/// under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
 /// called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
 /// and no other thread is still reading a file by it.
 ///

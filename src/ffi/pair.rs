@@ -171,7 +171,7 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
 /// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
-/// answer is unknown, it holds no outcome, a vertex of its proof does not exist, or a normal or points are said of objects so large or far
+/// answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
 /// apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_verify(

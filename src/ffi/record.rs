@@ -183,7 +183,7 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 
 /// Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
 /// listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
-/// number in common. That holds on every machine, except for queries with a step budget, whose answers are not checked. The answer is
+/// number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
 /// as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
 /// intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
 ///

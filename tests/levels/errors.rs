@@ -7,7 +7,7 @@ use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::shapes::at;
 
-/// 26 points on the unit sphere whose level is an octahedron around it, and a point. Along an axis the octahedron stands off by √3 − 1.
+/// 26 points on the unit sphere whose level is an octahedron, and a point. Along an axis it stands off by √3 − 1.
 fn ball_and_point() -> [Shape; 2] {
     let directions = (0..27).filter(|k| *k != 13).map(|k| [k / 9, k / 3 % 3, k % 3].map(|x| f64::from(x) - 1.0));
     let ball: Vec<Vector> = directions.map(|direction| Vector::from(direction).normalize()).collect();

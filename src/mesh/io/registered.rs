@@ -66,7 +66,7 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
     Ok(())
 }
 
-/// Takes back the reader of files that begin with `magic`; false if nobody registered it. It may still be reading in another thread.
+/// Takes back the reader of files that begin with `magic`; false if it has no reader. It may still be reading in another thread.
 pub fn unregister_mesh_reader(magic: &[u8]) -> bool {
     let mut readers = write();
     let place = readers.iter().position(|registered| registered.magic == magic);
