@@ -226,7 +226,7 @@ void damaged(const Folder& folder)
 }
 
 /*
- * Cause: a file was opened as a stream whatever it is. Cut-off: opening a FIFO that nobody writes to waits for ever, and reading a device
+ * Cause: a file was opened as a stream whatever it is. Cut-off: a FIFO that nobody writes to is waited for, and reading a device
  * never ends. Repro: Add_Object with the name of a FIFO. The alarm ends a program that waits.
  */
 void no_regular_files(const Folder& folder)

@@ -111,7 +111,7 @@ void intervals()
     CHECK(is_valid == 0);
 }
 
-/* Of a pair the lower id comes first, and what is said of it. It may be that of the object created later, which has taken over an id. */
+/* Of a pair the lower id comes first, and what is said of it. The object created later may have taken over the lower one. */
 void an_id_used_again()
 {
     SWIFT_Scene scene(false);

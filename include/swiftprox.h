@@ -408,7 +408,7 @@ typedef struct swiftprox_shape_info {
  * Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
  * The inertia takes time in proportion to the triangles.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+ * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
@@ -458,7 +458,7 @@ swiftprox_status swiftprox_shape_prepare(const struct swiftprox_shape *shape,
                                          void *progress_user);
 
 /**
- * Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
+ * Saves a shape in a file, replacing what was there: with its levels of detail, except automatic ones, which are made again
  * when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
  * machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
  * file refuses it.
@@ -658,7 +658,7 @@ void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
 /**
  * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
  * distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair farther
- * apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What is not said is NaN, or
+ * apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
  * SWIFTPROX_FEATURE_KIND_NONE.
  *
  * A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
@@ -740,7 +740,7 @@ swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1
  * Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
  *
  * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
- * answer is unknown, it holds no outcome, a vertex of its proof is none, or a normal or points are said of objects so large or far
+ * answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
  * apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
  */
 SWIFTPROX_NODISCARD
@@ -756,7 +756,7 @@ swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
  */
 const char *swiftprox_library_outcome_string(swiftprox_outcome outcome);
 
-/** What decided a pair query, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+/** What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so. */
 const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by);
 
 /**
@@ -909,7 +909,7 @@ swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape
                                              const struct swiftprox_depth_cache *cache,
                                              const struct swiftprox_depth_answer *answer);
 
-/** How a depth query ended, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+/** How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so. */
 const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
 
 /** @} */
@@ -1365,7 +1365,7 @@ typedef struct swiftprox_object_info {
  * Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
- * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *scene,
@@ -1550,7 +1550,7 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
  * With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
  * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
  *
- * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is none for depths and points.
+ * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
@@ -1612,7 +1612,7 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
  * the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
  * if nothing else has moved.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other
  * errors as of swiftprox_scene_query_intersection.
  */
 SWIFTPROX_NODISCARD
@@ -1626,7 +1626,7 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
  * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
  * of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
  *
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of
  * swiftprox_scene_query_intersection.
  */
 SWIFTPROX_NODISCARD
@@ -1746,7 +1746,7 @@ swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene)
  * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
  * more. What the others remember stays. The next query takes anew what it needs.
  *
- * SWIFTPROX_ERROR_MEMORY: there is none for a smaller list of pairs; nothing has changed.
+ * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  */
 SWIFTPROX_NODISCARD
@@ -1898,7 +1898,7 @@ swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
  * ends the recording.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
- * end, and then none is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: the path is none.
+ * end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
  */
 SWIFTPROX_NODISCARD
@@ -1935,7 +1935,7 @@ typedef struct swiftprox_replay_step_info {
  * the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
- * beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: the path is none, or of enqueue_task and finish_task one is
+ * beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
  * null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
  */
 SWIFTPROX_NODISCARD
@@ -1959,7 +1959,7 @@ struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
 
 /**
  * Reads the next step. Set step->struct_size first. A recording that is cut off ends with its last whole record. On failure
- * `*step` says that there is none.
+ * `*step` says that there is no step.
  *
  * SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
@@ -1970,7 +1970,7 @@ swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
                                        struct swiftprox_replay_step_info *step);
 
 /**
- * Does what was done in the step that was read, but for its query.
+ * Does what was done in the step that was read, without its query.
  *
  * SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
  * with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
@@ -1981,7 +1981,7 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
 /**
  * Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
  * listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
- * number in common. That holds on every machine, but for queries with a step budget, whose answers are not checked. The answer is
+ * number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
  * as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
  * intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
  *
@@ -2065,7 +2065,7 @@ swiftprox_status swiftprox_library_set_allocator(swiftprox_allocate_callback all
                                                  void *user);
 
 /**
- * Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call
+ * Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why it has none. It is good during the call
  * of the callback, for its thread.
  */
 typedef struct swiftprox_mesh_sink swiftprox_mesh_sink;
@@ -2075,7 +2075,7 @@ typedef struct swiftprox_mesh_sink swiftprox_mesh_sink;
  * or says what is wrong with the file by swiftprox_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to
  * the sink that was refused, whether or not the callback has looked at its status.
  *
- * `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file but for a UTF-8 byte order mark:
+ * `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file without a UTF-8 byte order mark:
  * it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
  * them is one zero byte more, where strtod and its like end. (What strtod takes for the decimal point depends on LC_NUMERIC, the
  * program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
@@ -2095,7 +2095,7 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
  * skipped and the magic with the rest of the file, all but the byte order mark.
  *
  * The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
- * under a magic that has one replaces it, a null callback takes it back (and does nothing if there is none). The callback may be
+ * under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
  * called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
  * and no other thread is still reading a file by it.
  *

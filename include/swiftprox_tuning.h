@@ -127,7 +127,7 @@ typedef struct swiftprox_shape_tuning_info {
  * Says which levels of detail and which look-up table a shape has: set info->struct_size to sizeof(swiftprox_shape_tuning_info)
  * first. On failure all is 0.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+ * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_tuning_info(const struct swiftprox_shape *shape,
@@ -194,7 +194,7 @@ typedef struct swiftprox_level_info {
  * Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
- * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+ * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_level_info(const struct swiftprox_shape *shape,

@@ -663,7 +663,7 @@ fn what_a_failed_call_does_not_say_is_nan() {
         }
     }
 
-    // Bytes that are no answer, but for the sizes.
+    // Bytes that are no answer, with the right sizes.
     let mut shape_info = MaybeUninit::<ShapeInfo>::zeroed();
     let mut level_info = MaybeUninit::<LevelInfo>::zeroed();
     let mut object_info = MaybeUninit::<ObjectInfo>::zeroed();

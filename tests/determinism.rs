@@ -88,7 +88,7 @@ impl Flight {
     }
 }
 
-/// Uniform in the unit ball, but for its centre.
+/// Uniform in the unit ball, without its centre.
 fn in_ball(random: &mut Random) -> Vector {
     loop {
         let v = random.vector();

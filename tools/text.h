@@ -24,7 +24,8 @@ struct text_line {
 /* Whether this is a regular file, and neither the standard input nor a pipe or device. */
 bool text_is_regular(const char *path);
 
-/* Reads the file, or the standard input when `path` is "-": a regular file, a pipe or a terminal, up to a limit. On failure it prints a message on the standard error and returns
+/* Reads the file, or the standard input when `path` is "-": a regular file, a pipe or a terminal, up to a limit.
+ * On failure it prints a message on the standard error and returns
  * false; there is nothing to close then. */
 bool text_open(const char *path, struct text_file *file);
 

@@ -212,7 +212,7 @@ public:
     /* With true, of a mesh added later that is refused otherwise the convex hull counts; face ids are -1 then. At first false. */
     void Set_Take_Hull(bool take_hull);
 
-    /* The scene, and the name of an object in it (null where there is none), for calls of swiftprox that change neither objects nor
+    /* The scene, and the name of an object in it (null for no object), for calls of swiftprox that change neither objects nor
      * pairs. */
     swiftprox_scene* Get_Native_Scene() const;
     swiftprox_object_id Get_Native_Object(int id) const;

@@ -47,7 +47,7 @@ pub(crate) fn reserve<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     if count > list.capacity() - list.len() { grow(list, count) } else { Ok(()) }
 }
 
-/// As [`reserve`], but for an eighth of those there are: for what is large and stays, and seldom grows.
+/// As [`reserve`], for an eighth of those there are: for what is large and stays, and seldom grows.
 #[inline]
 pub(crate) fn reserve_sparingly<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     if count <= list.capacity() - list.len() {

@@ -476,7 +476,7 @@ mod tests {
             let exponents = [2046, 1400, 700][round % 3];
             let mut points = [(); 5].map(|()| Vector::from_fn(|_, _| any(exponents)));
             if round % 4 == 0 {
-                // In the plane but for a rounding.
+                // In the plane up to a rounding.
                 points[3] = 0.5 * points[0] + 0.5 * points[1];
                 points[4] = Vector::new(points[3].x, points[3].y.next_up(), points[3].z);
             }

@@ -154,7 +154,7 @@ pub unsafe extern "C" fn swiftprox_pair_depth_verify(
     })
 }
 
-/// How a depth query ended, in words. Never null, valid for ever; a number that is none gets a string that says so.
+/// How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_depth_ending_string(ending: DepthEndingNumber) -> *const c_char {
     use crate::base::enumerator::Enumerator;

@@ -105,7 +105,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
 /// Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
-/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_level_info(
     shape: *const Shape,

@@ -87,7 +87,7 @@ pub extern "C" fn swiftprox_library_outcome_string(outcome: OutcomeNumber) -> *c
     string.as_ptr()
 }
 
-/// What decided a pair query, in words. Never null, valid for ever; a number that is none gets a string that says so.
+/// What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_decided_by_string(decided_by: DecidedByNumber) -> *const c_char {
     let string = match DecidedBy::from_number(decided_by) {

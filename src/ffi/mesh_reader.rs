@@ -10,7 +10,7 @@ use crate::base::memory::{extend, reserve, with_capacity};
 use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};
 use crate::mesh::{PolygonMesh, check_vertex};
 
-/// Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why there is none. It is good during the call
+/// Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why it has none. It is good during the call
 /// of the callback, for its thread.
 #[derive(Default)]
 pub struct MeshSink {
@@ -27,7 +27,7 @@ pub struct MeshSink {
 /// or says what is wrong with the file by swiftprox_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to
 /// the sink that was refused, whether or not the callback has looked at its status.
 ///
-/// `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file but for a UTF-8 byte order mark:
+/// `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file without a UTF-8 byte order mark:
 /// it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
 /// them is one zero byte more, where strtod and its like end. (What strtod takes for the decimal point depends on LC_NUMERIC, the
 /// program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
@@ -91,7 +91,7 @@ impl MeshSink {
 /// skipped and the magic with the rest of the file, all but the byte order mark.
 ///
 /// The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
-/// under a magic that has one replaces it, a null callback takes it back (and does nothing if there is none). The callback may be
+/// under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
 /// called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
 /// and no other thread is still reading a file by it.
 ///

@@ -306,7 +306,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_user_data(
 /// Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
-/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     scene: *const SceneHandle,

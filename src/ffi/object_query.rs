@@ -44,7 +44,7 @@ impl CSceneEvents {
 /// the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
 /// if nothing else has moved.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other
 /// errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_object(
@@ -69,7 +69,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
 /// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
 /// of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
 ///
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for a kind that is none. Other errors as of
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of
 /// swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_placed(

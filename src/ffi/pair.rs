@@ -79,7 +79,7 @@ pub unsafe extern "C" fn swiftprox_pair_config_init_sized(config: *mut CPairConf
 
 /// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
 /// distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair farther
-/// apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What is not said is NaN, or
+/// apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
 /// SWIFTPROX_FEATURE_KIND_NONE.
 ///
 /// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
@@ -173,7 +173,7 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
 /// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
-/// answer is unknown, it holds no outcome, a vertex of its proof is none, or a normal or points are said of objects so large or far
+/// answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
 /// apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_verify(

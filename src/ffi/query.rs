@@ -168,7 +168,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
 /// With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
 /// hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
 ///
-/// Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is none for depths and points.
+/// Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contacts(
     scene: *mut SceneHandle,

@@ -26,7 +26,7 @@ use crate::scene::{Replay, Scene};
 /// ends the recording.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
-/// end, and then none is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: the path is none.
+/// end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
 /// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_record(scene: *mut SceneHandle, path: *const c_char) -> StatusCode {
@@ -90,7 +90,7 @@ impl CReplayStep {
 /// the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
-/// beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: the path is none, or of enqueue_task and finish_task one is
+/// beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
 /// null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_open(
@@ -141,7 +141,7 @@ pub unsafe extern "C" fn swiftprox_replay_scene(replay: *mut ReplayHandle) -> *m
 }
 
 /// Reads the next step. Set step->struct_size first. A recording that is cut off ends with its last whole record. On failure
-/// `*step` says that there is none.
+/// `*step` says that there is no step.
 ///
 /// SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
@@ -171,7 +171,7 @@ pub unsafe extern "C" fn swiftprox_replay_read(replay: *mut ReplayHandle, step: 
     }
 }
 
-/// Does what was done in the step that was read, but for its query.
+/// Does what was done in the step that was read, without its query.
 ///
 /// SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
 /// with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
@@ -183,7 +183,7 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 
 /// Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
 /// listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
-/// number in common. That holds on every machine, but for queries with a step budget, whose answers are not checked. The answer is
+/// number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
 /// as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
 /// intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
 ///

@@ -189,7 +189,7 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
 /// Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
 /// more. What the others remember stays. The next query takes anew what it needs.
 ///
-/// SWIFTPROX_ERROR_MEMORY: there is none for a smaller list of pairs; nothing has changed.
+/// SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
 /// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> StatusCode {

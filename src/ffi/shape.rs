@@ -203,7 +203,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_scaled(
     })
 }
 
-/// Saves a shape in a file, replacing what was there: with its levels of detail but for automatic ones, which are made again
+/// Saves a shape in a file, replacing what was there: with its levels of detail, except automatic ones, which are made again
 /// when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
 /// machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
 /// file refuses it.
@@ -295,7 +295,7 @@ pub unsafe extern "C" fn swiftprox_shape_prepare(
 /// Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
 /// The inertia takes time in proportion to the triangles.
 ///
-/// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is none that is known.
+/// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {

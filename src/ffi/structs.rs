@@ -36,7 +36,7 @@ fn check_struct_size<T: Versioned>(size: usize) -> Checked<()> {
 /// # Safety
 /// `pointer` is null or points to `size` writable bytes.
 pub(super) unsafe fn init_struct<T: Versioned>(pointer: *mut T, size: usize, defaults: &T) {
-    // Null and a size that is none are the caller's mistakes, which the message and the log tell.
+    // Null and an unknown size are the caller's mistakes, which the message and the log tell.
     let _: StatusCode = guard(|| {
         if pointer.is_null() {
             return Err(Failure::null(T::NAME));

@@ -91,7 +91,7 @@ impl Quadric {
         Vector::new(xx * x.x + xy * x.y + xz * x.z, xy * x.x + yy * x.y + yz * x.z, xz * x.x + yz * x.y + zz * x.z)
     }
 
-    /// At least 0, which it is but for rounding.
+    /// At least 0, which it is up to rounding.
     fn value(&self, x: &Vector) -> f64 {
         (x.dot(&(self.times(x) + self.b * 2.0)) + self.c).max(0.0)
     }

@@ -20,7 +20,7 @@ const SMALLEST: f64 = f64::from_bits((1023 - 80) << 52);
 /// Radii about the centred origin, and what boxes are computed from.
 #[derive(Debug, Clone)]
 pub(crate) struct Extent {
-    /// A ball of this radius about the centred origin is in the body; −∞ where there is none or rounding hides it.
+    /// A ball of this radius about the centred origin is in the body; −∞ where no ball is or rounding hides it.
     pub(crate) inner_radius: f64,
     /// No point of the body is farther from the *local* origin: |centre| + ρ, rounded up.
     pub(crate) lever: f64,

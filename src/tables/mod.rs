@@ -56,7 +56,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     if plan == Plan::None || !(SMALLEST..=LARGEST).contains(&polyhedron.radius) {
         return Ok(Lookup::none());
     }
-    // Neighbours are that far apart, but for a factor.
+    // Neighbours are that far apart up to a factor.
     let spacing = 1.0 / (vertex_count as f64).sqrt();
     if kind == LookupKind::Automatic
         && vertex_count < tuning::LEAST_VERTICES_FOR_TABLE
@@ -88,7 +88,7 @@ pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
     plan_lookup(level, &LookupOptions { kind, resolution: 0, radius_factor }).unwrap_or_else(|_| Lookup::none())
 }
 
-/// The table of a body. The first to look makes it; others who come meanwhile wait. Where memory is lacking there is none.
+/// The table of a body. The first to look makes it; others who come meanwhile wait. Where memory is lacking nobody gets one.
 #[inline(always)]
 pub fn table(polyhedron: &Polyhedron) -> &Table {
     match polyhedron.lookup.made.get() {

@@ -3,6 +3,8 @@
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
+use crate::models;
+
 /// The hull of points, of any dimension.
 pub fn hull(points: &[Vector]) -> Shape {
     let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
@@ -11,9 +13,7 @@ pub fn hull(points: &[Vector]) -> Shape {
 
 /// A box with the given half sides about the local origin.
 pub fn cuboid(half: [f64; 3]) -> Shape {
-    let side = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { half[axis] } else { -half[axis] };
-    let corners: Vec<Vector> = (0..8).map(|k| Vector::new(side(k, 0), side(k, 1), side(k, 2))).collect();
-    hull(&corners)
+    hull(&models::cuboid(half).unwrap().vertices)
 }
 
 /// A pose that is not turned.

@@ -1,7 +1,5 @@
 //! Random and adversarial pairs against the independent check.
 
-use std::f64::consts::TAU;
-
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, depth};
 use swiftprox::progress::Progress;
@@ -9,6 +7,7 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify_depth;
 
 use testkit::hard::families;
+use testkit::models;
 use testkit::random::rotation;
 use testkit::shapes::{cuboid, hull};
 
@@ -25,13 +24,8 @@ fn ellipsoid(random: &mut Random, count: usize, half_axes: [f64; 3]) -> Shape {
 }
 
 /// A prism over a regular polygon.
-fn prism(sides: usize, height: f64) -> Shape {
-    let corner = |k: usize, z: f64| {
-        let angle = TAU * k as f64 / sides as f64;
-        Vector::new(angle.cos(), angle.sin(), z)
-    };
-    let points: Vec<Vector> = (0..sides).flat_map(|k| [corner(k, -height), corner(k, height)]).collect();
-    prepared(hull(&points))
+fn prism(sides: u32, height: f64) -> Shape {
+    prepared(hull(&models::prism(sides, height).unwrap().vertices))
 }
 
 /// Bodies of many vertices, of many sizes.

@@ -113,7 +113,7 @@ fn not_as_asked(name: &str, answer: &PairAnswer) -> Option<String> {
     if points_due && !is_said(&[local1, local2, world1, world2, normal]) {
         Some("points or the normal are not said".to_string())
     } else if answer.outcome != Outcome::Intersecting && !is_said(&[normal]) {
-        Some("the normal is not said".to_string())
+        Some("the normal is missing".to_string())
     } else if answer.decided_by == DecidedBy::None
         || answer.outcome == Outcome::None
         || [distance, lower, upper].iter().any(|x| x.is_nan())

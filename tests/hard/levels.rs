@@ -118,7 +118,7 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
         Outcome::Intersecting => {}
         Outcome::Separated if answer.upper <= config.distance_tolerance || is_spent => {}
         Outcome::Beyond if answer.lower >= config.distance_tolerance => {}
-        _ => return Some("an outcome that is none".to_string()),
+        _ => return Some("an unknown outcome".to_string()),
     }
     let is_wide = answer.outcome == Outcome::Separated && !is_spent && !(answer.upper - answer.lower <= asked);
     contradiction(exact, answer).or_else(|| is_wide.then(|| format!("wider than {asked:e}")))

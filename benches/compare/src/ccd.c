@@ -65,7 +65,7 @@ int ccd_shim_mpr(const struct hull *hull, const double poses[24], unsigned last[
 
 /* ---- depth ---- */
 
-enum { MOST_ITERATIONS = 500 }; /* libccd's own limit is none, and at a tight tolerance it may go on for ever */
+enum { MOST_ITERATIONS = 500 }; /* libccd has no limit of its own, and at a tight tolerance it may go on for ever */
 
 struct peer {
     struct hull *hulls[2];

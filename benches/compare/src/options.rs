@@ -32,7 +32,7 @@ usage: compare [options]
                     steps of those options; --meshes DIR adds the hulls of the OFF files in DIR
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
-                    two seconds on a scene but for three steps
+                    two seconds on a scene, or three steps
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that

@@ -119,7 +119,7 @@ pub fn start<T>(block: &Option<Block>) -> *mut T {
     block.as_ref().map_or(null_mut(), Block::at)
 }
 
-/// An array as a program hands it over: now and then null, or with a count that is none.
+/// An array as a program hands it over: now and then null, or with a count that is wrong.
 pub fn array<T>(u: &mut Unstructured, start: *mut T, count: usize) -> Result<(*mut T, usize)> {
     Ok(match u.int_in_range(0..=31)? {
         0 => (null_mut(), count),

@@ -77,7 +77,7 @@ fn follow(u: &mut Unstructured, sink: *mut MeshSink, refused: &mut bool) -> Resu
             *refused |= status != StatusCode::Ok && !sink.is_null();
         }
     }
-    // Mostly the file is good but for what was refused.
+    // Mostly the file is good apart from what was refused.
     if !u.arbitrary()? {
         const CORNERS: [f64; 12] = [0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0];
         const FACES: [u32; 12] = [0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2];

@@ -52,7 +52,7 @@ impl Program {
         Ok(status)
     }
 
-    /// One of the scenes, made if there is none.
+    /// One of the scenes, made if there is not one yet.
     pub fn scene(&mut self, u: &mut Unstructured) -> Result<usize> {
         if self.scenes.is_empty() {
             let mut handle = null_mut();

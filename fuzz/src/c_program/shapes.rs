@@ -28,7 +28,7 @@ impl Program {
         Ok(*u.choose(&self.shapes)?)
     }
 
-    /// Keeps a shape that was made; on failure there is none.
+    /// Keeps a shape that was made; on failure nothing is kept.
     pub fn keep(&mut self, status: StatusCode, shape: *const Shape) -> StatusCode {
         assert_eq!(status == StatusCode::Ok, !shape.is_null(), "{}", last_message());
         if !shape.is_null() {

@@ -159,7 +159,7 @@ mod register {
     }
 
     fn write(word: u32) {
-        // SAFETY: reads the four bytes of `word`, which come from `read` but for bits that every processor has. What follows
+        // SAFETY: reads the four bytes of `word`, which come from `read`, apart from bits that every processor has. What follows
         // computes in the default environment or is the program's own, by this module's functions.
         unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack, preserves_flags)) };
     }

@@ -486,7 +486,7 @@ mod tests {
         assert!(next(&mut DobkinKirkpatrick::new(&build(&cut, None).unwrap()).unwrap()).is_none());
     }
 
-    /// The apex of a flat pyramid is flat enough to be removed. What fills its hole is the base, and the centre of mass is above it.
+    /// The apex of a flat pyramid is flat enough to be removed. The base fills its hole, below the centre of mass.
     #[test]
     fn what_would_leave_the_centre_of_mass_outside_is_not_removed() {
         let ring =

@@ -19,7 +19,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     // A face may name vertices that come later, so faces wait, with their lines, until all vertices are known.
     let mut corners = Vec::new();
     let mut faces = Vec::new();
-    // The first word that no OBJ begins a line with: what it says is skipped, but a file of such lines alone is none.
+    // The first word that no OBJ begins a line with: what it says is skipped, but a file of such lines alone is no OBJ.
     let mut stranger = None;
     while let Some(keyword) = scanner.token() {
         match keyword {

@@ -66,7 +66,7 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
     Ok(())
 }
 
-/// Takes back the reader of files that begin with `magic`; false if there is none. It may still be reading in another thread.
+/// Takes back the reader of files that begin with `magic`; false if it has no reader. It may still be reading in another thread.
 pub fn unregister_mesh_reader(magic: &[u8]) -> bool {
     let mut readers = write();
     let place = readers.iter().position(|registered| registered.magic == magic);
@@ -75,7 +75,7 @@ pub fn unregister_mesh_reader(magic: &[u8]) -> bool {
     removed.is_some()
 }
 
-/// What the registered reader of such a file makes of it; `None` if there is none. `name` stands for the file in messages.
+/// What the registered reader of such a file makes of it; `None` without such a reader. `name` stands for the file in messages.
 pub(super) fn parse(bytes: &[u8], name: &str) -> Option<Result<PolygonMesh>> {
     let bytes = without_mark(bytes);
     let start = bytes.iter().position(|&b| !is_space(b))?;

@@ -1,10 +1,11 @@
 //! Vertices of well-known bodies.
 
 use swiftprox::math::Vector;
+use testkit::models;
 
 /// A box about the origin.
 pub fn cuboid(size: [f64; 3]) -> Vec<Vector> {
-    (0..8).map(|i| Vector::from_fn(|k, _| if i >> k & 1 == 1 { 0.5 * size[k] } else { -0.5 * size[k] })).collect()
+    models::cuboid(size.map(|side| 0.5 * side)).unwrap().vertices
 }
 
 /// A prism over a regular n-gon: first the bottom, then the top.

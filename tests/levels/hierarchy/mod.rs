@@ -73,7 +73,7 @@ fn feature_count(polyhedron: &Polyhedron) -> usize {
     polyhedron.vertices.len() + polyhedron.edges.len() + polyhedron.faces.len()
 }
 
-/// Faces of many corners come apart when vertices move: a level of a few triangles less has more features then, and is none.
+/// Faces of many corners come apart when vertices move: a level of a few triangles less has more features then, and is no level.
 #[test]
 fn every_level_has_fewer_features_than_the_one_below() {
     let outer = HierarchyOptions { kind: HierarchyKind::OuterCuts, decimation: 0.5, ..HierarchyOptions::default() };
