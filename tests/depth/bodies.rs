@@ -287,11 +287,11 @@ fn witness_points_on_slivers_hold() {
     assert!(overlapping > 40_000, "{overlapping}");
 }
 
-/// A body beyond the range of the search, and a pose that shrinks it: the common point is farther from the feature in the object's
-/// frame than the interval is wide. From fuzzing.
+/// Two bodies that no unit of length brings into the range of the search, and a pose that shrinks one: the common point is farther
+/// from the feature in the object's frame than the interval is wide. From fuzzing, the small body smaller.
 #[test]
 fn a_wide_interval_in_a_shrunk_pose_holds() {
-    let (large, small) = (cuboid([1.5445794735293872e157; 3]), cuboid([2.498001805406602e-16; 3]));
+    let (large, small) = (cuboid([1.5445794735293872e157; 3]), cuboid([2.498001805406602e-200; 3]));
     let shrunk = Matrix::new(0.0, -0.99609375, 0.0, 0.0, 0.0, -1.0, 1.0, 0.0, 0.0);
     let stretched = Matrix::from_diagonal(&Vector::new(1.00390625, 1.0, 1.0));
     let poses = [Pose::new(&shrunk, &Vector::zeros()), Pose::new(&stretched, &Vector::new(-32.0, -4.0, -32.0))];
@@ -357,7 +357,7 @@ fn what_is_no_pose_or_option_is_refused() {
     assert_eq!(answer.outcome, Outcome::Intersecting);
 }
 
-/// Magnitudes that double precision's bounds do not cover are decided in integers.
+/// Magnitudes that double precision's bounds do not cover are searched in another unit, and decided in integers.
 #[test]
 fn any_magnitude_has_a_depth() {
     for scale in [1e-300, 1e-80, 1e80, 1e300] {

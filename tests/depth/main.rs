@@ -9,6 +9,8 @@ mod bodies;
 mod caches;
 mod crafted;
 mod forgery;
+mod magnitudes;
+mod streams;
 mod truth;
 
 use swiftprox::math::Pose;

@@ -5,6 +5,7 @@
 
 mod answer;
 mod cache;
+mod scaling;
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
@@ -21,6 +22,7 @@ use crate::solve::polytope::{self, Ending, Expansion, Polytope, Start, Wanted, W
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
+use scaling::{Rescaled, is_in_scale};
 
 /// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them
 /// than a normal that separates them: [`crate::pair::distance`] tells how far apart they are.
@@ -46,9 +48,10 @@ fn answer_query(
 ) -> Result<()> {
     config.check()?;
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache });
+    let mut found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache });
     if found.is_none() {
         poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
+        found = search_rescaled(polyhedra, poses, config, cache);
     }
     fill(answer, polyhedra, poses, found.as_ref());
     Ok(())
@@ -58,8 +61,35 @@ fn answer_query(
 pub(super) fn deepest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> DepthAnswer {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
     let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config: &config, cache: &mut cache });
+    let found = found.or_else(|| search_rescaled(polyhedra, poses, &config, &mut cache));
     fill(&mut answer, polyhedra, poses, found.as_ref());
     answer
+}
+
+/// The search among copies of the bodies in another unit of length, for poses that are accepted. `None` of a pair that floating
+/// point is not for in any unit.
+#[cold]
+#[inline(never)]
+fn search_rescaled(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    config: &DepthConfig,
+    cache: &mut DepthCache,
+) -> Option<Found> {
+    let pair = Rescaled::of(polyhedra, poses)?;
+    let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
+    let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+    let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config: &config, cache })?;
+    let Found { expansion, witness, .. } = found;
+    let upper = pair.upper_of(expansion.upper);
+    if upper == f64::INFINITY && expansion.upper < upper {
+        return None;
+    }
+    Some(Found {
+        expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
+        witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
+        ..found
+    })
 }
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
@@ -77,6 +107,20 @@ struct Found {
     triangles: u32,
 }
 
+impl Found {
+    /// Whether neither a direction that separates the bodies nor an interval that tells them from touching ones has been found,
+    /// with room and steps to spare.
+    #[inline(always)]
+    fn is_open(&self) -> bool {
+        match self.expansion.ending {
+            // With more room the search begins anew in any case.
+            Ending::Separated | Ending::Stuck => false,
+            Ending::Narrow => !(self.expansion.lower > 0.0),
+            Ending::Spent | Ending::Flat => true,
+        }
+    }
+}
+
 impl Kernel for DepthQuery<'_> {
     /// None of a pair that floating point is not for.
     type Output = Option<Found>;
@@ -84,12 +128,19 @@ impl Kernel for DepthQuery<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<Found> {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
-        if !frame.in_range {
+        if !(frame.in_range && is_in_scale(self.polyhedra)) {
             return None;
         }
         let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
         let start = self.cache.unpack(&frame, &mut polytope);
-        let found = self.search(&frame, &mut polytope, &start);
+        let steps = self.config.step_budget;
+        let mut found = self.search(&frame, &mut polytope, &start, steps);
+        let was_told = start.triangle.is_some() || start.direction.is_some();
+        // What an earlier query left must not make an answer worse.
+        if was_told && found.is_open() && found.expansion.steps < steps {
+            let mut again = SearchAgain { search: self, frame: &frame, polytope: &mut polytope, first: &found };
+            found = L::out_of_line(&mut again);
+        }
         if found.expansion.ending == Ending::Stuck {
             let start = Start { triangle: None, direction: None, ..start };
             return Some(L::out_of_line(&mut InLarge { search: self, frame: &frame, start }));
@@ -105,9 +156,10 @@ impl DepthQuery<'_> {
         frame: &Frame<L>,
         polytope: &mut Polytope<V, T>,
         start: &Start,
+        steps: u32,
     ) -> Found {
-        let DepthConfig { absolute_error, relative_error, step_budget, .. } = *self.config;
-        let wanted = Wanted { width: absolute_error, relative: relative_error, steps: step_budget, lower: 0.0 };
+        let DepthConfig { absolute_error, relative_error, .. } = *self.config;
+        let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
         let expansion = polytope::expand(frame, polytope, start, &wanted);
         if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
             *self.cache = DepthCache::default();
@@ -137,7 +189,31 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
     #[inline(always)]
     fn run(&mut self) -> Found {
         let mut polytope = Polytope::<255, 508>::EMPTY;
-        self.search.search(self.frame, &mut polytope, &self.start)
+        self.search.search(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
+    }
+}
+
+/// The search from nothing, after one that what was kept led nowhere. Its answer is that of a first query, as long as the steps do.
+struct SearchAgain<'a, 'b, L> {
+    search: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+    polytope: &'a mut Polytope<MOST_VERTICES, { MOST_TRIANGLES + 4 }>,
+    first: &'a Found,
+}
+
+impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
+    type Output = Found;
+
+    #[inline(always)]
+    fn run(&mut self) -> Found {
+        let Expansion { steps, supports, .. } = self.first.expansion;
+        let start = Start { triangle: None, direction: None, first_triangles: 0 };
+        self.polytope.clear();
+        let left = self.search.config.step_budget - steps;
+        let mut found = self.search.search(self.frame, self.polytope, &start, left);
+        found.expansion.steps += steps;
+        found.expansion.supports += supports;
+        found
     }
 }
 
@@ -277,6 +353,7 @@ fn fill_points(
 }
 
 /// Where a proof of a depth is looked for.
+#[derive(Clone, Copy)]
 pub(super) enum ProofFrom<'a> {
     /// The polytope that a cache holds.
     Cache(&'a DepthCache),
@@ -286,7 +363,16 @@ pub(super) enum ProofFrom<'a> {
 
 /// The triangles of a polytope in the pair's poses; none where there is no polytope.
 pub(super) fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
-    simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from })
+    let found = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from });
+    let rescaled = || {
+        let pair = Rescaled::of(polyhedra, poses)?;
+        let from = match from {
+            ProofFrom::Cache(_) => from,
+            ProofFrom::Search(lower) => ProofFrom::Search(pair.in_unit(lower)),
+        };
+        simd::dispatch_to_avx2(&mut Proof { polyhedra: pair.polyhedra(), poses: pair.poses(), from })
+    };
+    found.or_else(rescaled).unwrap_or_default()
 }
 
 struct Proof<'a> {
@@ -296,13 +382,14 @@ struct Proof<'a> {
 }
 
 impl Kernel for Proof<'_> {
-    type Output = Vec<[VertexPair; 3]>;
+    /// `None` of a pair that floating point is not for.
+    type Output = Option<Vec<[VertexPair; 3]>>;
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Self::Output {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
-        if !frame.in_range {
-            return Vec::new();
+        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+            return None;
         }
         let mut polytope = Polytope::<255, 508>::EMPTY;
         match self.from {
@@ -315,6 +402,6 @@ impl Kernel for Proof<'_> {
                 polytope::expand(&frame, &mut polytope, &start, &wanted);
             }
         }
-        (0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle)).collect()
+        Some((0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle)).collect())
     }
 }
