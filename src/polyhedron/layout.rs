@@ -191,7 +191,7 @@ impl MassProperties {
     }
 }
 
-/// A convex polyhedron, immutable once built, apart from its look-up table.
+/// A convex polyhedron, immutable once built, apart from its look-up table and its search for polygons.
 ///
 /// What every query reads comes first, together.
 #[derive(Debug, Clone, PartialEq)]
@@ -246,7 +246,7 @@ pub struct Polyhedron {
 }
 
 impl Polyhedron {
-    /// A copy without the look-up table.
+    /// A copy without the look-up table and the search for polygons.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).

@@ -420,8 +420,8 @@ impl Shape {
     }
 
     /// Makes now what the first query that needs it would, saying how far it is: the look-up tables, a small part of the work
-    /// (of needles up to a third) which is not interrupted, and automatic levels. After that no query of this shape allocates
-    /// or waits, except for the integer arithmetic.
+    /// (of needles up to a third) which is not interrupted, the search for polygons on faces of many, and automatic levels. After
+    /// that no query of this shape allocates or waits, except for the integer arithmetic.
     ///
     /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
     ///
