@@ -33,7 +33,7 @@ fn no_number_may_be_none() {
                     // What is not said stays so, and a search that has found nothing out may say so.
                     let is_same = before == put || before.is_nan() && put.is_nan();
                     let says_nothing = forged.outcome == Outcome::Undecided && forged.upper == f64::INFINITY;
-                    let is_none = !put.is_finite() && !is_same && !(what == "upper" && says_nothing);
+                    let is_none = !(put.is_finite() || is_same || what == "upper" && says_nothing);
                     let is_lie = is_none || judge.lie_in(&forged, Some(&answer)).is_some();
                     match scene.verify(&scene.poses, &forged) {
                         Err(Error::Unverified(_)) if is_lie => refused += 1,
