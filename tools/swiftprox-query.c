@@ -15,7 +15,8 @@
 #include "program.h"
 #include "progress.h"
 
-static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth]\n"
+static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth|cast]\n"
+                            "                       [--tolerance T] [--margin M]\n"
                             "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
                             "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
 
@@ -34,6 +35,9 @@ static const char HELP[] =
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
     "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
+    "  --query cast          whether the objects meet between two poses of each, and when: see below\n"
+    "  --tolerance T         of casts: how wide the interval of a first contact may be (default: 1e-9 of the motion)\n"
+    "  --margin M            of casts: free means farther apart than that (default: 0)\n"
     "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
     "                        as possible)\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
@@ -68,6 +72,16 @@ static const char HELP[] =
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
+    "Of casts a line of POSES is 48 numbers: the poses of A and B at time 0, then those at time 1. In between each\n"
+    "turns about its local origin by the shortest turn, and that moves on a line. Each answer is a line of 6 fields:\n"
+    "  outcome t_lo t_hi clearance upper queries\n"
+    "  outcome        free: farther apart than the margin at all times; hit: no farther at t_hi; near: they graze, and\n"
+    "                 rounding hides whether they meet; budget: given up\n"
+    "  t_lo, t_hi     farther apart than the margin up to t_lo; the first contact is between the two\n"
+    "  clearance      a free pair is at least that far apart at all times\n"
+    "  upper          of a hit the distance at t_hi is at most that, of a near miss that at t_lo\n"
+    "  queries        how many queries that took\n"
+    "\n"
     "With --bench the output is one line of two numbers: the best and the median nanoseconds a query over the\n"
     "passes, everything from the 24 numbers to the answer. The poses are read beforehand, one pass runs untimed\n"
     "first, and each pass starts cold.\n"
@@ -90,6 +104,9 @@ struct arguments {
     swiftprox_start start;
     swiftprox_hierarchy hierarchy;
     swiftprox_levels levels;
+    bool cast; /* instead of `query` */
+    double tolerance;
+    double margin;
     double error;
     size_t count;
     size_t passes; /* 0: answers, not times */
@@ -139,9 +156,10 @@ static bool parse_error(const char *word, double *error)
 
 static bool parse_option(const char *name, const char *value, struct arguments *arguments)
 {
-    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth"};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth",
+                                          "cast"};
     static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
-                                                  swiftprox_pair_approximate, NULL};
+                                                  swiftprox_pair_approximate, NULL, NULL};
     static const char *const INPUTS[] = {"strict", "flat", "hull"};
     static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold"};
@@ -154,10 +172,11 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
     int choice;
     if (strcmp(name, "--query") == 0) {
-        if ((choice = choose(value, QUERIES, 5)) < 0) {
+        if ((choice = choose(value, QUERIES, 6)) < 0) {
             return wrong_usage("--query does not know ", value);
         }
         arguments->query = QUERY_FUNCTIONS[choice];
+        arguments->cast = choice == 5;
     } else if (strcmp(name, "--input") == 0) {
         if ((choice = choose(value, INPUTS, 3)) < 0) {
             return wrong_usage("--input does not know ", value);
@@ -172,6 +191,10 @@ static bool parse_option(const char *name, const char *value, struct arguments *
         return parse_count(value, &arguments->count) || wrong_usage("--count wants a number from 1 on, not ", value);
     } else if (strcmp(name, "--bench") == 0) {
         return parse_count(value, &arguments->passes) || wrong_usage("--bench wants a number from 1 on, not ", value);
+    } else if (strcmp(name, "--tolerance") == 0) {
+        return parse_error(value, &arguments->tolerance) || wrong_usage("--tolerance wants a number from 0 on, not ", value);
+    } else if (strcmp(name, "--margin") == 0) {
+        return parse_error(value, &arguments->margin) || wrong_usage("--margin wants a number from 0 on, not ", value);
     } else if (strcmp(name, "--levels") == 0) {
         if ((choice = choose(value, LEVELS, 5)) < 0) {
             return wrong_usage("--levels does not know ", value);
@@ -186,12 +209,14 @@ static bool parse_option(const char *name, const char *value, struct arguments *
 
 static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
 {
-    static const char *const WITH_VALUE[] = {"--query", "--input", "--count", "--bench", "--error", "--start", "--levels"};
+    static const char *const WITH_VALUE[] = {"--query", "--input", "--count", "--bench", "--error", "--start", "--levels",
+                                             "--tolerance", "--margin"};
     *arguments = (struct arguments){.query = swiftprox_pair_contact,
                                     .input = SWIFTPROX_INPUT_STRICT,
                                     .start = SWIFTPROX_START_AUTOMATIC,
                                     .hierarchy = SWIFTPROX_HIERARCHY_AUTOMATIC,
                                     .levels = SWIFTPROX_LEVELS_AUTOMATIC,
+                                    .tolerance = 1e-9,
                                     .count = SIZE_MAX};
     int files = 0;
     for (int i = 1; i < argc; i++) {
@@ -200,7 +225,7 @@ static bool parse_arguments(int argc, char **argv, struct arguments *arguments)
                 return wrong_usage("one file too many: ", argv[i]);
             }
             arguments->files[files++] = argv[i];
-        } else if (choose(argv[i], WITH_VALUE, 7) < 0) {
+        } else if (choose(argv[i], WITH_VALUE, 9) < 0) {
             return wrong_usage("unknown option ", argv[i]);
         } else if (i + 1 == argc) {
             return wrong_usage(argv[i], " wants a value");
@@ -225,6 +250,8 @@ struct job {
     pair_query *query; /* NULL: the depth */
     swiftprox_pair_config config;
     swiftprox_depth_config depth_config;
+    bool cast;
+    swiftprox_cast_config cast_config;
 };
 
 /* What the pair remembers. */
@@ -236,7 +263,23 @@ struct caches {
 struct answer {
     swiftprox_pair_answer pair;
     swiftprox_depth_answer depth;
+    swiftprox_cast_answer cast;
 };
+
+static swiftprox_status answer_cast(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
+{
+    const struct pose_pair *begin = &job->poses.pairs[2 * index], *end = begin + 1;
+    swiftprox_motion first, second;
+    swiftprox_status status = swiftprox_motion_between(begin->first, end->first, NULL, 0, &first, NULL);
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_motion_between(begin->second, end->second, NULL, 0, &second, NULL);
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_pair_cast(job->shapes[0], &first, job->shapes[1], &second, &caches->pair, &job->cast_config,
+                                     &answer->cast);
+    }
+    return status;
+}
 
 static swiftprox_status answer_depth(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
@@ -248,6 +291,9 @@ static swiftprox_status answer_depth(const struct job *job, size_t index, struct
 static swiftprox_status answer_query(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
+    if (job->cast) {
+        return answer_cast(job, index, caches, answer);
+    }
     if (!job->query) {
         return answer_depth(job, index, caches, answer);
     }
@@ -339,6 +385,17 @@ static void print_depth(const swiftprox_depth_answer *answer)
     printf("%s %llu\n", ending_word(answer->ending), (unsigned long long)statistics->steps + statistics->exact_iterations);
 }
 
+static void print_cast(const swiftprox_cast_answer *answer)
+{
+    static const char *const OUTCOMES[] = {"none ", "free ", "hit ", "near ", "budget "};
+    fputs(OUTCOMES[answer->outcome], stdout);
+    print_rounded(answer->t_lo, FE_DOWNWARD);
+    print_rounded(answer->t_hi, FE_UPWARD);
+    print_rounded(answer->clearance, FE_DOWNWARD);
+    print_rounded(answer->upper, FE_UPWARD);
+    printf("%lu\n", (unsigned long)answer->queries);
+}
+
 /* `depth` is NULL where none was asked for. */
 static void print_answer(const struct job *job, const swiftprox_pair_answer *answer, const swiftprox_depth_answer *depth)
 {
@@ -375,7 +432,9 @@ static int print_answers(const struct job *job)
             fflush(stdout);
             return refused(job, i, status);
         }
-        if (job->query) {
+        if (job->cast) {
+            print_cast(&answer.cast);
+        } else if (job->query) {
             print_answer(job, &answer.pair, contact ? &answer.depth : NULL);
         } else {
             print_depth(&answer.depth);
@@ -496,7 +555,7 @@ static int run(const struct arguments *arguments)
     static char buffer[OUTPUT_BUFFER];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     const swiftprox_shape *shapes[2] = {NULL, NULL};
-    struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
+    struct job job = {.pose_path = arguments->files[2], .query = arguments->query, .cast = arguments->cast};
     swiftprox_pair_tuning tuning;
     swiftprox_pair_tuning_init(&tuning);
     tuning.start = arguments->start;
@@ -506,9 +565,12 @@ static int run(const struct arguments *arguments)
     job.config.absolute_error = arguments->error;
     swiftprox_depth_config_init(&job.depth_config);
     job.depth_config.absolute_error = arguments->error;
+    swiftprox_cast_config_init(&job.cast_config);
+    job.cast_config.time_tolerance = arguments->tolerance;
+    job.cast_config.margin = arguments->margin;
 
     int result = BAD_FILE;
-    if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {
+    if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, job.cast ? 2 : 1, arguments->count, &job.poses)) {
         job.shapes[0] = shapes[0];
         job.shapes[1] = shapes[1];
         result = arguments->passes ? print_times(&job, arguments->passes) : print_answers(&job);

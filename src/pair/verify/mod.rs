@@ -12,7 +12,8 @@ use crate::pair::answer::{DecidedBy, FeatureKind, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
-use bounds::{Bounds, PointInside};
+pub(crate) use bounds::Bounds;
+use bounds::PointInside;
 pub use depth::verify_depth;
 use witness::Witness;
 
