@@ -39,6 +39,7 @@ pub mod solve;
 pub mod levels;
 pub mod shape;
 pub mod pair;
+pub mod motion;
 pub mod scene;
 #[doc(hidden)]
 pub mod ffi;

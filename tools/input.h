@@ -6,7 +6,8 @@
 
 #include <swiftprox.h>
 
-static const char *const INPUT_WORDS[] = {"strict", "flat", "hull", NULL};
-static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL};
+static const char *const INPUT_WORDS[] = {"strict", "flat", "hull", "nearly-convex", NULL};
+static const swiftprox_input INPUT_VALUES[] = {SWIFTPROX_INPUT_STRICT, SWIFTPROX_INPUT_FLAT, SWIFTPROX_INPUT_HULL,
+                                               SWIFTPROX_INPUT_NEARLY_CONVEX};
 
 #endif

@@ -6,16 +6,18 @@
 
 #include "text.h"
 
-enum { NUMBERS = 24 };
+enum { NUMBERS = 24, MOST_MOMENTS = 2 };
 
-static bool parse_line(const struct text_line *line, struct pose_pair *pair)
+static bool parse_line(const struct text_line *line, size_t moments, struct pose_pair *pairs)
 {
-    double numbers[NUMBERS];
-    if (!text_numbers(line, line->text, numbers, NUMBERS, "a query")) {
+    double numbers[NUMBERS * MOST_MOMENTS];
+    if (!text_numbers(line, line->text, numbers, NUMBERS * moments, "a query")) {
         return false;
     }
-    memcpy(pair->first, numbers, sizeof pair->first);
-    memcpy(pair->second, numbers + 12, sizeof pair->second);
+    for (size_t i = 0; i < moments; i++) {
+        memcpy(pairs[i].first, numbers + NUMBERS * i, sizeof pairs[i].first);
+        memcpy(pairs[i].second, numbers + NUMBERS * i + 12, sizeof pairs[i].second);
+    }
     return true;
 }
 
@@ -26,10 +28,10 @@ static bool grow(struct pose_list *list, size_t *capacity)
         return true;
     }
     const size_t larger = *capacity ? *capacity * 2 : 1024;
-    if (larger > SIZE_MAX / sizeof *list->pairs) {
+    if (larger > SIZE_MAX / MOST_MOMENTS / sizeof *list->pairs) {
         return false;
     }
-    struct pose_pair *pairs = realloc(list->pairs, larger * sizeof *pairs);
+    struct pose_pair *pairs = realloc(list->pairs, larger * list->moments * sizeof *pairs);
     if (pairs) {
         list->pairs = pairs;
     }
@@ -44,9 +46,9 @@ static bool grow(struct pose_list *list, size_t *capacity)
     return true;
 }
 
-bool pose_list_read(const char *path, size_t limit, struct pose_list *list)
+bool pose_list_read(const char *path, size_t moments, size_t limit, struct pose_list *list)
 {
-    *list = (struct pose_list){0};
+    *list = (struct pose_list){.moments = moments};
     struct text_file file;
     if (!text_open(path, &file)) {
         return false;
@@ -61,7 +63,7 @@ bool pose_list_read(const char *path, size_t limit, struct pose_list *list)
         if (!grow(list, &capacity)) {
             text_refuse(&line, "no memory for more queries");
             good = false;
-        } else if ((good = parse_line(&line, &list->pairs[list->count]))) {
+        } else if ((good = parse_line(&line, moments, &list->pairs[moments * list->count]))) {
             list->lines[list->count++] = line.number;
         }
     }

@@ -15,7 +15,8 @@
 #include "program.h"
 #include "progress.h"
 
-static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth]\n"
+static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth|cast]\n"
+                            "                       [--tolerance T] [--margin M]\n"
                             "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
                             "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
 
@@ -34,6 +35,9 @@ static const char HELP[] =
     "  --query approximate   an interval at most --error wide, from levels of detail where they suffice; these say\n"
     "                        no witness points\n"
     "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
+    "  --query cast          whether the objects meet between two poses of each, and when: see below\n"
+    "  --tolerance T         of casts: how wide the interval of a first contact may be (default: 1e-9 of the motion)\n"
+    "  --margin M            of casts: free means farther apart than that (default: 0)\n"
     "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
     "                        as possible); queries contact, approximate and depth\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
@@ -69,6 +73,16 @@ static const char HELP[] =
     "  steps          how many steps that took\n"
     "What a query does not say is nan.\n"
     "\n"
+    "Of casts a line of POSES is 48 numbers: the poses of A and B at time 0, then those at time 1. In between each\n"
+    "turns about its local origin by the shortest turn, and that moves on a line. Each answer is a line of 6 fields:\n"
+    "  outcome t_lo t_hi clearance upper queries\n"
+    "  outcome        free: farther apart than the margin at all times; hit: no farther at t_hi; near: they graze, and\n"
+    "                 rounding hides whether they meet; budget: given up\n"
+    "  t_lo, t_hi     farther apart than the margin up to t_lo; the first contact is between the two\n"
+    "  clearance      a free pair is at least that far apart at all times\n"
+    "  upper          of a hit the distance at t_hi is at most that, of a near miss that at t_lo\n"
+    "  queries        how many queries that took\n"
+    "\n"
     "With --bench the output is one line of two numbers: the best and the median nanoseconds a query over the\n"
     "passes, everything from the 24 numbers to the answer. The poses are read beforehand, one pass runs untimed\n"
     "first, and each pass starts cold.\n"
@@ -87,28 +101,34 @@ typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, con
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
-    pair_query *query; /* NULL: the depth */
+    pair_query *query; /* NULL: the depth, or a cast */
     swiftprox_input input;
     swiftprox_start start;
     swiftprox_hierarchy hierarchy;
     swiftprox_levels levels;
+    bool cast;
+    double tolerance;
+    double margin;
     double error;
     size_t count;
     size_t passes; /* 0: answers, not times */
 };
 
-/* Whether each option has a meaning for the query; false after a message. */
-static bool fits_the_query(const struct command_line *line, pair_query *query)
+/* Whether each option has a meaning for the query of a name; false after a message. */
+static bool fits_the_query(const struct command_line *line, const char *query)
 {
-    const char *const of_depth[] = {"--levels", "--start"};
-    if (command_line_has(line, "--error") && (query == swiftprox_pair_distance || query == swiftprox_pair_intersection)) {
-        program_refuse(&PROGRAM, "--error has no meaning for --query %s, which is as narrow as can be",
-                       query == swiftprox_pair_distance ? "distance" : "intersection");
-        return false;
-    }
-    for (int i = 0; i < 2; i++) {
-        if (!query && command_line_has(line, of_depth[i])) {
-            program_refuse(&PROGRAM, "%s has no meaning for --query depth", of_depth[i]);
+    static const struct {
+        const char *option;
+        const char *queries; /* that it has a meaning for */
+    } MEANINGS[] = {{"--error", "contact approximate depth"},
+                    {"--levels", "contact distance intersection approximate"},
+                    {"--start", "contact distance intersection approximate"},
+                    {"--tolerance", "cast"},
+                    {"--margin", "cast"}};
+    for (size_t i = 0; i < sizeof MEANINGS / sizeof *MEANINGS; i++) {
+        if (command_line_has(line, MEANINGS[i].option) && !strstr(MEANINGS[i].queries, query)) {
+            program_refuse(&PROGRAM, "%s has no meaning for --query %s; it has one for %s", MEANINGS[i].option, query,
+                           MEANINGS[i].queries);
             return false;
         }
     }
@@ -118,9 +138,9 @@ static bool fits_the_query(const struct command_line *line, pair_query *query)
 /* False if the program is to end with `*status`. */
 static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
-    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth", NULL};
+    static const char *const QUERIES[] = {"contact", "distance", "intersection", "approximate", "depth", "cast", NULL};
     static pair_query *const QUERY_FUNCTIONS[] = {swiftprox_pair_contact, swiftprox_pair_distance, swiftprox_pair_intersection,
-                                                  swiftprox_pair_approximate, NULL};
+                                                  swiftprox_pair_approximate, NULL, NULL};
     static const char *const STARTS[] = {"auto", "cache", "table", "cold", NULL};
     static const swiftprox_start START_VALUES[] = {SWIFTPROX_START_AUTOMATIC, SWIFTPROX_START_CACHE, SWIFTPROX_START_TABLE,
                                                    SWIFTPROX_START_COLD};
@@ -129,13 +149,15 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
                                                       SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                       SWIFTPROX_HIERARCHY_OUTER_CUTS};
     int query = 0, input = 0, start = 0, levels = 0;
-    *arguments = (struct arguments){.count = SIZE_MAX};
+    *arguments = (struct arguments){.count = SIZE_MAX, .tolerance = 1e-9};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
         {.name = "--start", .kind = OPTION_CHOICE, .choices = STARTS, .value = &start},
         {.name = "--levels", .kind = OPTION_CHOICE, .choices = LEVELS, .value = &levels},
         {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->error},
+        {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->tolerance},
+        {.name = "--margin", .kind = OPTION_AMOUNT, .value = &arguments->margin},
         {.name = "--count", .kind = OPTION_COUNT, .value = &arguments->count},
         {.name = "--bench", .kind = OPTION_COUNT, .value = &arguments->passes},
     };
@@ -151,11 +173,12 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     }
     *status = BAD_INPUT;
     arguments->query = QUERY_FUNCTIONS[query];
+    arguments->cast = strcmp(QUERIES[query], "cast") == 0;
     arguments->input = INPUT_VALUES[input];
     arguments->start = START_VALUES[start];
     arguments->hierarchy = HIERARCHIES[levels];
     arguments->levels = levels < 2 ? SWIFTPROX_LEVELS_AUTOMATIC : SWIFTPROX_LEVELS_ALL;
-    return fits_the_query(&line, arguments->query);
+    return fits_the_query(&line, QUERIES[query]);
 }
 
 /* Clock readings are spared, and what is printed between two looks (at most 350 bytes a query) fits the buffer. */
@@ -167,9 +190,11 @@ struct job {
     const swiftprox_shape *shapes[2];
     struct pose_list poses;
     const char *pose_path;
-    pair_query *query; /* NULL: the depth */
+    pair_query *query; /* NULL: the depth, or a cast */
     swiftprox_pair_config config;
     swiftprox_depth_config depth_config;
+    bool cast;
+    swiftprox_cast_config cast_config;
 };
 
 /* What the pair remembers. */
@@ -181,7 +206,23 @@ struct caches {
 struct answer {
     swiftprox_pair_answer pair;
     swiftprox_depth_answer depth;
+    swiftprox_cast_answer cast;
 };
+
+static swiftprox_status answer_cast(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
+{
+    const struct pose_pair *begin = &job->poses.pairs[2 * index], *end = begin + 1;
+    swiftprox_motion first, second;
+    swiftprox_status status = swiftprox_motion_between(begin->first, end->first, NULL, 0, &first, NULL);
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_motion_between(begin->second, end->second, NULL, 0, &second, NULL);
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_pair_cast(job->shapes[0], &first, job->shapes[1], &second, &caches->pair, &job->cast_config,
+                                     &answer->cast);
+    }
+    return status;
+}
 
 static swiftprox_status answer_depth(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
@@ -193,6 +234,9 @@ static swiftprox_status answer_depth(const struct job *job, size_t index, struct
 static swiftprox_status answer_query(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
+    if (job->cast) {
+        return answer_cast(job, index, caches, answer);
+    }
     if (!job->query) {
         return answer_depth(job, index, caches, answer);
     }
@@ -285,6 +329,17 @@ static void print_depth(const swiftprox_depth_answer *answer)
     printf("%s %llu\n", ending_word(answer->ending), (unsigned long long)statistics->steps + statistics->exact_iterations);
 }
 
+static void print_cast(const swiftprox_cast_answer *answer)
+{
+    static const char *const OUTCOMES[] = {"none ", "free ", "hit ", "near ", "budget "};
+    fputs(OUTCOMES[answer->outcome], stdout);
+    print_rounded(answer->t_lo, FE_DOWNWARD);
+    print_rounded(answer->t_hi, FE_UPWARD);
+    print_rounded(answer->clearance, FE_DOWNWARD);
+    print_rounded(answer->upper, FE_UPWARD);
+    printf("%lu\n", (unsigned long)answer->queries);
+}
+
 /* `depth` is NULL where none was asked for. */
 static void print_answer(const struct job *job, const swiftprox_pair_answer *answer, const swiftprox_depth_answer *depth)
 {
@@ -321,7 +376,9 @@ static int print_answers(const struct job *job)
             fflush(stdout);
             return refused(job, i, status);
         }
-        if (job->query) {
+        if (job->cast) {
+            print_cast(&answer.cast);
+        } else if (job->query) {
             print_answer(job, &answer.pair, contact ? &answer.depth : NULL);
         } else {
             print_depth(&answer.depth);
@@ -443,7 +500,7 @@ static int run(const struct arguments *arguments)
     static char buffer[OUTPUT_BUFFER];
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     const swiftprox_shape *shapes[2] = {NULL, NULL};
-    struct job job = {.pose_path = arguments->files[2], .query = arguments->query};
+    struct job job = {.pose_path = arguments->files[2], .query = arguments->query, .cast = arguments->cast};
     swiftprox_pair_tuning tuning;
     swiftprox_pair_tuning_init(&tuning);
     tuning.start = arguments->start;
@@ -453,9 +510,12 @@ static int run(const struct arguments *arguments)
     job.config.absolute_error = arguments->error;
     swiftprox_depth_config_init(&job.depth_config);
     job.depth_config.absolute_error = arguments->error;
+    swiftprox_cast_config_init(&job.cast_config);
+    job.cast_config.time_tolerance = arguments->tolerance;
+    job.cast_config.margin = arguments->margin;
 
     int result = BAD_INPUT;
-    if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, arguments->count, &job.poses)) {
+    if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, job.cast ? 2 : 1, arguments->count, &job.poses)) {
         job.shapes[0] = shapes[0];
         job.shapes[1] = shapes[1];
         result = arguments->passes ? print_times(&job, arguments->passes) : print_answers(&job);

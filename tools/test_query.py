@@ -53,6 +53,25 @@ class Query(unittest.TestCase):
             self.assertGreaterEqual(int(row[14]), 0)
         return rows
 
+    def test_casts_tell_when_objects_first_touch(self):
+        lines = [" ".join((HERE, pose(4, 0, 0), HERE, pose(x, y, 0))) for x, y in (("0", "0"), ("5", "0"), ("-4", "4"))]
+        motions = self.file("motions", "\n".join(lines) + "\n")
+        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--tolerance", "1e-6")
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        hit, free, passing = [line.split() for line in done.stdout.splitlines()]
+        self.assertEqual((hit[0], free[0], passing[0]), ("hit", "free", "free"))
+        # The boxes' sides are 1.6 long along x: B touches A where it is that far.
+        self.assertTrue(Decimal(hit[1]) <= Decimal("0.6") <= Decimal(hit[2]) <= Decimal(hit[1]) + Decimal("1.01e-6"), hit)
+        self.assertEqual(hit[3:5], ["nan", "0"])
+        self.assertEqual((free[1], free[2], free[4]), ("1", "nan", "nan"))
+        self.assertTrue(2 < float(free[3]) <= 2.4, free)
+        self.assertGreater(int(hit[5]), 0)
+        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--margin", "2.5")
+        self.assertEqual([line.split()[0] for line in done.stdout.splitlines()], ["hit", "hit", "hit"])
+        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--bench", "2")
+        self.assertRegex(done.stdout, r"^[0-9.e+]+ [0-9.e+]+\n$")
+        self.refused(2, "poses:1", BOX, BOX, self.file("poses", APART + "\n"), "--query", "cast")
+
     def refused(self, status, message, *arguments):
         done = self.run_tool(*arguments)
         self.assertEqual(done.returncode, status)

@@ -20,6 +20,7 @@ pub mod shape;
 pub mod level;
 pub mod pair;
 pub mod depth;
+pub mod motion;
 mod task_loan;
 pub mod workers;
 pub mod scene;
@@ -39,9 +40,11 @@ use std::sync::Once;
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
+use crate::motion::CastOutcome;
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::scene::ContactDetail;
 use crate::shape::InputPolicy;
+use motion::MotionKind;
 use structs::{Versioned, init_struct, read_struct, view_struct, write_struct};
 
 /// What a call returns. The numbers are never reused.
@@ -329,6 +332,8 @@ enumerator!(DecidedBy {
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
+enumerator!(CastOutcome { None, Free, Hit, Near, Budget });
+enumerator!(MotionKind { Fixed, Screw, Affine, Callback });
 
 // Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
 // up; here they are numbers, as a program may hand over any.
@@ -347,6 +352,10 @@ pub type FeatureKindNumber = i32;
 pub type ContactDetailNumber = i32;
 /// A [`DepthEnding`].
 pub type DepthEndingNumber = i32;
+/// A [`CastOutcome`].
+pub type CastOutcomeNumber = i32;
+/// A [`MotionKind`].
+pub type MotionKindNumber = i32;
 /// An [`InputPolicy`].
 pub type InputNumber = i32;
 /// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).

@@ -62,6 +62,11 @@ impl Extent {
         Ok(Extent { inner_radius: inner_radius(polyhedron), lever, middle, half, points })
     }
 
+    /// The middle of the box in centred coordinates and its half sides, rounded up.
+    pub(crate) fn box_about_centre(&self) -> (&Vector, &Vector) {
+        (&self.middle, &self.half)
+    }
+
     /// Memory held beside the struct, in bytes.
     pub(crate) fn heap_bytes(&self) -> usize {
         size_of_val(&self.points[..])

@@ -5,7 +5,20 @@ use std::path::PathBuf;
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 9] = ["library", "mesh", "shape", "pair", "replay", "depth", "manifold", "object", "scene"];
+const NOUNS: [&str; 12] = [
+    "library",
+    "mesh",
+    "shape",
+    "pair",
+    "replay",
+    "depth",
+    "manifold",
+    "motion",
+    "cast",
+    "clearance",
+    "object",
+    "scene",
+];
 
 /// The shared library that this test run built, beside the test.
 fn library() -> PathBuf {

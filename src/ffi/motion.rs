@@ -1,0 +1,413 @@
+//! Motions: casts and clearances of pairs.
+
+use std::ffi::{c_char, c_void};
+
+use super::pair::CPairCache;
+use super::{
+    CastOutcomeNumber, Checked, Failure, MotionKindNumber, StatusCode, Versioned, call_out, exclusive, guard,
+    init_struct, input, output, read_enumerator, read_struct,
+};
+use crate::base::math::{Pose, Vector};
+use crate::motion::{
+    Callback, CastAnswer, CastConfig, CastOutcome, Clearance, ClearanceConfig, Motion, Moving, Screw, cast, clearance,
+    motion_between, verify_cast,
+};
+use crate::pair::{DecidedBy, FeatureKind, Outcome, PairCache};
+use crate::shape::Shape;
+
+/// How an object moves.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
+pub enum MotionKind {
+    /// It stays at start.
+    Fixed = 0,
+    /// A point p is at T + R c + t velocity + exp(t [rotation]) R (p - c) at time t, where start is [R|T] and c the centre: it
+    /// turns at a constant rate about a centre that moves on a line.
+    Screw = 1,
+    /// Its pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians: poses in between are refused beyond.
+    Affine = 2,
+    /// Where `pose` says.
+    Callback = 3,
+}
+
+/// Writes the pose at a time, 12 doubles, row by row; they are NaN before, which is refused. The same time gives the same pose. It
+/// runs in the thread that asks, and must return; a C++ exception that leaves it ends the program.
+pub type MotionCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, time: f64, pose: *mut f64)>;
+
+/// A motion. Of its members only those of its kind are looked at.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMotion {
+    /// Which of the following it is.
+    pub kind: MotionKindNumber,
+    /// The pose at time 0. Not of SWIFTPROX_MOTION_KIND_CALLBACK.
+    pub start: [f64; 12],
+    /// The pose at time 1, of SWIFTPROX_MOTION_KIND_AFFINE.
+    pub end: [f64; 12],
+    /// Of SWIFTPROX_MOTION_KIND_SCREW: what it turns about, in the object's frame,
+    pub centre: [f64; 3],
+    /// how fast that moves, in the world,
+    pub velocity: [f64; 3],
+    /// and its angular velocity, in the world: along the axis, in radians per unit of time. All turned by may be 2^20 radians.
+    pub rotation: [f64; 3],
+    /// Of SWIFTPROX_MOTION_KIND_CALLBACK: where it is at a time,
+    pub pose: MotionCallback,
+    /// what is handed to that,
+    pub user: *mut c_void,
+    /// a bound of the acceleration of all points of the object at all times that are asked about,
+    pub bend: f64,
+    /// and how far from the motion that is meant the poses may have a point. Answers are as right as these two.
+    pub rounding: f64,
+}
+
+/// What a cast is asked for. Fill it with swiftprox_cast_config_init, then change what should differ.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CCastConfig {
+    /// Set by swiftprox_cast_config_init.
+    pub struct_size: usize,
+    /// Where the range of times begins. Default: 0.
+    pub t_begin: f64,
+    /// Where it ends, not before it begins. Default: 1.
+    pub t_end: f64,
+    /// How wide the interval of a hit may be, and the shortest step; from 2^-50 of the larger end on. Default: 1e-9.
+    pub time_tolerance: f64,
+    /// Objects are free where they are farther apart than this, from 0 on. Default: 0.
+    pub margin: f64,
+    /// Certified queries after which it stops with what is proved, 1 or more. Default: 100,000.
+    pub step_budget: u32,
+}
+
+// SAFETY: repr(C), struct_size first, any bytes are valid.
+unsafe impl Versioned for CCastConfig {
+    const NAME: &'static str = "swiftprox_cast_config";
+}
+
+impl CCastConfig {
+    fn defaults() -> CCastConfig {
+        let CastConfig { t_begin, t_end, time_tolerance, margin, step_budget } = CastConfig::default();
+        CCastConfig { struct_size: size_of::<CCastConfig>(), t_begin, t_end, time_tolerance, margin, step_budget }
+    }
+}
+
+/// What a clearance is asked for. Fill it with swiftprox_clearance_config_init, then change what should differ.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CClearanceConfig {
+    /// Set by swiftprox_clearance_config_init.
+    pub struct_size: usize,
+    /// Where the range of times begins. Default: 0.
+    pub t_begin: f64,
+    /// Where it ends, not before it begins. Default: 1.
+    pub t_end: f64,
+    /// upper - lower may be as large as this ... from 0 to infinity. Default: 0.
+    pub absolute_error: f64,
+    /// ... or as this times lower. Default: 0.01. Both 0: as narrow as can be proved.
+    pub relative_error: f64,
+    /// Certified queries after which it stops with what is proved, 1 or more. Default: 100,000.
+    pub step_budget: u32,
+}
+
+// SAFETY: repr(C), struct_size first, any bytes are valid.
+unsafe impl Versioned for CClearanceConfig {
+    const NAME: &'static str = "swiftprox_clearance_config";
+}
+
+impl CClearanceConfig {
+    fn defaults() -> CClearanceConfig {
+        let ClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget } =
+            ClearanceConfig::default();
+        let struct_size = size_of::<CClearanceConfig>();
+        CClearanceConfig { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }
+    }
+}
+
+/// The motion about a centre, in the object's frame (null: its origin), that starts at pose1 at time 0 and by the shortest turn
+/// comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
+/// pose2 has it, which is rounding and what one rotation is more distorted than the other.
+///
+/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0
+/// on. SWIFTPROX_ERROR_NULL_POINTER. Then nothing is written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_motion_between(
+    pose1: *const f64,
+    pose2: *const f64,
+    centre: *const f64,
+    reach: f64,
+    motion: *mut CMotion,
+    end_error: *mut f64,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`, a point three.
+        let (pose1, pose2, centre) = unsafe {
+            (
+                input(pose1.cast::<Pose>(), "pose1")?,
+                input(pose2.cast::<Pose>(), "pose2")?,
+                centre.cast::<[f64; 3]>().as_ref().map_or(Vector::zeros(), |centre| Vector::from(*centre)),
+            )
+        };
+        let (screw, error) = motion_between(pose1, pose2, &centre, reach)?;
+        let made = CMotion {
+            kind: MotionKind::Screw as i32,
+            start: row_major(pose1),
+            end: [f64::NAN; 12],
+            centre: screw.centre.into(),
+            velocity: screw.velocity.into(),
+            rotation: screw.rotation.into(),
+            pose: None,
+            user: std::ptr::null_mut(),
+            bend: f64::NAN,
+            rounding: f64::NAN,
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe {
+            output(motion, "motion", made)?;
+            if !end_error.is_null() {
+                end_error.write(error);
+            }
+        }
+        Ok(())
+    })
+}
+
+fn row_major(pose: &Pose) -> [f64; 12] {
+    std::array::from_fn(|k| pose.rows[k / 4][k % 4])
+}
+
+/// Fills `config` with the defaults. Call it as swiftprox_cast_config_init(&config), which hands over the size that the program was
+/// compiled with. Null is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_cast_config_init_sized(config: *mut CCastConfig, struct_size: usize) {
+    // SAFETY: the header's pointer rules.
+    unsafe { init_struct(config, struct_size, &CCastConfig::defaults()) }
+}
+
+/// Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
+/// they are described, at all times of the range and not only at some of them. Rounding of poses is accounted for.
+///
+/// `cache` is what the pair remembers, as of swiftprox_pair_distance, and may be shared with that. It changes how long the cast
+/// takes and where within what is proved a time lies, never what holds. `config` may be null for the defaults. On failure the
+/// answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
+/// that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when.
+/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is
+/// reset, too.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_cast(
+    shape1: *const Shape,
+    motion1: *const CMotion,
+    shape2: *const Shape,
+    motion2: *const CMotion,
+    cache: *mut CPairCache,
+    config: *const CCastConfig,
+    answer: *mut CastAnswer,
+) -> StatusCode {
+    let bodies = [(shape1, motion1), (shape2, motion2)];
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        ask(bodies, cache, answer, |bodies, cache, answer| {
+            let config = cast_config(config)?;
+            Ok(cast(bodies, cache, &config, answer)?)
+        })
+    }
+}
+
+/// Fills `config` with the defaults. Call it as swiftprox_clearance_config_init(&config), which hands over the size that the
+/// program was compiled with. Null is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_clearance_config_init_sized(config: *mut CClearanceConfig, struct_size: usize) {
+    // SAFETY: the header's pointer rules.
+    unsafe { init_struct(config, struct_size, &CClearanceConfig::defaults()) }
+}
+
+/// The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or
+/// as can be proved. It is wider where the step budget runs out, and where rounding of poses hides more. Arguments and errors as of
+/// swiftprox_pair_cast; on failure the numbers are NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_clearance(
+    shape1: *const Shape,
+    motion1: *const CMotion,
+    shape2: *const Shape,
+    motion2: *const CMotion,
+    cache: *mut CPairCache,
+    config: *const CClearanceConfig,
+    answer: *mut Clearance,
+) -> StatusCode {
+    let bodies = [(shape1, motion1), (shape2, motion2)];
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        ask(bodies, cache, answer, |bodies, cache, answer| {
+            let given = read_struct(config, CClearanceConfig::defaults())?;
+            let CClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget, .. } = given;
+            let config = ClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget };
+            Ok(clearance(bodies, cache, &config, answer)?)
+        })
+    }
+}
+
+/// Re-checks the answer of swiftprox_pair_cast for the same motions and configuration, trusting nothing of the search that found
+/// it. SWIFTPROX_OK: it holds.
+///
+/// Proved are, at every time and without tolerance: of a free pair that it is farther apart than the margin and at least
+/// clearance; of all others that it is farther apart than the margin up to t_lo, if that is not the beginning; of a hit that it is
+/// no farther apart than the margin and upper at t_hi; of a near miss that it is no farther apart than upper at t_lo. `contact` is
+/// checked by swiftprox_pair_verify for the poses there. `queries` is not checked.
+///
+/// Steps and directions come from a sweep without a cache. Each is proved over all vertices, so it takes time in proportion to
+/// both.
+///
+/// SWIFTPROX_ERROR_UNVERIFIED: something does not hold, or is not proved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT:
+/// an enumerator in the answer is unknown, or it holds no outcome. Others as of swiftprox_pair_cast and swiftprox_pair_verify.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_cast_verify(
+    shape1: *const Shape,
+    motion1: *const CMotion,
+    shape2: *const Shape,
+    motion2: *const CMotion,
+    config: *const CCastConfig,
+    answer: *const CastAnswer,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let (config, answer) = unsafe { (cast_config(config)?, read_answer(answer)?) };
+        let verify = |bodies: [Moving; 2]| Ok(verify_cast(bodies, &config, answer)?);
+        // SAFETY: the header's pointer rules.
+        unsafe { with_bodies([(shape1, motion1), (shape2, motion2)], verify) }
+    })
+}
+
+/// How a cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swiftprox_library_cast_outcome_string(outcome: CastOutcomeNumber) -> *const c_char {
+    use crate::base::enumerator::Enumerator;
+    let string = match CastOutcome::from_number(outcome) {
+        Some(CastOutcome::None) => c"nothing was asked",
+        Some(CastOutcome::Free) => c"free",
+        Some(CastOutcome::Hit) => c"hit",
+        Some(CastOutcome::Near) => c"near",
+        Some(CastOutcome::Budget) => c"the step budget, which ran out",
+        None => c"no outcome of a cast",
+    };
+    string.as_ptr()
+}
+
+/// Checks the arguments of a query about motions and runs it; its answer is reset where it fails.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+unsafe fn ask<A: Default>(
+    bodies: [(*const Shape, *const CMotion); 2],
+    cache: *mut CPairCache,
+    answer: *mut A,
+    run: impl FnOnce([Moving; 2], &mut PairCache, &mut A) -> Checked<()>,
+) -> StatusCode {
+    let status = guard(|| {
+        if answer.is_null() {
+            return Err(Failure::null("answer"));
+        }
+        // SAFETY: not null, writable by the caller; what was there before is not looked at.
+        unsafe { answer.write(A::default()) };
+        // SAFETY: the header's pointer rules.
+        let (cache, answer) = unsafe { (exclusive(cache.cast::<PairCache>(), "cache")?, exclusive(answer, "answer")?) };
+        // SAFETY: the header's pointer rules.
+        unsafe { with_bodies(bodies, |bodies| run(bodies, cache, answer)) }
+    });
+    if status == StatusCode::ErrorBug {
+        // SAFETY: null, or writable by the caller.
+        unsafe {
+            if !cache.is_null() {
+                cache.write(CPairCache::default());
+            }
+            if !answer.is_null() {
+                answer.write(A::default());
+            }
+        }
+    }
+    status
+}
+
+/// Runs what asks about two motions, in Rust's terms.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+unsafe fn with_bodies(
+    [(shape1, motion1), (shape2, motion2)]: [(*const Shape, *const CMotion); 2],
+    run: impl FnOnce([Moving; 2]) -> Checked<()>,
+) -> Checked<()> {
+    // SAFETY: the header's pointer rules.
+    let (shape1, motion1, shape2, motion2) = unsafe {
+        (input(shape1, "shape1")?, input(motion1, "motion1")?, input(shape2, "shape2")?, input(motion2, "motion2")?)
+    };
+    let (pose1, pose2) = (called(motion1), called(motion2));
+    let first = read_motion(motion1, &pose1, "motion1")?;
+    let second = read_motion(motion2, &pose2, "motion2")?;
+    run([Moving { shape: shape1, motion: &first }, Moving { shape: shape2, motion: &second }])
+}
+
+/// The callback of a motion that has one.
+fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
+    let (callback, user) = (motion.pose, motion.user);
+    move |time| {
+        let mut pose = [f64::NAN; 12];
+        if let Some(callback) = callback {
+            // SAFETY: the callback takes its own user pointer and room for twelve doubles.
+            call_out(|| unsafe { callback(user, time, pose.as_mut_ptr()) });
+        }
+        Pose::from_row_major(&pose)
+    }
+}
+
+fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: &str) -> Checked<Motion<'a>> {
+    let start = Pose::from_row_major(&motion.start);
+    let kind = read_enumerator::<MotionKind>(motion.kind, &format!("{name}->kind"), "swiftprox_motion_kind")?;
+    Ok(match kind {
+        MotionKind::Fixed => Motion::Fixed(start),
+        MotionKind::Screw => Motion::Screw(Screw {
+            start,
+            centre: motion.centre.into(),
+            velocity: motion.velocity.into(),
+            rotation: motion.rotation.into(),
+        }),
+        MotionKind::Affine => Motion::Affine { start, end: Pose::from_row_major(&motion.end) },
+        MotionKind::Callback if motion.pose.is_none() => return Err(Failure::null(&format!("{name}->pose"))),
+        MotionKind::Callback => Motion::Callback(Callback { pose, bend: motion.bend, rounding: motion.rounding }),
+    })
+}
+
+/// # Safety
+/// `config` meets the header's pointer rules.
+unsafe fn cast_config(config: *const CCastConfig) -> Checked<CastConfig> {
+    // SAFETY: by the caller.
+    let given = unsafe { read_struct(config, CCastConfig::defaults())? };
+    let CCastConfig { t_begin, t_end, time_tolerance, margin, step_budget, .. } = given;
+    Ok(CastConfig { t_begin, t_end, time_tolerance, margin, step_budget })
+}
+
+/// The caller's answer to read, its enumerators checked.
+///
+/// # Safety
+/// `answer` meets the header's pointer rules.
+unsafe fn read_answer<'a>(answer: *const CastAnswer) -> Checked<&'a CastAnswer> {
+    if answer.is_null() {
+        return Err(Failure::null("answer"));
+    }
+    // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
+    let [outcome, of_contact, decided_by, kind1, kind2] = unsafe {
+        let contact = &raw const (*answer).contact;
+        [
+            (&raw const (*answer).outcome).cast::<i32>().read(),
+            (&raw const (*contact).outcome).cast::<i32>().read(),
+            (&raw const (*contact).decided_by).cast::<i32>().read(),
+            (&raw const (*contact).feature1.kind).cast::<i32>().read(),
+            (&raw const (*contact).feature2.kind).cast::<i32>().read(),
+        ]
+    };
+    read_enumerator::<CastOutcome>(outcome, "answer->outcome", "swiftprox_cast_outcome")?;
+    read_enumerator::<Outcome>(of_contact, "answer->contact.outcome", "swiftprox_outcome")?;
+    read_enumerator::<DecidedBy>(decided_by, "answer->contact.decided_by", "swiftprox_decided_by")?;
+    read_enumerator::<FeatureKind>(kind1, "answer->contact.feature1.kind", "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, "answer->contact.feature2.kind", "swiftprox_feature_kind")?;
+    // SAFETY: its enumerators are valid, and any other bytes are.
+    Ok(unsafe { &*answer })
+}

@@ -1,0 +1,212 @@
+//! What carries a proof from one moment to the next, and what rounding may make of a pose.
+//!
+//! *Between two moments.* Along a fixed world direction n from object 2 to object 1 the gap of the bodies is the least n·x₁ over
+//! points of object 1 less the greatest n·x₂ over those of object 2. If n·ẍ₁ − n·ẍ₂ ≤ K for all of them, each n·(x₁ − x₂) stays
+//! above its chord less K·s(1 − s)h²/2, s from 0 to 1 over a time h; so does their minimum, the gap. Both bodies are taken at the
+//! same time: bodies that move together cost nothing.
+//!
+//! *Rounding.* A query is about the pose as computed. No point of the motion is farther than δ from where that pose has it; along a
+//! unit direction no gap is then off by more than the sum of both δ, and bodies deeper in each other than that sum intersect.
+
+use super::kinds::{Callback, Motion, Screw};
+use super::turn::{LARGEST_ANGLE, Turn};
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::polyhedron::LARGEST;
+use crate::shape::Shape;
+
+/// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
+pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
+
+/// What products of numbers in range may lose to underflow, several times over.
+const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
+
+/// The spectral norm of a rotation whose RᵀR − I has entries up to 1e-2 is at most √1.03.
+const STRETCH: f64 = 1.015;
+
+/// The bounds of one object over a range of times.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Travel {
+    /// δ for any time of the range.
+    pub rounding: f64,
+    bend: Bend,
+}
+
+/// How a motion may curve.
+#[derive(Debug, Clone, Copy)]
+enum Bend {
+    /// All points go straight, at a constant speed.
+    None,
+    /// All points turn about an axis: the unit vector along it, and ω²·r for the largest distance r of a point from it.
+    Turn { axis: Vector, most: f64 },
+    /// The largest acceleration.
+    Any(f64),
+}
+
+impl Travel {
+    /// # Errors
+    /// [`Error::Argument`] for what is so large that doubles do not bound it.
+    pub fn new(shape: &Shape, motion: &Motion, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+        let longest = range[0].abs().max(range[1].abs());
+        let reach = reach(shape, motion);
+        check_sizes(motion, turn, longest, reach)?;
+        let bend = match motion {
+            Motion::Fixed(_) | Motion::Affine { .. } => Bend::None,
+            Motion::Screw(screw) if turn.speed > 0.0 => {
+                // The axis is off by 6.5u, the square of the speed by 12u.
+                let most = turn.speed * turn.speed * distance_from_axis(shape, screw, turn) * (1.0 + 64.0 * U);
+                Bend::Turn { axis: turn.axis, most }
+            }
+            Motion::Screw(_) => Bend::None,
+            Motion::Callback(Callback { bend, .. }) => Bend::Any(*bend),
+        };
+        Ok(Travel { rounding: rounding_of_pose(motion, turn, longest, reach), bend })
+    }
+
+    /// No point accelerates by more along a unit vector, right to 8u, or against it.
+    ///
+    /// A turning point accelerates towards the axis, by ω²·r. Of the direction only the part across the axis counts; what rounding
+    /// makes of that is below 32u.
+    pub fn acceleration(&self, direction: &Vector) -> f64 {
+        match self.bend {
+            Bend::None => 0.0,
+            Bend::Turn { axis, most } => {
+                let across = direction - axis * axis.dot(direction);
+                most * (across.norm() * (1.0 + 16.0 * U) + 32.0 * U)
+            }
+            Bend::Any(most) => most * (1.0 + 16.0 * U),
+        }
+    }
+}
+
+/// No point of the body is farther from the point of its frame that the motion's pose keeps.
+fn reach(shape: &Shape, motion: &Motion) -> f64 {
+    let lever = shape.extent().lever;
+    match motion {
+        Motion::Screw(screw) => (lever + screw.centre.norm()) * (1.0 + 8.0 * U),
+        _ => lever,
+    }
+}
+
+/// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever says less. Products and sums
+/// err by less than 32u of all lengths together.
+fn distance_from_axis(shape: &Shape, screw: &Screw, turn: &Turn) -> f64 {
+    let polyhedron = shape.polyhedron();
+    let (middle, half) = shape.extent().box_about_centre();
+    let to_centre = polyhedron.centre - screw.centre;
+    let from_axis = |p: Vector| turn.axis.cross(&screw.start.rotate(&p)).norm();
+    let mut farthest = 0.0_f64;
+    for corner in 0..8_u32 {
+        let side = |axis: usize| if corner >> axis & 1 == 0 { -half[axis] } else { half[axis] };
+        farthest = farthest.max(from_axis(to_centre + middle + Vector::new(side(0), side(1), side(2))));
+    }
+    let around_sphere = from_axis(to_centre) + STRETCH * polyhedron.radius;
+    let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm();
+    farthest.min(around_sphere) + 64.0 * U * size
+}
+
+/// How far at most a point within `reach` of a screw's centre, or of another motion's local origin, is at a time of up to
+/// `longest` from where the computed pose has it. At time 0, and at 1 of an affine motion, poses are exact
+/// ([`is_exact`]).
+///
+/// *Screw.* The turn errs by (6.5·angle + 70)u in the spectral norm (see [`Turn::by`]), its product with R (norm 1.015) by 9.2u
+/// more: below (7·angle + 82)u times the distance from the centre. The translation is computed with the rotation as it is, so that
+/// only its own rounding counts: t·v and T by 3u|t·v| + 2u|T|, the two products R·c by 5.3u|c| each, the two sums behind them by
+/// 2.1u|c| and once more u of all. Where nothing turns R and the terms of c are exact.
+///
+/// *Affine.* Each entry errs by 3u of its two terms, the Frobenius norm of R is at most 1.77.
+pub(super) fn rounding_of_pose(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> f64 {
+    let length = |v: &Vector| v.norm() * (1.0 + 8.0 * U);
+    match motion {
+        Motion::Fixed(_) => 0.0,
+        Motion::Screw(Screw { start, centre, velocity, rotation }) => {
+            let (moves, turns) = (velocity.amax() > 0.0, rotation.amax() > 0.0);
+            let (centre, path) = (length(centre), longest * length(velocity));
+            // A body that turns about its own origin stays there exactly.
+            let keeps_translation = !moves && (!turns || centre == 0.0);
+            let of_translation =
+                if keeps_translation { 0.0 } else { 4.0 * (length(&start.translation()) + path) + 16.0 * centre };
+            let of_turn = if turns { (8.0 * longest * turn.speed + 96.0) * reach } else { 0.0 };
+            let underflow = if moves || turns { UNDERFLOW } else { 0.0 };
+            U * (of_translation + of_turn) + underflow
+        }
+        Motion::Affine { start, end } => {
+            let weights = [1.0 + longest, longest];
+            let size = |pose: &Pose| 1.77 * reach + length(&pose.translation());
+            4.0 * U * (weights[0] * size(start) + weights[1] * size(end)) + UNDERFLOW
+        }
+        Motion::Callback(Callback { rounding, .. }) => *rounding,
+    }
+}
+
+/// Whether the pose at a time is the motion's own, without rounding.
+pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
+    match motion {
+        Motion::Fixed(_) => true,
+        Motion::Screw(_) => time == 0.0,
+        Motion::Affine { .. } => time == 0.0 || time == 1.0,
+        Motion::Callback(Callback { rounding, .. }) => *rounding == 0.0,
+    }
+}
+
+/// The least gap between two moments a time `h` apart, rounded down, from the gaps at both and K.
+///
+/// (1 − s)g₀ + s·g₁ − B·s(1 − s) with B = K·h²/2 is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1.
+pub(super) fn least_between(gaps: [f64; 2], acceleration: f64, h: f64) -> f64 {
+    let sag = 0.5 * acceleration * h * h * (1.0 + 8.0 * U);
+    let [first, last] = gaps;
+    let rise = last - first;
+    let least = if sag > rise.abs() {
+        let excess = sag - rise;
+        first - excess * excess / (4.0 * sag)
+    } else {
+        first.min(last)
+    };
+    let rounded = least - 16.0 * U * (first.abs() + last.abs() + sag);
+    // What is infinite or none proves nothing.
+    if rounded.is_finite() { rounded } else { f64::NEG_INFINITY }
+}
+
+fn check_sizes(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> Result<()> {
+    if !(longest <= LARGEST_TIME) {
+        return Err(Error::Argument(format!(
+            "a time is {longest:e}, it must be at most {LARGEST_TIME:e} in magnitude"
+        )));
+    }
+    let angle = longest * turn.speed;
+    if !(angle <= LARGEST_ANGLE) {
+        return Err(Error::Argument(format!(
+            "a motion turns by {angle:e} radians, it may turn by {LARGEST_ANGLE:e}: ask in parts"
+        )));
+    }
+    let far = match motion {
+        Motion::Fixed(pose) => pose.translation().amax(),
+        Motion::Screw(screw) => screw.start.translation().amax().max(longest * screw.velocity.amax()),
+        Motion::Affine { start, end } => (1.0 + longest) * start.translation().amax().max(end.translation().amax()),
+        Motion::Callback(_) => 0.0,
+    };
+    if !(far.max(reach) <= LARGEST) {
+        return Err(Error::Argument(format!("a motion reaches {:e}, it may reach {LARGEST:e}", far.max(reach))));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_least_gap_is_that_of_the_sagging_chord() {
+        for (gaps, acceleration, h) in
+            [([1.0, 2.0], 0.0, 3.0), ([1.0, 1.0], 2.0, 1.0), ([3.0, 0.5], 8.0, 0.7), ([1e-12, 5.0], 1.0, 1e-3)]
+        {
+            let chord = |s: f64| (1.0 - s) * gaps[0] + s * gaps[1] - 0.5 * acceleration * h * h * s * (1.0 - s);
+            let least = (0..=10_000).map(|k| chord(f64::from(k) / 1e4)).fold(f64::INFINITY, f64::min);
+            let bound = least_between(gaps, acceleration, h);
+            assert!(bound <= least && bound > least - 1e-6, "{gaps:?}: {bound} {least}");
+        }
+        assert_eq!(least_between([1.0, f64::NEG_INFINITY], 0.0, 1.0), f64::NEG_INFINITY);
+        assert_eq!(least_between([1.0, 1.0], f64::INFINITY, 1.0), f64::NEG_INFINITY);
+        assert_eq!(least_between([1.0, f64::NAN], 1.0, 1.0), f64::NEG_INFINITY);
+    }
+}

@@ -1,0 +1,71 @@
+//! The cast: a sweep from the beginning of a range of times until it ends, or something does.
+
+use super::answer::{CastAnswer, CastOutcome};
+use super::config::CastConfig;
+use super::moving::{Moment, Moving, MovingPair};
+use super::sweep::{Ahead, Step, Sweep, Wanted, upper_bound};
+use crate::base::error::Result;
+use crate::base::simd::environment::with_default;
+use crate::pair::PairCache;
+
+/// Whether two moving objects stay farther apart than a margin, or when they first do not. Certain for the motions exactly as they
+/// are described: rounding of poses and times is accounted for.
+///
+/// The cache is one of [`crate::pair`]; it changes how long the cast takes, and where between two proofs a time lies, never what
+/// holds.
+///
+/// # Errors
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range, for motions that are not
+/// finite or too large, and for a callback that shows that it breaks its bound; [`Error::Pose`](crate::base::error::Error::Pose)
+/// for a pose that no query accepts. Then `answer` and `cache` are as they were.
+pub fn cast(bodies: [Moving; 2], cache: &mut PairCache, config: &CastConfig, answer: &mut CastAnswer) -> Result<()> {
+    with_default(|| {
+        config.check()?;
+        let pair = MovingPair::new(bodies, config.range())?;
+        let mut sweep = Sweep::new(&pair, cache);
+        *answer = run(&pair, &mut sweep, config)?;
+        *cache = sweep.cache;
+        Ok(())
+    })
+}
+
+fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<CastAnswer> {
+    let wanted = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
+    let mut here = pair.at(config.t_begin)?;
+    let mut clearance = f64::INFINITY;
+    loop {
+        let near = sweep.distance(&here)?;
+        match sweep.on(&here, &near, config.t_end, &wanted)? {
+            Ahead::Free(step) => {
+                clearance = clearance.min(clearance_of(&step));
+                here = step.ends[1];
+            }
+            Ahead::Contact(there, contact) => {
+                let upper = if config.margin == 0.0 { 0.0 } else { upper_bound(&contact, &there) };
+                let hit = CastAnswer { t_hi: there.time, upper, contact, ..CastAnswer::default() };
+                return Ok(said(CastOutcome::Hit, &here, sweep, hit));
+            }
+            Ahead::Open => {
+                let near_miss = CastAnswer { upper: upper_bound(&near, &here), contact: near, ..CastAnswer::default() };
+                return Ok(said(CastOutcome::Near, &here, sweep, near_miss));
+            }
+        }
+        if here.time >= config.t_end {
+            let free = CastAnswer { clearance: clearance.max(config.margin), ..CastAnswer::default() };
+            return Ok(said(CastOutcome::Free, &here, sweep, free));
+        }
+        if sweep.queries >= config.step_budget {
+            return Ok(said(CastOutcome::Budget, &here, sweep, CastAnswer::default()));
+        }
+    }
+}
+
+fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
+    CastAnswer { outcome, t_lo: here.time, queries: sweep.queries, ..rest }
+}
+
+/// Less than the sweep has proved, so that whoever proves it anew need not find the very axis.
+fn clearance_of(step: &Step) -> f64 {
+    const SHARE: f64 = 1.0 - 1e-9;
+    (step.least - step.slack) * SHARE
+}

@@ -1,0 +1,68 @@
+//! What a cast is asked for.
+
+use super::bound::LARGEST_TIME;
+use crate::base::error::{Error, Result, check_range};
+use crate::base::math::UNIT_ROUNDOFF as U;
+
+/// What a cast is asked for.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CastConfig {
+    /// Where the range of times begins; by default 0.
+    pub t_begin: f64,
+    /// Where it ends, not before it begins; by default 1.
+    pub t_end: f64,
+    /// How wide the interval of a hit may be, and the shortest step; by default 1e-9. From 2⁻⁵⁰ of the larger end on.
+    pub time_tolerance: f64,
+    /// Objects are free where they are farther apart than this: from 0, the default, to the largest double.
+    pub margin: f64,
+    /// Certified queries after which it stops with what is proved, 1 or more; by default 100,000. It makes at most two for each
+    /// time tolerance in the range and a dozen in the end.
+    pub step_budget: u32,
+}
+
+impl Default for CastConfig {
+    fn default() -> Self {
+        CastConfig { t_begin: 0.0, t_end: 1.0, time_tolerance: 1e-9, margin: 0.0, step_budget: 100_000 }
+    }
+}
+
+/// The shortest step over the larger end of a range.
+const SHORTEST_STEP: f64 = 8.0 * U;
+
+/// The shortest step that times can tell in a range.
+pub(super) fn shortest_step(range: [f64; 2]) -> f64 {
+    (SHORTEST_STEP * range[0].abs().max(range[1].abs())).max(f64::MIN_POSITIVE)
+}
+
+/// Refuses a range of times that is none.
+///
+/// # Errors
+/// [`Error::Argument`], naming the end.
+pub(super) fn check_times([begin, end]: [f64; 2]) -> Result<()> {
+    check_range("t_begin", begin, -LARGEST_TIME..=LARGEST_TIME)?;
+    check_range("t_end", end, -LARGEST_TIME..=LARGEST_TIME)?;
+    if end < begin {
+        return Err(Error::Argument(format!("t_end is {end:?}, before t_begin, {begin:?}")));
+    }
+    Ok(())
+}
+
+impl CastConfig {
+    pub(super) fn range(&self) -> [f64; 2] {
+        [self.t_begin, self.t_end]
+    }
+
+    /// Refuses what is out of range.
+    ///
+    /// # Errors
+    /// [`Error::Argument`], naming the first such member.
+    pub(super) fn check(&self) -> Result<()> {
+        check_times(self.range())?;
+        check_range("time_tolerance", self.time_tolerance, shortest_step(self.range())..=f64::MAX)?;
+        check_range("margin", self.margin, 0.0..=f64::MAX)?;
+        if self.step_budget == 0 {
+            return Err(Error::Argument("step_budget is 0, it must be at least 1".into()));
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,56 @@
+//! The gap of two placed bodies along a given direction, rounded down.
+
+use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
+use crate::base::simd::{self, Kernel, Lanes};
+use crate::polyhedron::Polyhedron;
+use crate::solve::certificate::{interval, of_vertex, reciprocal_length};
+use crate::solve::frame::Frame;
+use crate::solve::gjk::towards;
+use crate::solve::voronoi::climb;
+
+/// Bodies along a direction.
+pub(super) struct Along<'a> {
+    pub polyhedra: [&'a Polyhedron; 2],
+    pub poses: [&'a Pose; 2],
+    /// From body 2 to body 1, about of unit length.
+    pub direction: &'a Vector,
+    /// Where the climbs to the support vertices begin, and where they ended.
+    pub vertices: &'a mut [u32; 2],
+}
+
+impl Along<'_> {
+    /// The lowest of body 1 over the highest of body 2, at most: per unit of the direction's length. −∞ where the magnitudes are
+    /// beyond what doubles bound.
+    pub fn gap(mut self) -> f64 {
+        simd::dispatch(&mut self)
+    }
+}
+
+impl Kernel for Along<'_> {
+    type Output = f64;
+
+    /// Climbing proposes vertices; what they prove holds whichever they are (`solve/certificate/`).
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> f64 {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        if !frame.in_range {
+            return f64::NEG_INFINITY;
+        }
+        let [towards1, towards2] = towards(&frame, self.direction);
+        let [body1, body2] = self.polyhedra;
+        let vertices = [climb(body1, towards1, self.vertices[0]), climb(body2, towards2, self.vertices[1])];
+        let excess =
+            of_vertex(body1, vertices[0], &towards1.to_vector()) + of_vertex(body2, vertices[1], &towards2.to_vector());
+        let [v, w] = vertices.map(|vertex| vertex as usize);
+        let difference = frame.difference(&body1.vertices[v].position, &body2.vertices[w].position);
+        let direction = L::from_vector(self.direction);
+        let inverse = reciprocal_length(direction.dot(direction));
+        let distance = difference.dot(difference).sqrt();
+        let projection = direction.dot(difference) * inverse;
+        let error = frame.difference_error(distance);
+        *self.vertices = vertices;
+        let lower = interval(distance, projection, error, excess * inverse, 0.0).lower;
+        // A NaN proves nothing.
+        if lower > f64::NEG_INFINITY { lower } else { f64::NEG_INFINITY }
+    }
+}

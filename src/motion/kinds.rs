@@ -1,0 +1,157 @@
+//! How an object moves: where each of its points is at each time.
+
+use std::fmt;
+
+use super::turn::Turn;
+use crate::base::error::{Error, Result, check_range};
+use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::simd::environment::with_callers;
+
+/// How an object moves. Every kind says exactly, in real arithmetic on its doubles, where a point is at a time; answers hold for
+/// that, the rounding of poses included.
+#[derive(Debug, Clone, Copy)]
+pub enum Motion<'a> {
+    /// It stays.
+    Fixed(Pose),
+    /// It turns at a constant rate about a centre that moves on a line.
+    Screw(Screw),
+    /// Each entry of the pose changes at a constant rate: (1 − t)·start + t·end. In between an object that turns is distorted, so
+    /// this is for turns of up to 0.2 radians: beyond, poses are refused.
+    Affine {
+        /// Where it is at time 0.
+        start: Pose,
+        /// Where it is at time 1.
+        end: Pose,
+    },
+    /// Whatever a function of the caller's says.
+    Callback(Callback<'a>),
+}
+
+/// A point p of the object is at T + R·c + t·velocity + exp(t\[rotation\])·R·(p − c) at time t, for the pose \[R|T\] at time 0 and
+/// the centre c.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Screw {
+    /// Where it is at time 0.
+    pub start: Pose,
+    /// What it turns about, in its own frame.
+    pub centre: Vector,
+    /// Of the centre, in the world.
+    pub velocity: Vector,
+    /// Along the axis in the world, as long as the angular velocity in radians per unit of time. All turned by may be 2²⁰ radians.
+    pub rotation: Vector,
+}
+
+/// A motion that a function gives. The caller promises two bounds for all points of the object and all times that are asked about;
+/// answers are as right as these.
+#[derive(Clone, Copy)]
+pub struct Callback<'a> {
+    /// Where the object is at a time. The same time gives the same pose.
+    pub pose: &'a dyn Fn(f64) -> Pose,
+    /// No point's acceleration is larger.
+    pub bend: f64,
+    /// No point is farther from where the motion that is meant has it.
+    pub rounding: f64,
+}
+
+impl fmt::Debug for Callback<'_> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("Callback").field("bend", &self.bend).field("rounding", &self.rounding).finish_non_exhaustive()
+    }
+}
+
+impl Motion<'_> {
+    /// Where the object is at a time, up to rounding; `turn` is that of a screw's rotation.
+    ///
+    /// # Errors
+    /// [`Error::Pose`] for a pose that is not accepted.
+    pub(super) fn pose(&self, turn: &Turn, time: f64) -> Result<Pose> {
+        match self {
+            Motion::Fixed(pose) => Ok(*pose),
+            Motion::Screw(screw) => Ok(screw.pose(turn, time)),
+            Motion::Affine { start, end } => {
+                let pose = between(start, end, time);
+                check_at(&pose, "the affine motion", time)?;
+                Ok(pose)
+            }
+            Motion::Callback(callback) => {
+                let pose = with_callers(|| (callback.pose)(time));
+                check_at(&pose, "the motion's callback", time)?;
+                Ok(pose)
+            }
+        }
+    }
+
+    /// Refuses a motion that is none.
+    ///
+    /// # Errors
+    /// [`Error::Pose`], [`Error::Argument`].
+    pub(super) fn check(&self) -> Result<()> {
+        match self {
+            Motion::Fixed(pose) => pose.check(ROTATION_LIMIT),
+            Motion::Screw(Screw { start, centre, velocity, rotation }) => {
+                check_finite("centre", centre)?;
+                check_finite("velocity", velocity)?;
+                check_finite("rotation", rotation)?;
+                start.check(ROTATION_LIMIT)
+            }
+            Motion::Affine { start, end } => {
+                start.check(ROTATION_LIMIT)?;
+                end.check(ROTATION_LIMIT)?;
+                // Between orthonormal ends the middle is the worst.
+                check_at(&between(start, end, 0.5), "the affine motion", 0.5)
+            }
+            Motion::Callback(Callback { bend, rounding, .. }) => {
+                check_range("bend", *bend, 0.0..=f64::MAX)?;
+                check_range("rounding", *rounding, 0.0..=f64::MAX)
+            }
+        }
+    }
+
+    /// About how fast a point of the object, given in its own frame, is at a time. It only guides the search: of a callback a
+    /// difference quotient over `moment` says it.
+    pub(super) fn velocity(&self, turn: &Turn, pose: &Pose, time: f64, moment: f64, point: &Vector) -> Result<Vector> {
+        Ok(match self {
+            Motion::Fixed(_) => Vector::zeros(),
+            Motion::Screw(screw) => screw.velocity + screw.rotation.cross(&pose.rotate(&(point - screw.centre))),
+            Motion::Affine { start, end } => end.transform(point) - start.transform(point),
+            Motion::Callback(_) => (self.pose(turn, time + moment)?.transform(point) - pose.transform(point)) / moment,
+        })
+    }
+}
+
+impl Screw {
+    /// The order of the sums is that of `rounding_of_pose`.
+    pub(super) fn pose(&self, turn: &Turn, time: f64) -> Pose {
+        let Screw { start, centre, velocity, .. } = self;
+        let moved = start.translation() + velocity * time;
+        if turn.speed == 0.0 {
+            return Pose::new(&start.rotation(), &moved);
+        }
+        let rotation = product(&turn.by(time), &start.rotation());
+        let turned = Pose::new(&rotation, &Vector::zeros());
+        Pose::new(&rotation, &(moved + (start.rotate(centre) - turned.rotate(centre))))
+    }
+}
+
+/// (1 − t)·start + t·end, entry by entry.
+fn between(start: &Pose, end: &Pose, time: f64) -> Pose {
+    let rest = 1.0 - time;
+    Pose { rows: [0, 1, 2].map(|i| [0, 1, 2, 3].map(|k| rest * start.rows[i][k] + time * end.rows[i][k])) }
+}
+
+/// In the order of sums that the bounds are for.
+pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
+    Matrix::from_fn(|i, k| a[(i, 0)] * b[(0, k)] + a[(i, 1)] * b[(1, k)] + a[(i, 2)] * b[(2, k)])
+}
+
+fn check_at(pose: &Pose, what: &str, time: f64) -> Result<()> {
+    pose.check(ROTATION_LIMIT).map_err(|error| Error::Pose(format!("{what} at time {time:?}: {}", error.message())))
+}
+
+pub(super) fn check_finite(name: &str, vector: &Vector) -> Result<()> {
+    if vector.iter().all(|x| x.is_finite()) {
+        return Ok(());
+    }
+    let [x, y, z]: [f64; 3] = (*vector).into();
+    Err(Error::Argument(format!("the motion's {name} is ({x:?}, {y:?}, {z:?}), it must be finite")))
+}

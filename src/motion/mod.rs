@@ -1,0 +1,27 @@
+//! Motions: a pair that moves is proved free for all of a time, or its first contact is enclosed in an interval of time.
+//!
+//! A motion is many certified queries of [`crate::pair`]; there is no second solver. What carries a proof from one moment to the
+//! next is in `bound.rs`: how far the gap along a fixed direction can sag between two moments, and what rounding may make of a
+//! pose.
+
+mod turn;
+mod kinds;
+mod bound;
+mod between;
+mod answer;
+mod config;
+mod gap;
+mod moving;
+mod sweep;
+mod cast;
+mod clearance;
+mod verify;
+
+pub use answer::{CastAnswer, CastOutcome};
+pub use between::motion_between;
+pub use cast::cast;
+pub use clearance::{Clearance, ClearanceConfig, clearance};
+pub use config::CastConfig;
+pub use kinds::{Callback, Motion, Screw};
+pub use moving::Moving;
+pub use verify::verify_cast;

@@ -1,0 +1,145 @@
+//! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
+
+use super::bound::{Travel, is_exact};
+use super::gap::Along;
+use super::kinds::Motion;
+use super::turn::Turn;
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::pair::Placed;
+use crate::shape::Shape;
+
+/// A shape and how it moves.
+#[derive(Debug, Clone, Copy)]
+pub struct Moving<'a> {
+    /// Its geometry.
+    pub shape: &'a Shape,
+    /// How it moves.
+    pub motion: &'a Motion<'a>,
+}
+
+/// A pair that moves.
+pub(super) struct MovingPair<'a> {
+    bodies: [Moving<'a>; 2],
+    turns: [Turn; 2],
+    travels: [Travel; 2],
+    range: [f64; 2],
+}
+
+/// The pair at a time.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Moment {
+    pub time: f64,
+    pub poses: [Pose; 2],
+    /// δ of both together: no gap of the motion is farther from that of the poses.
+    pub rounding: f64,
+}
+
+impl<'a> MovingPair<'a> {
+    /// # Errors
+    /// [`Error::Pose`], [`Error::Argument`] for a motion that is none.
+    pub fn new(bodies: [Moving<'a>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
+        let prepare = |body: &Moving| {
+            body.motion.check()?;
+            let turn = match body.motion {
+                Motion::Screw(screw) => Turn::new(&screw.rotation),
+                _ => Turn::new(&Vector::zeros()),
+            };
+            Ok((turn, Travel::new(body.shape, body.motion, &turn, range)?))
+        };
+        let in_words = |error: Error, object: &str| match error {
+            Error::Pose(message) => Error::Pose(format!("{object}: {message}")),
+            other => Error::Argument(format!("{object}: {}", other.message())),
+        };
+        let (turn1, travel1) = prepare(&bodies[0]).map_err(|error| in_words(error, "object 1"))?;
+        let (turn2, travel2) = prepare(&bodies[1]).map_err(|error| in_words(error, "object 2"))?;
+        Ok(MovingPair { bodies, turns: [turn1, turn2], travels: [travel1, travel2], range })
+    }
+
+    /// # Errors
+    /// [`Error::Pose`] for a pose that is not accepted.
+    pub fn at(&self, time: f64) -> Result<Moment> {
+        let [body1, body2] = &self.bodies;
+        let poses = [body1.motion.pose(&self.turns[0], time)?, body2.motion.pose(&self.turns[1], time)?];
+        let rounding = |i: usize| match is_exact(self.bodies[i].motion, time) {
+            true => 0.0,
+            false => self.travels[i].rounding,
+        };
+        Ok(Moment { time, poses, rounding: (rounding(0) + rounding(1)) * (1.0 + 4.0 * U) })
+    }
+
+    pub fn range(&self) -> [f64; 2] {
+        self.range
+    }
+
+    pub fn placed<'b>(&'b self, moment: &'b Moment) -> [Placed<'b>; 2] {
+        [self.bodies[0].shape.at(&moment.poses[0]), self.bodies[1].shape.at(&moment.poses[1])]
+    }
+
+    /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
+    pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut [u32; 2]) -> f64 {
+        let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
+        let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
+        gap - moment.rounding - U * (gap.abs() + moment.rounding)
+    }
+
+    /// K along a unit direction.
+    pub fn acceleration(&self, direction: &Vector) -> f64 {
+        self.travels.iter().map(|travel| travel.acceleration(direction)).sum::<f64>() * (1.0 + 4.0 * U)
+    }
+
+    /// About how fast the gap along a direction grows, by a point of each body in its own frame.
+    pub fn speed(&self, moment: &Moment, direction: &Vector, points: [&[f64; 3]; 2]) -> Result<f64> {
+        // A part of the range, towards its farther end.
+        let [begin, end] = self.range;
+        let part = 1e-6 * (end - begin);
+        let part = if moment.time - begin > end - moment.time { -part } else { part };
+        let velocity = |i: usize| {
+            let point = Vector::from(*points[i]);
+            self.bodies[i].motion.velocity(&self.turns[i], &moment.poses[i], moment.time, part, &point)
+        };
+        let speed = direction.dot(&(velocity(0)? - velocity(1)?));
+        Ok(if speed.is_finite() { speed } else { 0.0 })
+    }
+
+    /// What a gap has to exceed what is asked for by, so that whoever asks again along another axis, or in other steps, finds it,
+    /// too: rounding of poses and of gaps.
+    pub fn slack(&self, moment: &Moment) -> f64 {
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let apart = moment.poses[0].translation() - moment.poses[1].translation();
+        let size = body1.radius + body2.radius + body1.centre.norm() + body2.centre.norm() + apart.norm();
+        2.0 * (self.travels[0].rounding + self.travels[1].rounding) + 64.0 * U * size
+    }
+
+    /// Refuses a callback whose bound its own poses at three times show to be wrong: no point is farther from its chord than the
+    /// bend allows.
+    ///
+    /// # Errors
+    /// [`Error::Argument`].
+    pub fn check_bend(&self, moments: [&Moment; 3]) -> Result<()> {
+        for (i, body) in self.bodies.iter().enumerate() {
+            let Motion::Callback(callback) = body.motion else { continue };
+            let [first, middle, last] = moments.map(|moment| moment.time);
+            let (before, after) = (middle - first, last - middle);
+            let polyhedron = body.shape.polyhedron();
+            for vertex in [0, polyhedron.vertices.len() / 2, polyhedron.vertices.len() - 1] {
+                let point = polyhedron.local_position(vertex as u32);
+                let [start, between, end] = moments.map(|moment| moment.poses[i].transform(&point));
+                let off = (between - (start * after + end * before) / (before + after)).norm();
+                let size = start.norm() + between.norm() + end.norm() + point.norm();
+                let allowed = 0.5 * callback.bend * before * after + 2.0 * callback.rounding + 64.0 * U * size;
+                if off > allowed * (1.0 + 64.0 * U) {
+                    return Err(Error::Argument(format!(
+                        "object {}: the motion's callback bends more than its bound: at time {middle:?} vertex {} is {off:e} off the \
+                         chord of times {first:?} and {last:?}, where bend {:e} and rounding {:e} allow {allowed:e}",
+                        i + 1,
+                        polyhedron.vertex_labels[vertex],
+                        callback.bend,
+                        callback.rounding,
+                    )));
+                }
+            }
+        }
+        Ok(())
+    }
+}

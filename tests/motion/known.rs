@@ -1,0 +1,161 @@
+//! Motions whose answer is known.
+
+use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
+
+use swiftprox::math::Pose;
+use swiftprox::motion::{Callback, CastConfig, CastOutcome, Motion};
+use swiftprox::pair::Outcome;
+use testkit::shapes::cuboid;
+
+use crate::{at, moving, run, screw, straight};
+
+#[test]
+fn a_cube_falls_on_a_cube() {
+    let cube = cuboid([0.5; 3]);
+    let (still, falling) = (Motion::Fixed(Pose::IDENTITY), straight(at(0.25, 0.125, 3.0), [0.0, 0.0, -4.0]));
+    let answer = run(moving([&cube, &cube], [&falling, &still]), &CastConfig::default());
+    assert_eq!(answer.outcome, CastOutcome::Hit);
+    assert!(answer.t_lo < 0.5 && 0.5 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9, "{answer:?}");
+    assert_eq!((answer.upper, answer.contact.outcome), (0.0, Outcome::Intersecting));
+    assert!((answer.contact.normal[2] - 1.0).abs() < 1e-12, "{answer:?}");
+    assert!((answer.contact.world1[2] - 0.5).abs() < 1e-8, "{answer:?}");
+    assert!(answer.queries <= 6, "{answer:?}");
+}
+
+#[test]
+fn a_start_in_contact_is_a_hit_at_the_beginning() {
+    let cube = cuboid([0.5; 3]);
+    let still = Motion::Fixed(Pose::IDENTITY);
+    // Touching, and leaving; and deep.
+    for height in [1.0, 0.5] {
+        let rising = straight(at(0.0, 0.25, height), [0.0, 0.0, 1.0]);
+        let answer = run(moving([&cube, &cube], [&rising, &still]), &CastConfig::default());
+        assert_eq!((answer.outcome, answer.t_lo, answer.t_hi), (CastOutcome::Hit, 0.0, 0.0), "{answer:?}");
+    }
+}
+
+#[test]
+fn a_bullet_does_not_pass_between_samples() {
+    let (bullet, plate) = (cuboid([0.01; 3]), cuboid([1.0, 1.0, 5e-4]));
+    let (flight, still) = (straight(at(0.1, 0.2, -50.0), [0.0, 0.0, 100.0]), Motion::Fixed(Pose::IDENTITY));
+    let answer = run(moving([&bullet, &plate], [&flight, &still]), &CastConfig::default());
+    let first = (50.0 - 0.01 - 5e-4) / 100.0;
+    assert_eq!(answer.outcome, CastOutcome::Hit);
+    assert!(answer.t_lo <= first + 1e-15 && first - 1e-15 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9);
+    assert!(answer.contact.normal[2] < -0.999_999, "{answer:?}");
+}
+
+#[test]
+fn a_bar_that_turns_hits_a_post_by_its_corner() {
+    // A square of half diagonal 1 turns into a wall at x = 0.9: a corner passes when cos(π/4 − t·π/4) = 0.9.
+    let half = FRAC_1_SQRT_2;
+    let (square, wall) = (cuboid([half, half, 0.5]), cuboid([0.5, 5.0, 5.0]));
+    let (turning, still) = (screw(Pose::IDENTITY, [0.0; 3], [0.0, 0.0, FRAC_PI_4]), Motion::Fixed(at(1.4, 0.0, 0.0)));
+    let answer = run(moving([&square, &wall], [&turning, &still]), &CastConfig::default());
+    let first = 1.0 - 0.9_f64.acos() / FRAC_PI_4;
+    assert_eq!(answer.outcome, CastOutcome::Hit);
+    assert!(
+        answer.t_lo < first + 1e-14 && first - 1e-14 < answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9,
+        "{answer:?}"
+    );
+
+    // Beyond the corner's reach it is free; the clearance is at most that of the corner and not much less.
+    let away = Motion::Fixed(at(1.6, 0.0, 0.0));
+    let answer = run(moving([&square, &wall], [&turning, &away]), &CastConfig::default());
+    assert_eq!((answer.outcome, answer.t_lo), (CastOutcome::Free, 1.0));
+    assert!(answer.clearance > 0.0 && answer.clearance <= 0.1 + 1e-12, "{answer:?}");
+    assert!(answer.t_hi.is_nan() && answer.upper.is_nan());
+}
+
+#[test]
+fn bodies_that_move_together_raise_no_alarm() {
+    let cube = cuboid([0.5; 3]);
+    let together = [0.3, -0.2, 9.0];
+    let motions = [straight(at(1.0 + 1e-12, 0.0, 0.0), together), straight(Pose::IDENTITY, together)];
+    let answer = run(moving([&cube, &cuboid([0.5; 3])], [&motions[0], &motions[1]]), &CastConfig::default());
+    assert_eq!(answer.outcome, CastOutcome::Free);
+    assert_eq!(answer.queries, 1);
+}
+
+/// A corner that passes a face at 1e-12, or 1e-12 in it, as it turns by.
+#[test]
+fn grazing_is_told_from_touching() {
+    let half = FRAC_1_SQRT_2;
+    let (square, wall) = (cuboid([half, half, 0.5]), cuboid([0.5, 5.0, 5.0]));
+    let turning = screw(Pose::IDENTITY, [0.0; 3], [0.0, 0.0, 0.5 * PI]);
+    for (clearance, outcome) in
+        [(1e-6, CastOutcome::Free), (1e-12, CastOutcome::Free), (-1e-6, CastOutcome::Hit), (-1e-12, CastOutcome::Hit)]
+    {
+        let still = Motion::Fixed(at(1.5 + clearance, 0.0, 0.0));
+        let answer = run(moving([&square, &wall], [&turning, &still]), &CastConfig::default());
+        assert_eq!(answer.outcome, outcome, "{clearance:e}: {answer:?}");
+        assert!(answer.queries < 200, "{clearance:e}: {answer:?}");
+        if outcome == CastOutcome::Hit {
+            assert!(answer.t_lo < 0.5 && answer.t_hi < 0.501);
+        }
+    }
+    // As near as rounding hides: no verdict, and an upper bound of the distance.
+    let still = Motion::Fixed(at(1.5, 0.0, 0.0));
+    let answer = run(moving([&square, &wall], [&turning, &still]), &CastConfig::default());
+    assert_eq!(answer.outcome, CastOutcome::Near, "{answer:?}");
+    assert!(answer.t_lo < 0.5 && answer.upper < 1e-12, "{answer:?}");
+}
+
+#[test]
+fn a_margin_is_kept() {
+    let cube = cuboid([0.5; 3]);
+    let (still, passing) = (Motion::Fixed(Pose::IDENTITY), straight(at(-4.0, 0.0, 1.25), [8.0, 0.0, 0.0]));
+    let bodies = moving([&cube, &cube], [&passing, &still]);
+    let with = |margin: f64| run(bodies, &CastConfig { margin, ..CastConfig::default() });
+    assert_eq!(with(0.2).outcome, CastOutcome::Free);
+    let hit = with(0.5);
+    assert_eq!(hit.outcome, CastOutcome::Hit);
+    // The edges are 0.5 apart when they are √(0.5² − 0.25²) apart along the path.
+    let first = (3.0 - 0.1875_f64.sqrt()) / 8.0;
+    assert!(hit.t_lo < first && first < hit.t_hi && hit.t_hi - hit.t_lo <= 1e-9, "{hit:?}");
+    assert!(hit.upper <= 0.5 && hit.upper > 0.499_999);
+}
+
+#[test]
+fn a_range_of_times_is_kept_and_may_be_one_moment() {
+    let cube = cuboid([0.5; 3]);
+    let (still, falling) = (Motion::Fixed(Pose::IDENTITY), straight(at(0.0, 0.0, 3.0), [0.0, 0.0, -4.0]));
+    let bodies = moving([&cube, &cube], [&falling, &still]);
+    let of = |t_begin: f64, t_end: f64| run(bodies, &CastConfig { t_begin, t_end, ..CastConfig::default() });
+    assert_eq!(of(-2.0, 0.4).outcome, CastOutcome::Free);
+    assert_eq!(of(0.4, 0.4).outcome, CastOutcome::Free);
+    assert_eq!(of(0.75, 3.0).outcome, CastOutcome::Hit);
+    assert_eq!(of(1.25, 3.0).outcome, CastOutcome::Free);
+    let inside = of(0.6, 0.6);
+    assert_eq!((inside.outcome, inside.t_lo, inside.t_hi), (CastOutcome::Hit, 0.6, 0.6));
+}
+
+#[test]
+fn an_affine_motion_and_a_callback_say_the_same() {
+    let cube = cuboid([0.5; 3]);
+    let still = Motion::Fixed(Pose::IDENTITY);
+    let (start, end) = (at(0.0, 0.25, 3.0), at(0.0, 0.0, -1.0));
+    let affine = Motion::Affine { start, end };
+    let fall = |t: f64| at(0.0, 0.25 - 0.25 * t, 3.0 - 4.0 * t);
+    let callback = Motion::Callback(Callback { pose: &fall, bend: 1e-3, rounding: 1e-14 });
+    for motion in [&affine, &callback] {
+        let answer = run(moving([&cube, &cube], [motion, &still]), &CastConfig::default());
+        assert_eq!(answer.outcome, CastOutcome::Hit);
+        assert!(
+            answer.t_lo < 0.5 + 1e-14 && 0.5 - 1e-14 < answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9,
+            "{answer:?}"
+        );
+    }
+}
+
+#[test]
+fn a_budget_ends_it_with_what_is_proved() {
+    let half = FRAC_1_SQRT_2;
+    let (square, wall) = (cuboid([half, half, 0.5]), cuboid([0.5, 5.0, 5.0]));
+    let turning = screw(Pose::IDENTITY, [0.0; 3], [0.0, 0.0, 0.5 * PI]);
+    let still = Motion::Fixed(at(1.5 + 1e-9, 0.0, 0.0));
+    let config = CastConfig { step_budget: 3, ..CastConfig::default() };
+    let answer = run(moving([&square, &wall], [&turning, &still]), &config);
+    assert_eq!((answer.outcome, answer.queries), (CastOutcome::Budget, 3));
+    assert!(answer.t_lo > 0.1 && answer.t_lo < 0.5, "{answer:?}");
+}

@@ -1,0 +1,41 @@
+//! Motions: known answers, adversarial families judged by dense sampling, forged answers, refused motions, whatever the cache
+//! holds.
+
+// Any bytes are a cache.
+#![allow(unsafe_code)]
+
+mod caches;
+mod clearances;
+mod families;
+mod forgery;
+mod known;
+mod refused;
+
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::motion::{CastAnswer, CastConfig, Motion, Moving, Screw, cast};
+use swiftprox::pair::PairCache;
+use swiftprox::shape::Shape;
+
+fn moving<'a>(shapes: [&'a Shape; 2], motions: [&'a Motion<'a>; 2]) -> [Moving<'a>; 2] {
+    [0, 1].map(|i| Moving { shape: shapes[i], motion: motions[i] })
+}
+
+fn run(bodies: [Moving; 2], config: &CastConfig) -> CastAnswer {
+    let mut answer = CastAnswer::default();
+    cast(bodies, &mut PairCache::default(), config, &mut answer).unwrap();
+    answer
+}
+
+fn at(x: f64, y: f64, z: f64) -> Pose {
+    Pose::new(&Matrix::identity(), &Vector::new(x, y, z))
+}
+
+/// Without turning.
+fn straight(start: Pose, velocity: [f64; 3]) -> Motion<'static> {
+    screw(start, velocity, [0.0; 3])
+}
+
+/// About the local origin.
+fn screw(start: Pose, velocity: [f64; 3], rotation: [f64; 3]) -> Motion<'static> {
+    Motion::Screw(Screw { start, centre: Vector::zeros(), velocity: velocity.into(), rotation: rotation.into() })
+}
