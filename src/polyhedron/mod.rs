@@ -3,6 +3,8 @@
 
 #[doc(hidden)]
 pub mod lookup;
+#[doc(hidden)]
+pub mod fan;
 mod layout;
 pub(crate) mod triangulation;
 pub(crate) mod surface_walk;

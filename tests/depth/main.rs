@@ -7,6 +7,7 @@
 mod allocation;
 mod bodies;
 mod caches;
+mod facets;
 mod forgery;
 mod truth;
 

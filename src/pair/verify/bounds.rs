@@ -63,6 +63,11 @@ impl<'a> Bounds<'a> {
         (gap.value - needed).hi > self.error
     }
 
+    /// The most by which a length is off.
+    pub fn error(&self) -> f64 {
+        self.error
+    }
+
     /// The difference of two vertices, right to the error of a length in each coordinate.
     pub fn difference(&self, pair: VertexPair) -> WideVector {
         let [point1, point2] =

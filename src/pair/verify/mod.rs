@@ -2,6 +2,7 @@
 //! witness points on their features, an intersection's proof in integers, and so whatever rounding hides of a distance.
 
 mod bounds;
+mod facets;
 mod witness;
 mod depth;
 
