@@ -72,8 +72,8 @@ pub struct Fan {
     pub edges: Vec<FanEdge>,
     /// σ: the most by which a corner of a face is below its plane, which the body reaches.
     pub face_slack: f64,
-    /// The greatest κσ of a corner: for a unit direction in a corner's cell no point of the body is farther along it than the corner by
-    /// more than this.
+    /// The greatest κσ of a corner: for a unit direction in a corner's cell no point of the body is farther along it than the
+    /// corner by more than this.
     pub cell_slack: f64,
 }
 

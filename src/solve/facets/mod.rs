@@ -101,8 +101,8 @@ const NODE: f64 = 44.0 * U;
 /// difference 1, the vector's length 3.
 const SUPPORT: f64 = 16.0 * U;
 
-/// Room for blocks of points and of planes: of 8 corners and 12 faces, as of boxes; of 24 and 44; of all that have a fan. It is zeroed,
-/// and all of it takes longer than two boxes do.
+/// Room for blocks of points and of planes: of 8 corners and 12 faces, as of boxes; of 24 and 44; of all that have a fan. It is
+/// zeroed, and all of it takes longer than two boxes do.
 const TINY_POINTS: usize = 2;
 const TINY_PLANES: usize = 3;
 const SMALL_POINTS: usize = 6;
