@@ -9,5 +9,6 @@ pub(crate) mod slack;
 pub(crate) mod merge;
 pub(crate) mod labels;
 pub(crate) mod mass;
+pub(crate) mod fan;
 #[doc(hidden)]
 pub mod assembly;

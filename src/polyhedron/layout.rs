@@ -12,6 +12,7 @@ use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::copied;
 use crate::base::normal::unit;
+use crate::polyhedron::fan::Fan;
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::polygon_search::PolygonSearch;
 
@@ -243,6 +244,8 @@ pub struct Polyhedron {
     pub polygon_starts: Vec<u32>,
     /// Finds the polygon that holds a point of a face of many.
     pub polygon_search: PolygonSearch,
+    /// Of a body of few corners, what its depth in another is read from; see [`Fan`].
+    pub fan: Option<Fan>,
 }
 
 impl Polyhedron {
@@ -274,6 +277,7 @@ impl Polyhedron {
             polygon_corners: copied(&self.polygon_corners)?,
             polygon_starts: copied(&self.polygon_starts)?,
             polygon_search: PolygonSearch::new(),
+            fan: self.fan.as_ref().map(Fan::copy).transpose()?,
         })
     }
 
@@ -447,6 +451,7 @@ impl Polyhedron {
             polygon_corners,
             polygon_starts,
             polygon_search,
+            fan,
             mass: _,
             lookup,
         } = self;
@@ -466,6 +471,7 @@ impl Polyhedron {
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
             + polygon_search.heap_bytes()
+            + fan.as_ref().map_or(0, Fan::heap_bytes)
             + lookup.heap_bytes()
     }
 }

@@ -4,6 +4,8 @@
 #[doc(hidden)]
 pub mod lookup;
 pub(crate) mod polygon_search;
+#[doc(hidden)]
+pub mod fan;
 mod layout;
 mod polygon_at;
 pub(crate) mod triangulation;

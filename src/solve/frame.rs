@@ -62,6 +62,12 @@ impl<L: Lanes> Body<'_, L> {
         z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
     }
 
+    /// The columns of R.
+    #[inline(always)]
+    pub fn columns(&self) -> [L; 3] {
+        self.columns
+    }
+
     /// A world direction U with RᵀU = n up to rounding: R·n, corrected where R is skewed; each correction squares the defect.
     #[inline(always)]
     pub fn lift(&self, n: L) -> L {

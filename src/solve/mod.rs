@@ -19,5 +19,6 @@ pub(crate) mod gjk;
 #[doc(hidden)]
 pub mod enclosure;
 pub(crate) mod decide;
+pub(crate) mod facets;
 #[doc(hidden)]
 pub mod polytope;

@@ -8,6 +8,7 @@ mod allocation;
 mod bodies;
 mod caches;
 mod crafted;
+mod facets;
 mod forgery;
 mod magnitudes;
 mod streams;

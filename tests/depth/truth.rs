@@ -2,11 +2,13 @@
 //! directions that holds the normals of all its facets.
 
 use dashu_int::IBig;
-use swiftprox::math::{Pose, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
+use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
 
 use crate::{Random, query};
+use testkit::random::rotation;
 use testkit::shapes::hull;
 
 type Integers = [i128; 3];
@@ -132,11 +134,68 @@ fn pose(random: &mut Random, kind: usize, reach: f64) -> Pose {
     Pose::new(&rotation, &(random.vector() * reach).map(|x| (x / unit).round() * unit))
 }
 
+/// What was seen of many pairs.
+#[derive(Default)]
+struct Seen {
+    overlapping: usize,
+    touching: usize,
+    separated: usize,
+    /// Pairs whose depth all facets told.
+    by_facets: usize,
+    widest: f64,
+}
+
+impl Seen {
+    /// Asks for a depth, cold and again, and compares it with the exact one.
+    fn add(&mut self, bodies: [&[Vector]; 2], shapes: [&Shape; 2], poses: [&Pose; 2]) {
+        let placed = [placed(bodies[0], poses[0]), placed(bodies[1], poses[1])];
+        let supports = supports([&placed[0], &placed[1]]);
+        let least = supports.iter().map(|support| support.height).min().unwrap();
+        self.overlapping += usize::from(least > 0);
+        self.touching += usize::from(least == 0);
+        self.separated += usize::from(least < 0);
+        let mut cache = DepthCache::default();
+        for _ in 0..2 {
+            let answer: DepthAnswer = query(shapes, poses, &mut cache);
+            let told = || format!("{bodies:?} {poses:?} {answer:?}");
+            verify_depth([shapes[0].at(poses[0]), shapes[1].at(poses[1])], &cache, &answer)
+                .unwrap_or_else(|error| panic!("{error}: {}", told()));
+            if least < 0 {
+                assert_eq!(answer.outcome, Outcome::Separated, "{}", told());
+                assert_eq!((answer.lower, answer.depth, answer.upper), (0.0, 0.0, 0.0));
+                continue;
+            }
+            assert_eq!(answer.outcome, Outcome::Intersecting, "{}", told());
+            assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{}", told());
+            if least == 0 {
+                assert_eq!((answer.lower, answer.upper), (0.0, 0.0), "{}", told());
+            } else {
+                assert!(answer.upper > 0.0, "{}", told());
+            }
+            self.by_facets += usize::from(answer.lower > 0.0 && answer.statistics.triangles == 0);
+            let truth = supports.iter().map(Support::about).fold(f64::INFINITY, f64::min);
+            let near = |support: &&Support| support.about() <= truth * (1.0 + 1e-12);
+            let nearest: Vec<&Support> = supports.iter().filter(near).collect();
+            assert!(nearest.iter().all(|support| support.is_at_least(answer.lower)), "{truth:e} {}", told());
+            assert!(nearest.iter().any(|support| support.compare(answer.upper).is_le()), "{truth:e} {}", told());
+            let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
+            let apart = (poses[0].translation() - poses[1].translation()).norm();
+            let width = (answer.upper - answer.lower) / size.max(apart).max(f64::MIN_POSITIVE);
+            self.widest = self.widest.max(width);
+            assert!(width <= 2e-14, "{width:e} {truth:e} {}", told());
+            // Witness points: their difference is the translation.
+            let [x, y, n] = [answer.world1, answer.world2, answer.normal].map(Vector::from);
+            let off = (y - x - n * answer.depth).norm();
+            assert!(off <= 1e-13 * (size + apart), "{off:e} {}", told());
+        }
+    }
+}
+
 #[test]
 fn depths_of_small_pairs_hold_the_exact_ones() {
     let mut random = Random::new(31);
-    let (mut overlapping, mut touching, mut separated, mut widest) = (0, 0, 0, 0.0_f64);
-    for round in 0..13_000 {
+    let mut seen = Seen::default();
+    for _ in 0..13_000 {
         let bodies = [0, 1].map(|_| {
             let kind = random.below(60);
             points(&mut random, kind)
@@ -144,44 +203,59 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
         let kind = random.below(60);
         let poses = [pose(&mut random, kind, 0.0), pose(&mut random, kind, 0.35)];
         let shapes = [hull(&bodies[0]), hull(&bodies[1])];
-        let placed = [placed(&bodies[0], &poses[0]), placed(&bodies[1], &poses[1])];
-        let supports = supports([&placed[0], &placed[1]]);
-        let least = supports.iter().map(|support| support.height).min().unwrap();
-        let mut cache = DepthCache::default();
-        let answer: DepthAnswer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
-        let told = || format!("round {round}: {bodies:?} {poses:?} {answer:?}");
-        verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
-            .unwrap_or_else(|error| panic!("{error}: {}", told()));
-        if least < 0 {
-            separated += 1;
-            assert_eq!(answer.outcome, Outcome::Separated, "{}", told());
-            assert_eq!((answer.lower, answer.depth, answer.upper), (0.0, 0.0, 0.0));
-            continue;
-        }
-        assert_eq!(answer.outcome, Outcome::Intersecting, "{}", told());
-        assert!(answer.lower <= answer.depth && answer.depth <= answer.upper, "{}", told());
-        if least == 0 {
-            touching += 1;
-            assert_eq!((answer.lower, answer.upper), (0.0, 0.0), "{}", told());
-        } else {
-            overlapping += 1;
-            assert!(answer.upper > 0.0, "{}", told());
-        }
-        let truth = supports.iter().map(Support::about).fold(f64::INFINITY, f64::min);
-        let near = |support: &&Support| support.about() <= truth * (1.0 + 1e-12);
-        let nearest: Vec<&Support> = supports.iter().filter(near).collect();
-        assert!(nearest.iter().all(|support| support.is_at_least(answer.lower)), "{truth:e} {}", told());
-        assert!(nearest.iter().any(|support| support.compare(answer.upper).is_le()), "{truth:e} {}", told());
-        let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
-        let apart = (poses[0].translation() - poses[1].translation()).norm();
-        let width = (answer.upper - answer.lower) / size.max(apart).max(f64::MIN_POSITIVE);
-        widest = widest.max(width);
-        assert!(width <= 2e-14, "{width:e} {truth:e} {}", told());
-        // Witness points: their difference is the translation.
-        let [x, y, n] = [answer.world1, answer.world2, answer.normal].map(Vector::from);
-        let off = (y - x - n * answer.depth).norm();
-        assert!(off <= 1e-13 * (size + apart), "{off:e} {}", told());
+        seen.add([&bodies[0], &bodies[1]], [&shapes[0], &shapes[1]], [&poses[0], &poses[1]]);
     }
-    println!("{overlapping} overlapping, {touching} touching, {separated} separated, widest {widest:e}");
+    let Seen { overlapping, touching, separated, by_facets, widest } = seen;
+    println!(
+        "{overlapping} overlapping, {by_facets} by facets, {touching} touching, {separated} separated, {widest:e}"
+    );
     assert!(overlapping > 5_000 && touching > 50 && separated > 2000, "{overlapping} {touching} {separated}");
+}
+
+/// A box, a wedge, prisms and hulls, on the grid of vertices.
+fn solid(random: &mut Random) -> Vec<Vector> {
+    let half = [(); 3].map(|()| random.pick(&[0.25, 0.5, 0.75]));
+    let corner = |i: usize| Vector::from_fn(|k, _| if i >> k & 1 == 0 { -half[k] } else { half[k] });
+    let on_grid = |p: Vector| p.map(|x| (x / VERTEX_UNIT).round() * VERTEX_UNIT);
+    match random.below(4) {
+        0 => (0..8).map(corner).collect(),
+        1 => (0..6).map(corner).collect(),
+        2 => {
+            let sides = 3 + random.below(4);
+            let ring = |k: usize| std::f64::consts::TAU * k as f64 / sides as f64;
+            let at = |k: usize, z: f64| on_grid(Vector::new(ring(k).cos(), ring(k).sin(), z));
+            (0..sides).flat_map(|k| [at(k, -half[2]), at(k, half[2])]).collect()
+        }
+        _ => (0..8 + random.below(5)).map(|_| on_grid(random.direction())).collect(),
+    }
+}
+
+/// Solids in line with each other, tilted and yawed by as little as a rotation's entries allow, skewed up to the limit, and anyhow.
+#[test]
+fn depths_of_solids_hold_the_exact_ones() {
+    let mut random = Random::new(32);
+    let mut seen = Seen::default();
+    for round in 0..700 {
+        let bodies = [solid(&mut random), solid(&mut random)];
+        let shapes = [hull(&bodies[0]), hull(&bodies[1])];
+        let away = Vector::from(random.pick(&[[0.0, 0.0, 1.0], [0.0, 0.25, 0.75], [0.3, 0.4, 0.5], [0.1, 0.0, 0.0]]));
+        let poses = [0.0, 1.0].map(|moved| {
+            let turn = match round % 4 {
+                0 => random.quarter_turns(),
+                1 => random.quarter_turns() * rotation(&random.direction(), random.power(-11, -2)),
+                _ => random.rotation(),
+            };
+            // A skew of 16 units in an entry is 4e-3.
+            let skew = if round % 4 == 3 { 16.0 * ROTATION_UNIT } else { 0.0 };
+            let turn = turn + Matrix::from_fn(|_, _| random.signed() * skew);
+            let moved = (away * moved).map(|x| (x / 0.03125).round() * 0.03125);
+            Pose::new(&turn.map(|x| (x / ROTATION_UNIT).round() * ROTATION_UNIT), &moved)
+        });
+        if poses.iter().all(|pose| pose.check(1e-2).is_ok()) {
+            seen.add([&bodies[0], &bodies[1]], [&shapes[0], &shapes[1]], [&poses[0], &poses[1]]);
+        }
+    }
+    let Seen { overlapping, by_facets, widest, .. } = seen;
+    println!("{overlapping} overlapping, {by_facets} by facets, {widest:e}");
+    assert!(overlapping > 400 && by_facets > overlapping, "{overlapping} {by_facets}");
 }

@@ -11,6 +11,7 @@ use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{collected, copied, filled, reserve, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
+use crate::build::fan::fan_of;
 use crate::build::hull::{Hull, convex_hull};
 use crate::build::labels::{label_by_index, label_by_polygons};
 use crate::build::mass::mass_properties;
@@ -74,6 +75,7 @@ pub fn build_in_steps(
     copy_labels_in_steps(&mut polyhedron, &mut progress.part(0.97, 1.0))?;
     let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.simple = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_in_range;
+    polyhedron.fan = fan_of(&polyhedron)?;
     Ok(polyhedron)
 }
 
@@ -236,6 +238,7 @@ impl HullSurface {
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
             polygon_search: PolygonSearch::new(),
+            fan: None,
             mass,
             lookup: Lookup::none(),
         };

@@ -1,9 +1,11 @@
-//! What a pair remembers of its depth: the polytope that proved it, packed. Here alone it is packed and unpacked.
+//! What a pair remembers of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies. Here alone it
+//! is packed and unpacked.
 
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
+use crate::solve::facets::Facet;
 use crate::solve::frame::Frame;
 use crate::solve::polytope::{NO_TWIN, Polytope, Start, triangle_of};
 
@@ -19,14 +21,19 @@ pub const MOST_TRIANGLES: usize = 124;
 #[repr(C)]
 pub struct DepthCache {
     /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
-    /// to.
+    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind and the others are 0.
     counts: [u8; 4],
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
-    /// The vertices. Coordinates are computed anew: what is stored could lie.
+    /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair.
     pairs: [VertexPair; MOST_VERTICES],
     triangles: [PackedTriangle; MOST_TRIANGLES],
 }
+
+/// Kinds of facets: fewer than the vertices of any polytope.
+const FACE_OF_FIRST: u8 = 1;
+const FACE_OF_SECOND: u8 = 2;
+const EDGES: u8 = 3;
 
 /// Three corners, three neighbouring triangles, and which side of each is the common one, in two bits each.
 type PackedTriangle = [u8; 7];
@@ -107,6 +114,35 @@ impl DepthCache {
         }
         let largest = polytope.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
         usize::from(largest) < vertices
+    }
+
+    /// The facet that was the nearest; the bodies need not have it.
+    #[inline(always)]
+    pub fn facet(&self) -> Option<Facet> {
+        let edges @ [first, _] = self.pairs[0];
+        match self.counts {
+            [FACE_OF_FIRST, 0, 0, 0] => Some(Facet::Face(0, first)),
+            [FACE_OF_SECOND, 0, 0, 0] => Some(Facet::Face(1, first)),
+            [EDGES, 0, 0, 0] => Some(Facet::Edges(edges)),
+            _ => None,
+        }
+    }
+
+    /// Keeps the nearest facet and its direction, and no polytope.
+    #[inline(always)]
+    pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector) {
+        self.remember(frame, direction);
+        (self.counts, self.pairs[0]) = match facet {
+            Facet::Face(0, face) => ([FACE_OF_FIRST, 0, 0, 0], [face, 0]),
+            Facet::Face(_, face) => ([FACE_OF_SECOND, 0, 0, 0], [face, 0]),
+            Facet::Edges(edges) => ([EDGES, 0, 0, 0], edges),
+        };
+    }
+
+    /// Whether nothing is kept.
+    #[inline(always)]
+    pub fn is_cold(&self) -> bool {
+        self.counts == [0; 4] && self.direction == [0; 3]
     }
 
     /// The polytope that it holds stays, with another direction of least overlap.

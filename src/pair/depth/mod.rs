@@ -1,24 +1,27 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
-//! Floating point searches and proves, `solve/polytope/`; integers decide what rounding hides at the ends: objects that touch, flat
-//! ones, objects that hardly overlap.
+//! Floating point searches and proves: of small bodies by all facets, `solve/facets/`, else by `solve/polytope/`. Integers decide
+//! what rounding hides at the ends: objects that touch, flat ones, objects that hardly overlap.
 
 mod answer;
 mod cache;
 mod scaling;
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::simd::environment::with_default;
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
+use crate::polyhedron::fan::Fan;
 use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
+use crate::solve::facets::{self, Outcome as ByFacets, Overlap};
 use crate::solve::frame::Frame;
 use crate::solve::polytope::{self, Ending, Expansion, Polytope, Start, Wanted, Witness};
+use crate::solve::state::FeatureId;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
@@ -75,21 +78,25 @@ fn search_rescaled(
     poses: [&Pose; 2],
     config: &DepthConfig,
     cache: &mut DepthCache,
-) -> Option<Found> {
+) -> Option<Search> {
     let pair = Rescaled::of(polyhedra, poses)?;
     let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
     let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
-    let found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config: &config, cache })?;
+    // Copies have no fan.
+    let Search::Polytope(found) = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config: &config, cache })?
+    else {
+        return None;
+    };
     let Found { expansion, witness, .. } = found;
     let upper = pair.upper_of(expansion.upper);
     if upper == f64::INFINITY && expansion.upper < upper {
         return None;
     }
-    Some(Found {
+    Some(Search::Polytope(Found {
         expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
         witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
         ..found
-    })
+    }))
 }
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
@@ -100,7 +107,31 @@ struct DepthQuery<'a> {
     cache: &'a mut DepthCache,
 }
 
-/// What the search found.
+/// What looking at all facets takes: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
+/// moving on a polytope that was kept …
+const LITTLE_WORK: usize = 3_000;
+
+/// … and below this less than making one.
+const MOST_WORK: usize = 16_000;
+
+/// How wide an interval by all facets may be, over the pair's size or distance: wider where faces were merged of triangles that
+/// lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
+const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
+
+/// … unless it comes to no end.
+const WIDEST_OF_ALL: f64 = 1e-9;
+
+/// What one search or the other found.
+enum Search {
+    /// All facets.
+    Facets(Overlap),
+    /// Along this direction, from body 1 to body 2, the bodies are apart.
+    Apart(Vector),
+    /// A polytope.
+    Polytope(Found),
+}
+
+/// What the search by a polytope found.
 struct Found {
     expansion: Expansion,
     witness: Witness,
@@ -123,33 +154,89 @@ impl Found {
 
 impl Kernel for DepthQuery<'_> {
     /// None of a pair that floating point is not for.
-    type Output = Option<Found>;
+    type Output = Option<Search>;
 
     #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Option<Found> {
+    fn run<L: Lanes>(&mut self) -> Option<Search> {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
         if !(frame.in_range && is_in_scale(self.polyhedra)) {
             return None;
         }
-        let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
-        let start = self.cache.unpack(&frame, &mut polytope);
-        let steps = self.config.step_budget;
-        let mut found = self.search(&frame, &mut polytope, &start, steps);
-        let was_told = start.triangle.is_some() || start.direction.is_some();
-        // What an earlier query left must not make an answer worse.
-        if was_told && found.is_open() && found.expansion.steps < steps {
-            let mut again = SearchAgain { search: self, frame: &frame, polytope: &mut polytope, first: &found };
-            found = L::out_of_line(&mut again);
+        if self.facets_come_first()
+            && let Some(found) = self.search_facets(&frame, WIDEST)
+        {
+            return Some(found);
         }
-        if found.expansion.ending == Ending::Stuck {
-            let start = Start { triangle: None, direction: None, ..start };
-            return Some(L::out_of_line(&mut InLarge { search: self, frame: &frame, start }));
-        }
-        Some(found)
+        L::out_of_line(&mut ByPolytope { query: self, frame: &frame })
     }
 }
 
-impl DepthQuery<'_> {
+/// The search by a polytope, and by facets where that does not come to an end.
+struct ByPolytope<'a, 'b, L> {
+    query: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+}
+
+impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
+    type Output = Option<Search>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Option<Search> {
+        let ByPolytope { query, frame } = self;
+        let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
+        let start = query.cache.unpack(frame, &mut polytope);
+        let steps = query.config.step_budget;
+        let mut found = query.search(frame, &mut polytope, &start, steps);
+        let was_told = start.triangle.is_some() || start.direction.is_some();
+        // What an earlier query left must not make an answer worse.
+        if was_told && found.is_open() && found.expansion.steps < steps {
+            let mut again = SearchAgain { search: query, frame, polytope: &mut polytope, first: &found };
+            found = L::out_of_line(&mut again);
+        }
+        if found.expansion.ending != Ending::Stuck {
+            return Some(Search::Polytope(found));
+        }
+        if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
+            return Some(found);
+        }
+        let start = Start { triangle: None, direction: None, ..start };
+        Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
+    }
+}
+
+impl<'a> DepthQuery<'a> {
+    /// Of a pair of small bodies.
+    #[inline(always)]
+    fn fans(&self) -> Option<[&'a Fan; 2]> {
+        let [polyhedron1, polyhedron2] = self.polyhedra;
+        Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
+    }
+
+    /// Whether all facets are looked at before a polytope is.
+    #[inline(always)]
+    fn facets_come_first(&self) -> bool {
+        let Some(fans) = self.fans() else { return false };
+        let work = facets::work(fans);
+        work <= LITTLE_WORK || (work <= MOST_WORK && self.cache.is_cold())
+    }
+
+    #[inline(always)]
+    fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<Search> {
+        let fans = self.fans()?;
+        let scale = if frame.separation > frame.size { frame.separation } else { frame.size };
+        match facets::search(frame, fans, self.cache.facet(), widest * scale) {
+            ByFacets::Separated(direction, facet) => {
+                self.cache.keep_facet(frame, facet, &direction);
+                Some(Search::Apart(direction))
+            }
+            ByFacets::Overlapping(overlap) => {
+                self.cache.keep_facet(frame, overlap.facet, &overlap.direction);
+                Some(Search::Facets(overlap))
+            }
+            ByFacets::Unclear => None,
+        }
+    }
+
     #[inline(always)]
     fn search<L: Lanes, const V: usize, const T: usize>(
         &mut self,
@@ -218,8 +305,14 @@ impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
 }
 
 /// Answers by what the search found, and where that leaves the verdict open by integers.
-fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
-    let Some(found) = found else { return decide(answer, polyhedra, poses, None) };
+fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Search>) {
+    answer.statistics = DepthStatistics::default();
+    let found = match found {
+        None => return decide(answer, polyhedra, poses, None),
+        Some(Search::Apart(direction)) => return fill_separated(answer, DepthEnding::Separated, &-direction),
+        Some(Search::Facets(overlap)) => return fill_facet(answer, polyhedra, poses, overlap),
+        Some(Search::Polytope(found)) => found,
+    };
     let Found { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } = *found;
     answer.statistics = DepthStatistics { steps, supports, triangles, exact_iterations: 0 };
     if ending == Ending::Separated {
@@ -234,6 +327,14 @@ fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]
         Ending::Narrow | Ending::Separated => DepthEnding::Narrow,
     };
     fill_overlapping(answer, polyhedra, poses, found);
+}
+
+fn fill_facet(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Overlap) {
+    let Overlap { lower, upper, depth, direction, witness, .. } = found;
+    (answer.outcome, answer.ending) = (Outcome::Intersecting, DepthEnding::Narrow);
+    (answer.lower, answer.upper) = (*lower, *upper);
+    answer.depth = clamp(*depth, *lower, *upper);
+    fill_places(answer, polyhedra, poses, &witness.points, witness.features, &-direction);
 }
 
 fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Found) {
@@ -345,7 +446,18 @@ fn fill_points(
     let Combination { pairs, weights } = combination;
     let points = combinations(polyhedra, pairs, weights);
     let features = contact::features_of_pairs(polyhedra, poses, pairs, &points, normal, within);
-    let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+    fill_places(answer, polyhedra, poses, &points, features, normal);
+}
+
+fn fill_places(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    points: &[Vector; 2],
+    features: [FeatureId; 2],
+    normal: &Vector,
+) {
+    let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, points);
     [answer.local1, answer.local2] = local;
     [answer.world1, answer.world2] = world;
     answer.normal = contact::normalised(normal);

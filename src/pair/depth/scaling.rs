@@ -81,7 +81,7 @@ fn in_unit_of_pose(pose: &Pose, unit: f64) -> Option<Pose> {
 }
 
 /// What supports are found by: vertices exactly, slacks as bounds. Planes stay as they are, which no support looks at, and there is
-/// no look-up table.
+/// no look-up table and no fan.
 fn in_unit_of(polyhedron: &Polyhedron, unit: f64) -> Result<Option<Polyhedron>> {
     let mut copy = polyhedron.copy()?;
     for vertex in &mut copy.vertices {
@@ -97,5 +97,6 @@ fn in_unit_of(polyhedron: &Polyhedron, unit: f64) -> Result<Option<Polyhedron>> 
     copy.bevels.iter_mut().for_each(|bevel| bound(&mut bevel.slack));
     copy.mass.centre_of_mass *= unit;
     copy.lookup.plan = Plan::None;
+    copy.fan = None;
     Ok(Some(copy))
 }

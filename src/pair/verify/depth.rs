@@ -6,6 +6,7 @@
 //! in the search.
 
 use super::bounds::Bounds;
+use super::facets;
 use super::numbers::{are_points_said, check_numbers};
 use super::{Witness, allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
@@ -33,8 +34,9 @@ use std::cmp::Ordering;
 /// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
-/// For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the answer may
-/// hold.
+/// If that fails for small bodies it looks at all facets of the difference body, which takes time in proportion to triangles times
+/// vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the
+/// answer may hold.
 ///
 /// # Errors
 /// As of [`super::verify`].
@@ -156,7 +158,7 @@ fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &
 type Triangle = [VertexPair; 3];
 
 /// Proves a depth of at least `lower` by the polytope of the cache, or by one that is searched for, as a query does or until it
-/// proves it.
+/// proves it; of small bodies else by all facets.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
@@ -165,6 +167,9 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
         if why.is_ok() {
             return Ok(());
         }
+    }
+    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, bounds.in_units(lower))) {
+        return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
 }

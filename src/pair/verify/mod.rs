@@ -3,6 +3,7 @@
 
 mod numbers;
 mod bounds;
+mod facets;
 mod witness;
 mod depth;
 
