@@ -34,8 +34,8 @@ use witness::Witness;
 /// `lower` ≤ `distance` ≤ `upper` holds for every outcome. `upper` is +∞ and `distance` is `lower` for [`Outcome::Beyond`]; all
 /// three are 0 for [`Outcome::Intersecting`].
 ///
-/// Every number that is said is finite, but for an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], and of
-/// objects farther apart than the largest double.
+/// Every number that is said is finite, but for an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], of separated
+/// objects of which no points are said, and of objects farther apart than the largest double.
 ///
 /// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂|). There ρ is a body's radius
 /// about its centre c, and Δ joins the centres in the world.
@@ -84,8 +84,9 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 
 fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
-    // A distance below the smallest double leaves `lower` at 0; only one above the largest has no upper end.
-    let has_end = upper < f64::INFINITY || lower == f64::MAX;
+    // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, and one of
+    // which only a separating direction is known: that says no points.
+    let has_end = upper < f64::INFINITY || lower == f64::MAX || !are_points_said(&answer.into());
     if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper && has_end) {
         return Err(unverified(format!(
             "not 0 ≤ lower ≤ distance ≤ upper < ∞, 0 < upper: {lower:e}, {distance:e}, {upper:e}"

@@ -30,9 +30,11 @@ fn no_number_may_be_none() {
                     let mut forged = answer;
                     let (what, number) = members(&mut forged).swap_remove(member);
                     let before = std::mem::replace(number, put);
-                    // What is not said stays so, and a search that has found nothing out may say so.
+                    // What is not said stays so. Where no points are said the upper end may be open: that is true of any pair.
                     let is_same = before == put || before.is_nan() && put.is_nan();
-                    let says_nothing = forged.outcome == Outcome::Undecided && forged.upper == f64::INFINITY;
+                    let may_be_open = forged.outcome == Outcome::Undecided
+                        || forged.outcome == Outcome::Separated && forged.local1[0].is_nan();
+                    let says_nothing = may_be_open && forged.upper == f64::INFINITY;
                     let is_none = !(put.is_finite() || is_same || what == "upper" && says_nothing);
                     let is_lie = is_none || judge.lie_in(&forged, Some(&answer)).is_some();
                     match scene.verify(&scene.poses, &forged) {
