@@ -11,3 +11,4 @@ pub(crate) mod labels;
 pub(crate) mod mass;
 #[doc(hidden)]
 pub mod assembly;
+pub(crate) mod contact_faces;

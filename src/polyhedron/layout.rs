@@ -12,6 +12,7 @@ use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::copied;
 use crate::base::normal::unit;
+use crate::polyhedron::contact_faces::ContactFaces;
 use crate::polyhedron::lookup::Lookup;
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
@@ -240,6 +241,8 @@ pub struct Polyhedron {
     pub polygon_corners: Vec<Vector>,
     /// See `polygon_corners`; one more entry than `face_labels`, or empty without a mesh.
     pub polygon_starts: Vec<u32>,
+    /// Faces as manifolds take them. Levels of detail have none.
+    pub contact_faces: ContactFaces,
 }
 
 impl Polyhedron {
@@ -270,6 +273,7 @@ impl Polyhedron {
             face_label_starts: copied(&self.face_label_starts)?,
             polygon_corners: copied(&self.polygon_corners)?,
             polygon_starts: copied(&self.polygon_starts)?,
+            contact_faces: self.contact_faces.copy()?,
         })
     }
 
@@ -465,6 +469,7 @@ impl Polyhedron {
             face_label_starts,
             polygon_corners,
             polygon_starts,
+            contact_faces,
             mass: _,
             lookup,
         } = self;
@@ -483,6 +488,7 @@ impl Polyhedron {
             + size_of_val(&face_label_starts[..])
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
+            + contact_faces.heap_bytes()
             + lookup.heap_bytes()
     }
 }

@@ -3,8 +3,10 @@
 
 #[doc(hidden)]
 pub mod lookup;
+pub(crate) mod contact_faces;
 mod layout;
 pub(crate) mod triangulation;
 pub(crate) mod surface_walk;
 
+pub use contact_faces::{ContactFace, ContactFaces, FacePart};
 pub use layout::*;

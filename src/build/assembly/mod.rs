@@ -19,7 +19,7 @@ use crate::build::slack::RiseBounds;
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::triangulation::Triangulation;
-use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
+use crate::polyhedron::{ContactFaces, LARGEST, NONE, Polyhedron, SMALLEST};
 use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
 
@@ -234,6 +234,7 @@ impl HullSurface {
             face_label_starts: Vec::new(),
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
+            contact_faces: ContactFaces::default(),
             mass,
             lookup: Lookup::none(),
         };
