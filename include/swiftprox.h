@@ -249,6 +249,13 @@ typedef struct swiftprox_shape_options {
   void *progress_user;
   /** Levels of detail and look-up table (swiftprox_tuning.h). Default: null, the automatic ones. */
   const struct swiftprox_shape_tuning *tuning;
+  /**
+   * By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
+   * this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0
+   * (the default): found from the coordinates and polygons, at least 1e-6 of half the box's diagonal. 0: rounding of doubles
+   * only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   */
+  double face_noise;
 } swiftprox_shape_options;
 
 /**
@@ -977,11 +984,15 @@ typedef struct swiftprox_manifold_config {
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
-  /** Objects up to this far apart have a manifold, and points with a gap of at most this belong to it. Default: 0. */
+  /**
+   * Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; at least 0, and infinity
+   * admits all, as in queries of scenes. Default: 0.
+   */
   double margin;
   /**
    * Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
-   * the line between; none is moved. 0 (the default): all.
+   * the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
+   * cover about as much. 0 (the default): all.
    */
   uint32_t reduces;
 } swiftprox_manifold_config;
@@ -998,6 +1009,11 @@ void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *conf
  * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
  * connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
  * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+ *
+ * Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
+ * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
+ * are off sideways by about as much, and points nearer to each other than 7.5e-9 of the pair's size are one. One of the points is
+ * as deep as the objects are. It is not certified that a face is complete.
  *
  * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
  * On failure the manifold is reset, and points are as they were.

@@ -226,6 +226,13 @@ fn unknown_enumerators_are_refused() {
         let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &options, &mut made);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);
         assert!(made.is_null());
+
+        for face_noise in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            let options = CShapeOptions { face_noise, ..shape_options() };
+            let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &options, &mut made);
+            assert_eq!(status, StatusCode::ErrorInvalidArgument);
+            assert!(made.is_null() && last_message().contains("options->face_noise"), "{}", last_message());
+        }
     }
     release(shape);
 }

@@ -17,6 +17,7 @@ struct contact {
     double arm1[3], arm2[3];
     double gap;
     double impulse[3];
+    bool is_known; /* from the step before */
 };
 
 /* What a pair of bodies remembers, and its contacts. */
@@ -186,6 +187,20 @@ static void find_contacts(struct world *world, struct pair *pair)
         for (size_t j = 0; j < before.count; j++) {
             if (before.contacts[j].id == contact->id) {
                 memcpy(contact->impulse, before.contacts[j].impulse, sizeof contact->impulse);
+                contact->is_known = true;
+            }
+        }
+    }
+}
+
+void world_count_points(const struct world *world, size_t last, size_t *known, size_t *points)
+{
+    for (size_t b = 1; b <= last; b++) {
+        for (size_t a = 0; a < b; a++) {
+            const struct pair *const pair = &world->pairs[b * (b - 1) / 2 + a];
+            for (size_t c = 0; c < pair->count; c++) {
+                *known += pair->contacts[c].is_known;
+                *points += 1;
             }
         }
     }

@@ -38,6 +38,10 @@ size_t world_body_count(const struct world *world);
 
 const struct body *world_body(const struct world *world, size_t index);
 
+/* Adds to `points` the contact points that bodies up to the given one had with each other in the last step, and to `known` those
+ * that they had in the step before, too. */
+void world_count_points(const struct world *world, size_t last, size_t *known, size_t *points);
+
 /* The largest depth of any pair in the last step. */
 double world_depth(const struct world *world);
 

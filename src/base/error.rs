@@ -37,7 +37,13 @@ pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -
     if range.contains(&number) {
         return Ok(());
     }
-    Err(Error::Argument(format!("{name} is {number:?}, it must be from {} to {}", range.start(), range.end())))
+    let [start, end] = [range.start(), range.end()];
+    let limits = match *end {
+        f64::INFINITY => format!("at least {start}"),
+        f64::MAX => format!("finite and at least {start}"),
+        _ => format!("from {start} to {end}"),
+    };
+    Err(Error::Argument(format!("{name} is {number:?}, it must be {limits}")))
 }
 
 impl Error {

@@ -12,3 +12,4 @@ pub(crate) mod mass;
 pub(crate) mod fan;
 #[doc(hidden)]
 pub mod assembly;
+pub(crate) mod contact_faces;

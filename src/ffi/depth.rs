@@ -221,10 +221,12 @@ pub struct CManifoldConfig {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it. Default: 0.
+    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; at least 0, and infinity
+    /// admits all, as in queries of scenes. Default: 0.
     pub margin: f64,
     /// Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
-    /// the line between; none is moved. 0 (the default): all.
+    /// the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
+    /// cover about as much. 0 (the default): all.
     pub reduces: u32,
 }
 
@@ -268,6 +270,11 @@ pub unsafe extern "C" fn swiftprox_manifold_config_init_sized(config: *mut CMani
 /// Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
 /// connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
 /// says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+///
+/// Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
+/// (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
+/// are off sideways by about as much, and points nearer to each other than 7.5e-9 of the pair's size are one. One of the points is
+/// as deep as the objects are. It is not certified that a face is complete.
 ///
 /// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
 /// On failure the manifold is reset, and points are as they were.

@@ -41,6 +41,11 @@ pub struct CShapeOptions {
     pub progress_user: *mut c_void,
     /// Levels of detail and look-up table (swiftprox_tuning.h). Default: null, the automatic ones.
     pub tuning: *const CShapeTuning,
+    /// By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
+    /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0
+    /// (the default): found from the coordinates and polygons, at least 1e-6 of half the box's diagonal. 0: rounding of doubles
+    /// only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+    pub face_noise: f64,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -85,6 +90,7 @@ impl CShapeOptions {
         progress: None,
         progress_user: std::ptr::null_mut(),
         tuning: std::ptr::null(),
+        face_noise: -1.0,
     };
 
     /// The options in Rust's terms. What is left to check, the makers of shapes check.
@@ -98,6 +104,15 @@ impl CShapeOptions {
         if self.convexity_tolerance.is_nan() {
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, "options->convexity_tolerance is not a number"));
         }
+        if !self.face_noise.is_finite() {
+            return Err(Failure::new(
+                StatusCode::ErrorInvalidArgument,
+                format!(
+                    "options->face_noise is {}, it must be finite; less than 0 asks for the default",
+                    self.face_noise
+                ),
+            ));
+        }
         let options = ShapeOptions {
             input,
             rotation: Matrix::from_row_slice(&self.rotation),
@@ -106,6 +121,7 @@ impl CShapeOptions {
             convexity_tolerance: (self.convexity_tolerance >= 0.0).then_some(self.convexity_tolerance),
             hierarchy,
             lookup,
+            face_noise: (self.face_noise >= 0.0).then_some(self.face_noise),
         };
         Ok(Making { options, progress: self.progress, user: self.progress_user })
     }

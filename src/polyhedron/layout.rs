@@ -12,6 +12,7 @@ use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::copied;
 use crate::base::normal::unit;
+use crate::polyhedron::contact_faces::ContactFaces;
 use crate::polyhedron::fan::Fan;
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::polygon_search::PolygonSearch;
@@ -246,6 +247,8 @@ pub struct Polyhedron {
     pub polygon_search: PolygonSearch,
     /// Of a body of few corners, what its depth in another is read from; see [`Fan`].
     pub fan: Option<Fan>,
+    /// Faces as manifolds take them. Levels of detail have none.
+    pub contact_faces: ContactFaces,
 }
 
 impl Polyhedron {
@@ -278,6 +281,7 @@ impl Polyhedron {
             polygon_starts: copied(&self.polygon_starts)?,
             polygon_search: PolygonSearch::new(),
             fan: self.fan.as_ref().map(Fan::copy).transpose()?,
+            contact_faces: self.contact_faces.copy()?,
         })
     }
 
@@ -452,6 +456,7 @@ impl Polyhedron {
             polygon_starts,
             polygon_search,
             fan,
+            contact_faces,
             mass: _,
             lookup,
         } = self;
@@ -472,6 +477,7 @@ impl Polyhedron {
             + size_of_val(&polygon_starts[..])
             + polygon_search.heap_bytes()
             + fan.as_ref().map_or(0, Fan::heap_bytes)
+            + contact_faces.heap_bytes()
             + lookup.heap_bytes()
     }
 }

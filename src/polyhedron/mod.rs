@@ -6,9 +6,11 @@ pub mod lookup;
 pub(crate) mod polygon_search;
 #[doc(hidden)]
 pub mod fan;
+pub(crate) mod contact_faces;
 mod layout;
 mod polygon_at;
 pub(crate) mod triangulation;
 pub(crate) mod surface_walk;
 
+pub use contact_faces::{ContactFace, ContactFaces, FacePart};
 pub use layout::*;

@@ -1,10 +1,10 @@
 //! Shapes in files: saved once, loaded as they were, levels of detail included; what is made on first need is made again.
 //!
 //! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
-//! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels) or takes long to find
-//! (the levels' vertices). A checksum finds damage, not intent, so nothing that an answer's certainty rests on is believed: the
-//! hulls are proved anew with exact predicates, planes and their slack computed, each level shown to contain the body and
-//! measured. A file of any content gives a sound shape or an error.
+//! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels), takes long to find
+//! (the levels' vertices) or is asked for (the noise of coordinates). A checksum finds damage, not intent, so nothing that an
+//! answer's certainty rests on is believed: the hulls are proved anew with exact predicates, planes and their slack computed, each
+//! level shown to contain the body and measured. A file of any content gives a sound shape or an error.
 
 use std::path::Path;
 
@@ -18,6 +18,7 @@ use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::{Labels, build_in_steps};
 use crate::build::check::check_hull_in_steps;
+use crate::build::contact_faces::find_contact_faces;
 use crate::build::hull::{Hull, convex_hull_in_steps};
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::polyhedron::Polyhedron;
@@ -33,7 +34,7 @@ const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
 const WHAT: &str = "the shape file";
 
 /// The version that is written, and the only one that is read.
-const VERSION: u32 = 1;
+const VERSION: u32 = 2;
 
 /// Saves a shape in a file, replacing what was there.
 ///
@@ -99,6 +100,7 @@ fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     writer.number(kind as u32)?;
     writer.number(resolution as u32)?;
     writer.real(factor)?;
+    writer.real(polyhedron.contact_faces.noise * scale)?;
     writer.number(hierarchy.kind as u32)?;
     let levels = if with_levels { &hierarchy.levels[..] } else { &[] };
     writer.number(levels.len() as u32)?;
@@ -155,6 +157,11 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     };
     let lookup = LookupOptions { kind, resolution: reader.number()?, radius_factor: reader.real()? };
     polyhedron.lookup = sound(plan_lookup(&polyhedron, &lookup))?;
+    let noise = reader.real()?;
+    if !(0.0..=f64::MAX).contains(&noise) {
+        return damaged("the noise of coordinates is no length");
+    }
+    polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut bodies.part(reader.done(), reader.done()))?;
     let kind = reader.number()?;
     let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");

@@ -14,6 +14,7 @@ use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
 use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface, is_inside_out};
+use crate::build::contact_faces::{default_noise, find_contact_faces};
 use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::build::mass::inertia;
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
@@ -100,6 +101,10 @@ pub struct ShapeOptions {
     /// The table of vertices from which marching starts when the last query tells nothing. It is made by the first query that
     /// looks into it.
     pub lookup: LookupOptions,
+    /// By how much a coordinate may be off, in the units of the input, before `scale`: vertices that could lie in one plane up to
+    /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. `None`:
+    /// found from the coordinates and polygons ([`default_noise`]). 0: rounding of doubles only.
+    pub face_noise: Option<f64>,
 }
 
 impl Default for ShapeOptions {
@@ -112,11 +117,24 @@ impl Default for ShapeOptions {
             convexity_tolerance: None,
             hierarchy: HierarchyOptions::default(),
             lookup: LookupOptions::default(),
+            face_noise: None,
         }
     }
 }
 
 impl ShapeOptions {
+    /// By how much coordinates may be off in the local frame; `polygons` are over the points, all before the input transform.
+    fn noise(&self, points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<f64> {
+        let noise = match self.face_noise {
+            Some(noise) => {
+                check_range("face_noise", noise, 0.0..=f64::MAX)?;
+                noise
+            }
+            None => default_noise(points, polygons),
+        };
+        Ok((noise * self.scale).min(f64::MAX))
+    }
+
     /// Which part of building the shape, about, the body itself is.
     fn share_of_body(&self) -> f64 {
         match self.hierarchy.kind {
@@ -169,6 +187,7 @@ impl Shape {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
+        let given = mesh;
         let least_tolerance = match options.input {
             InputPolicy::NearlyConvex => precision_tolerance(&mesh.vertices),
             InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull => CONVEXITY_TOLERANCE,
@@ -202,7 +221,10 @@ impl Shape {
                     check_as_given(&mesh, &mut of_body)
                         .and(Err(Error::Bug("faces that are none passed the check".into())))
                 }
-                InputPolicy::Hull => Shape::of_points(&mesh.vertices, options, &mut progress.part(0.05, 1.0)),
+                InputPolicy::Hull => {
+                    let noise = options.noise(&given.vertices, None)?;
+                    Shape::of_points(&mesh.vertices, noise, options, &mut progress.part(0.05, 1.0))
+                }
             };
         };
         let hull = convex_hull_in_steps(&ordered.vertices, &mut of_body.part(0.05, 0.25))?;
@@ -228,7 +250,8 @@ impl Shape {
         };
         let building = &mut of_body.part(0.45, 1.0);
         let polyhedron = build_in_steps(&ordered.vertices, hull, polygons, Some(&numbers), building)?;
-        Shape::admitted(polyhedron, options, progress)
+        let noise = options.noise(&given.vertices, polygons.map(|_| given))?;
+        Shape::admitted(polyhedron, noise, options, progress)
     }
 
     /// The convex hull of points. A face's label is its own index.
@@ -246,21 +269,21 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| {
-            let points = transformed(points, options, &mut progress.part(0.0, 0.0))?;
-            check_points(&points)?;
-            Shape::of_points(&points, options, progress)
+            let images = transformed(points, options, &mut progress.part(0.0, 0.0))?;
+            check_points(&images)?;
+            Shape::of_points(&images, options.noise(points, None)?, options, progress)
         })
     }
 
     /// From finite points that went through the input transform.
-    fn of_points(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+    fn of_points(points: &[Vector], noise: f64, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let mut of_body = progress.part(0.0, options.share_of_body());
         let order = along_curve(points, &mut of_body.part(0.0, 0.04))?;
         let ordered = in_order(points, &order, &mut of_body.part(0.04, 0.05))?;
         let numbers = Numbers { vertices: order, faces: Vec::new() };
         let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.05, 0.3))?;
         let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
-        Shape::admitted(polyhedron, options, progress)
+        Shape::admitted(polyhedron, noise, options, progress)
     }
 
     /// From a mesh file ([`read_mesh`]).
@@ -458,7 +481,12 @@ impl Shape {
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
-    fn admitted(mut polyhedron: Polyhedron, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+    fn admitted(
+        mut polyhedron: Polyhedron,
+        noise: f64,
+        options: &ShapeOptions,
+        progress: &mut Progress,
+    ) -> Result<Shape> {
         let least = match options.input {
             InputPolicy::Strict => 3,
             InputPolicy::Flat | InputPolicy::NearlyConvex => 2,
@@ -473,6 +501,8 @@ impl Shape {
         let share = options.share_of_body();
         progress.report(share)?;
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
+        // Next to nothing of the time.
+        polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut progress.part(share, share))?;
         Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)?
             .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }

@@ -111,9 +111,9 @@ fn through_a_file() {
         "{}",
         message(&path)
     );
-    bytes[8] = 2;
+    bytes[8] = 1;
     fs::write(&path, &bytes).unwrap();
-    assert!(message(&path).contains("version 2; this library reads version 1"), "{}", message(&path));
+    assert!(message(&path).contains("version 1; this library reads version 2"), "{}", message(&path));
     fs::write(&path, "OFF\n4 4 6\n").unwrap();
     assert!(message(&path).contains("no shape file"), "{}", message(&path));
     // What could not be done, to which file, and the system's words why.

@@ -21,7 +21,7 @@ use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::polygon_search::PolygonSearch;
 use crate::polyhedron::triangulation::Triangulation;
-use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
+use crate::polyhedron::{ContactFaces, LARGEST, NONE, Polyhedron, SMALLEST};
 use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
 
@@ -239,6 +239,7 @@ impl HullSurface {
             polygon_starts: Vec::new(),
             polygon_search: PolygonSearch::new(),
             fan: None,
+            contact_faces: ContactFaces::default(),
             mass,
             lookup: Lookup::none(),
         };

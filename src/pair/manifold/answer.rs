@@ -11,7 +11,8 @@ use crate::pair::depth::DepthCache;
 pub struct ManifoldConfig {
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default.
+    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default, infinity
+    /// admits all.
     pub margin: f64,
     /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the
     /// line between. None is moved. By default all are.
@@ -31,12 +32,13 @@ impl ManifoldConfig {
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
     pub(super) fn check(&self) -> Result<()> {
         check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
-        check_range("margin", self.margin, 0.0..=f64::MAX)
+        check_range("margin", self.margin, 0.0..=f64::INFINITY)
     }
 }
 
 /// What a pair remembers of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of
-/// several least directions is said, and which of two faces that are about as parallel to it is the reference.
+/// several least directions is said, which of two faces that are about as parallel to it is the reference, and which four points of
+/// many stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct ManifoldCache {
@@ -47,8 +49,25 @@ pub struct ManifoldCache {
     pub(super) reference: Reference,
 }
 
-/// 1 or 2, the object whose face was the reference, and its face; zeros if there was none.
-pub(crate) type Reference = [u32; 2];
+/// What a manifold was made over, and what stayed of it. Any numbers are safe.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub(crate) struct Reference {
+    /// 1 or 2, the object whose patch was the reference; 0 if there was none.
+    pub body: u32,
+    /// Both objects' patches.
+    pub patches: [u32; 2],
+    /// Of a reduced manifold the keys of its points, in order.
+    pub kept: [u32; FOUR],
+}
+
+impl Reference {
+    /// There was none.
+    pub const NONE: Reference = Reference { body: 0, patches: [0; 2], kept: [0; FOUR] };
+}
+
+/// How many points a reduced manifold has.
+pub(super) const FOUR: usize = 4;
 
 /// One contact point: a point of each object, in line along the normal.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -1,11 +1,15 @@
 //! The common part of two outlines, in one sweep from left to right: its corners are corners of one inside the other, and
 //! crossings. Time in proportion to the corners; nothing is stored.
+//!
+//! What is nearer than `coincident` is at one place: there a corner speaks for crossings, and the reference's corner for the
+//! other's. So sides that lie on each other have no crossings, which could be anywhere along them, and which of two aligned
+//! corners speaks does not hang on the last bit.
 
 use super::outline::{Chain, Outline};
 use crate::base::math::Vector;
 
 /// A corner of the common part.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Corner {
     /// A corner of one outline over the inside of the other.
     Vertex {
@@ -13,47 +17,50 @@ pub enum Corner {
         body: usize,
         /// Which.
         corner: usize,
-        /// Where.
-        spot: Vector,
     },
     /// Two sides that cross.
     Crossing {
         /// The sides.
         sides: [usize; 2],
-        /// Where they are.
-        spots: [Vector; 2],
-        /// By how much the gap may be off, where they cross at a small angle.
-        error: f64,
     },
 }
 
-impl Corner {
-    /// Where it is across the normal.
-    pub fn place(&self) -> Vector {
-        match self {
-            Corner::Vertex { spot, .. } => *spot,
-            Corner::Crossing { spots, .. } => spots[0],
-        }
-    }
+/// A corner of the common part, and where it is.
+#[derive(Debug, Clone, Copy)]
+pub struct Spot {
+    pub corner: Corner,
+    /// On either outline; of a vertex its own, twice.
+    pub spots: [Vector; 2],
+    /// By how much the gap may be off, where sides cross at a small angle.
+    pub error: f64,
 }
 
-/// The last corners, since the same place may come up as several.
-const REMEMBERED: usize = 8;
+/// How exact the sweep is.
+#[derive(Debug, Clone, Copy)]
+pub struct Precision {
+    /// What rounding makes of a length.
+    pub rounding: f64,
+    /// What is nearer than this is at one place; much more than the rounding.
+    pub coincident: f64,
+    /// The body, 0 or 1, whose corners speak first.
+    pub reference: usize,
+}
 
-/// Calls `visit` with each corner of the common part of two outlines; of several at one place, up to `rounding`, the first.
-pub fn common_part(outlines: &[Outline; 2], rounding: f64, mut visit: impl FnMut(&Corner)) {
+/// Calls `visit` with each corner of the common part of two outlines; of several at one place, with one.
+pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: impl FnMut(&Spot)) {
     let mut chains = outlines.each_ref().map(Outline::chains);
-    let mut recent = Recent { places: [[f64::INFINITY; 2]; REMEMBERED], oldest: 0, rounding };
+    let mut recent = Recent { spots: [None; REMEMBERED], precision };
     // The next event of each chain, first its leftmost corner.
     let mut pending = [[true; 2]; 2];
     while let Some([body, side]) = next_event(&chains, &pending) {
         let chain = chains[body][side];
+        recent.pass(chain.to.x, &mut visit);
         // Both chains meet at either end: there the lower one speaks.
         let is_end = !chain.has_begun || chain.segments == 0;
         let other = &chains[1 - body];
-        if (side == 0 || !is_end) && is_between(other, &chain.to, rounding) {
-            let corner = Corner::Vertex { body, corner: chain.corner, spot: chain.to };
-            recent.report(&corner, &mut visit);
+        if (side == 0 || !is_end) && is_between(other, &chain.to, precision) {
+            let corner = Corner::Vertex { body, corner: chain.corner };
+            recent.report(Spot { corner, spots: [chain.to; 2], error: 0.0 }, &mut visit);
         }
         pending[body][side] = chains[body][side].advance();
         if pending[body][side] {
@@ -63,12 +70,13 @@ pub fn common_part(outlines: &[Outline; 2], rounding: f64, mut visit: impl FnMut
                 } else {
                     [&chains[0][other], &chains[1][side]]
                 };
-                if let Some(crossing) = crossing(both, rounding) {
-                    recent.report(&crossing, &mut visit);
+                if let Some(crossing) = crossing(both, precision) {
+                    recent.report(crossing, &mut visit);
                 }
             }
         }
     }
+    recent.pass(f64::INFINITY, &mut visit);
 }
 
 /// The chain whose event is the leftmost one to come.
@@ -84,15 +92,17 @@ fn next_event(chains: &[[Chain; 2]; 2], pending: &[[bool; 2]; 2]) -> Option<[usi
     next.map(|(event, _)| event)
 }
 
-/// Whether a place lies between two chains.
-fn is_between([lower, upper]: &[Chain; 2], place: &Vector, rounding: f64) -> bool {
-    let (low, high) = (lower.at(place.x), upper.at(place.x));
-    let is_over = (low.x - place.x).abs() <= rounding && (high.x - place.x).abs() <= rounding;
-    is_over && place.y >= low.y - rounding && place.y <= high.y + rounding
+/// Whether a place lies between two chains, or at one.
+fn is_between(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> bool {
+    let [low, high] = [0, 1].map(|side| chains[side].at(place.x));
+    let off = (low.x - place.x).abs().max((high.x - place.x).abs());
+    let is_over = off <= precision.rounding && place.y >= low.y && place.y <= high.y;
+    is_over || chains.iter().any(|chain| chain.is_near(place, precision.coincident))
 }
 
-/// Where the segments of two chains cross, if they do.
-fn crossing(chains: [&Chain; 2], rounding: f64) -> Option<Corner> {
+/// Where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end
+/// [is between](is_between) the other's chains.
+fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     let [first, second] = chains;
     if !(first.has_begun && second.has_begun) {
         return None;
@@ -108,35 +118,72 @@ fn crossing(chains: [&Chain; 2], rounding: f64) -> Option<Corner> {
     if !((before > 0.0 && after < 0.0) || (before < 0.0 && after > 0.0)) {
         return None;
     }
+    let (begun, other) = if first.from.x > second.from.x { (first, second) } else { (second, first) };
+    let (ended, another) = if first.to.x < second.to.x { (first, second) } else { (second, first) };
+    let coincident = precision.coincident;
+    if other.is_near(&begun.from, coincident) || another.is_near(&ended.to, coincident) {
+        return None;
+    }
     let share = before / (before - after);
     let spots = [0, 1].map(|i| begin[i] + (end[i] - begin[i]) * share);
     // Where along the segments they cross is off by the rounding over how fast they part.
-    let off = (2.0 * rounding / (before - after).abs()).min(1.0);
+    let off = (2.0 * precision.rounding / (before - after).abs()).min(1.0);
     let gaps = [begin[0].z - begin[1].z, end[0].z - end[1].z];
-    Some(Corner::Crossing { sides: [first.side(), second.side()], spots, error: off * (gaps[0] - gaps[1]).abs() })
+    let corner = Corner::Crossing { sides: [first.side(), second.side()] };
+    Some(Spot { corner, spots, error: off * (gaps[0] - gaps[1]).abs() })
 }
 
-/// What came last.
-struct Recent {
-    places: [[f64; 2]; REMEMBERED],
-    oldest: usize,
-    rounding: f64,
+/// Corners that are told later, as another at the same place may speak for them.
+struct Recent<'a> {
+    spots: [Option<Spot>; REMEMBERED],
+    precision: &'a Precision,
 }
 
-impl Recent {
-    fn report(&mut self, corner: &Corner, visit: &mut impl FnMut(&Corner)) {
-        let place = corner.place();
-        let most = 4.0 * self.rounding;
-        // `hypot` takes longer than the rest of a corner, and few are as near as to need it.
-        let is_near = |known: &[f64; 2]| {
-            let (x, y) = (known[0] - place.x, known[1] - place.y);
-            x.abs() <= most && y.abs() <= most && x.hypot(y) <= most
+/// There are at most four crossings to the right of the sweep, one of each pair of chains, and few corners at one place.
+const REMEMBERED: usize = 8;
+
+impl Recent<'_> {
+    /// How far apart corners are at most that are one: about where rounding, or noise, may put two that are at one place.
+    fn reach(&self) -> f64 {
+        4.0 * self.precision.coincident
+    }
+
+    fn rank(&self, spot: &Spot) -> usize {
+        match spot.corner {
+            Corner::Vertex { body, .. } if body == self.precision.reference => 0,
+            Corner::Vertex { .. } => 1,
+            Corner::Crossing { .. } => 2,
+        }
+    }
+
+    fn report(&mut self, spot: Spot, visit: &mut impl FnMut(&Spot)) {
+        let (place, reach) = (spot.spots[0], self.reach());
+        let is_near = |known: &Option<Spot>| {
+            known.is_some_and(|known| {
+                let (x, y) = (known.spots[0].x - place.x, known.spots[0].y - place.y);
+                x.abs() <= reach && y.abs() <= reach
+            })
         };
-        if self.places.iter().any(is_near) {
+        if let Some(at) = self.spots.iter().position(is_near) {
+            if self.spots[at].is_some_and(|known| self.rank(&spot) < self.rank(&known)) {
+                self.spots[at] = Some(spot);
+            }
             return;
         }
-        self.places[self.oldest] = [place.x, place.y];
-        self.oldest = (self.oldest + 1) % REMEMBERED;
-        visit(corner);
+        let x_of = |at: &usize| self.spots[*at].map_or(f64::NEG_INFINITY, |known| known.spots[0].x);
+        let leftmost = (0..REMEMBERED).reduce(|a, b| if x_of(&b) < x_of(&a) { b } else { a }).unwrap_or(0);
+        if let Some(known) = self.spots[leftmost].replace(spot) {
+            visit(&known);
+        }
+    }
+
+    /// Tells of what lies left of all that is to come.
+    fn pass(&mut self, x: f64, visit: &mut impl FnMut(&Spot)) {
+        let reach = self.reach();
+        for spot in self.spots.iter_mut() {
+            if let Some(known) = spot.take_if(|known| known.spots[0].x < x - reach) {
+                visit(&known);
+            }
+        }
     }
 }

@@ -1,5 +1,6 @@
-//! The outline of a face seen along the normal of a contact, or of a body that has no faces.
+//! The outline of a patch seen along the normal of a contact, or of a body that has no faces.
 
+use super::patch::Patch;
 use crate::base::math::{Matrix, Pose, Vector, divisor};
 use crate::polyhedron::Polyhedron;
 
@@ -28,7 +29,8 @@ impl Axes {
         self.across[0] * spot.x + self.across[1] * spot.y + self.normal * spot.z
     }
 
-    fn spot(&self, point: &Vector) -> Vector {
+    /// The coordinates of a point of the world.
+    pub fn spot(&self, point: &Vector) -> Vector {
         Vector::new(self.across[0].dot(point), self.across[1].dot(point), self.normal.dot(point))
     }
 }
@@ -39,7 +41,25 @@ fn least_axis(v: &Vector) -> Vector {
     axis
 }
 
-/// A polygon of a placed body: a face, or the segment or point that the body is. Everything is measured from the centred origin of
+/// A side of a patch, as a vector in its body's frame; 0 without a patch.
+pub fn first_side(polyhedron: &Polyhedron, patch: Option<Patch>) -> Vector {
+    let between = |[tail, head]: [u32; 2]| {
+        polyhedron.vertices[head as usize].position - polyhedron.vertices[tail as usize].position
+    };
+    match patch {
+        Some(Patch::Merged(face)) => {
+            let edge = &polyhedron.edges[polyhedron.faces[face as usize].first_sides[0] as usize];
+            between([edge.tail(), edge.head()])
+        }
+        Some(Patch::Contact(face)) => {
+            let first = polyhedron.contact_faces.faces[face as usize].first_corner as usize;
+            between([polyhedron.contact_faces.corners[first], polyhedron.contact_faces.corners[first + 1]])
+        }
+        None => Vector::zeros(),
+    }
+}
+
+/// A polygon of a placed body: a patch, or the segment or point that the body is. Everything is measured from the centred origin of
 /// body 2.
 pub struct Outline<'a> {
     pub polyhedron: &'a Polyhedron,
@@ -47,14 +67,14 @@ pub struct Outline<'a> {
     /// Where the body's own centred origin is.
     pub offset: Vector,
     pub axes: &'a Axes,
-    /// The face; `None` for a body without faces.
-    pub face: Option<u32>,
+    /// `None` for a body without faces.
+    pub patch: Option<Patch>,
     pub count: usize,
     /// Whether its corners go around counter-clockwise, seen against the normal.
     is_counter_clockwise: bool,
     /// R⁻¹.
     inverse: Option<Matrix>,
-    /// The face's normal up to its length, in the axes of the contact.
+    /// The patch's normal up to its length, in the axes of the contact.
     normal: Option<Vector>,
 }
 
@@ -64,76 +84,107 @@ impl<'a> Outline<'a> {
         pose: &'a Pose,
         offset: Vector,
         axes: &'a Axes,
-        face: Option<u32>,
+        patch: Option<Patch>,
     ) -> Outline<'a> {
-        let count = match face {
-            Some(face) => polyhedron.faces[face as usize].side_count as usize,
+        let count = match patch {
+            Some(Patch::Merged(face)) => polyhedron.faces[face as usize].side_count as usize,
+            Some(Patch::Contact(face)) => polyhedron.contact_faces.faces[face as usize].corner_count as usize,
             None => polyhedron.vertices.len().min(2),
         };
         let inverse = pose.rotation().try_inverse();
         // In the world it is (R⁻¹)ᵀ·n, which is R·n where R is orthonormal up to rounding.
-        let normal_of = |face: u32| {
-            inverse.map(|inverse| axes.spot(&(inverse.transpose() * polyhedron.faces[face as usize].normal)))
-        };
-        let normal = face.and_then(normal_of);
-        let is_counter_clockwise = true;
-        let mut outline =
-            Outline { polyhedron, pose, offset, axes, face, count, is_counter_clockwise, inverse, normal };
-        outline.is_counter_clockwise = outline.facing() >= 0.0;
-        outline
-    }
-
-    /// The cosine between the face's normal and the contact's; 0 without a face.
-    pub fn facing(&self) -> f64 {
-        let Some(face) = self.face else { return 0.0 };
-        let towards = self.pose.rotate_back(&self.axes.normal);
-        self.polyhedron.faces[face as usize].normal.dot(&towards)
+        let normal_of =
+            |patch: Patch| inverse.map(|inverse| axes.spot(&(inverse.transpose() * patch.normal(polyhedron))));
+        let normal = patch.and_then(normal_of);
+        let towards = pose.rotate_back(&axes.normal);
+        let is_counter_clockwise = patch.is_none_or(|patch| patch.normal(polyhedron).dot(&towards) >= 0.0);
+        Outline { polyhedron, pose, offset, axes, patch, count, is_counter_clockwise, inverse, normal }
     }
 
     /// The vertex at a corner.
     pub fn vertex(&self, corner: usize) -> u32 {
-        let Some(face) = self.face else { return corner as u32 };
-        let record = &self.polyhedron.faces[face as usize];
-        let edge = &self.polyhedron.edges[self.polyhedron.side(record, corner as u32) as usize];
-        if edge.left() == face { edge.tail() } else { edge.head() }
+        match self.patch {
+            Some(Patch::Merged(face)) => {
+                let record = &self.polyhedron.faces[face as usize];
+                let edge = &self.polyhedron.edges[self.polyhedron.side(record, corner as u32) as usize];
+                if edge.left() == face { edge.tail() } else { edge.head() }
+            }
+            Some(Patch::Contact(face)) => {
+                let contact = &self.polyhedron.contact_faces;
+                contact.corners[contact.faces[face as usize].first_corner as usize + corner]
+            }
+            None => corner as u32,
+        }
     }
 
-    /// Where a corner is: two coordinates across the normal, and the height along it.
+    /// Where a corner is: two coordinates across the normal, and the height along it. Corners of a contact face are put into the
+    /// plane in the middle of its slab, along its own normal: seen from anywhere they are a convex polygon.
     pub fn spot(&self, corner: usize) -> Vector {
-        let position = self.polyhedron.vertices[self.vertex(corner) as usize].position;
+        let mut position = self.polyhedron.vertices[self.vertex(corner) as usize].position;
+        if let Some(Patch::Contact(face)) = self.patch {
+            let face = &self.polyhedron.contact_faces.faces[face as usize];
+            position -= face.normal * (face.normal.dot(&position) - face.middle);
+        }
         self.axes.spot(&(self.pose.rotate(&position) + self.offset))
     }
 
     /// The caller's indices of the ends of the side from a corner to the next.
     pub fn side_labels(&self, side: usize) -> [u32; 2] {
-        match self.face {
-            Some(face) => {
+        let label = |corner: usize| self.polyhedron.vertex_labels[self.vertex(corner) as usize];
+        match self.patch {
+            Some(Patch::Merged(face)) => {
                 let record = &self.polyhedron.faces[face as usize];
                 self.polyhedron.edges[self.polyhedron.side(record, side as u32) as usize].labels
             }
-            None => [self.polyhedron.vertex_labels[0], self.polyhedron.vertex_labels[self.count - 1]],
+            Some(Patch::Contact(_)) => [label(side), label((side + 1) % self.count)],
+            None => [label(0), label(self.count - 1)],
         }
     }
 
-    /// How high it is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a face on
+    /// The thickness of the slab that the patch stands for; 0 of a merged face, whose corners are exact.
+    pub fn thickness(&self) -> f64 {
+        match self.patch {
+            Some(Patch::Contact(face)) => 2.0 * self.polyhedron.contact_faces.faces[face as usize].slack,
+            _ => 0.0,
+        }
+    }
+
+    /// How far the surface is from its corners and sides along the contact's normal, at most: of a slab half its thickness over the
+    /// cosine; infinite of a slab on edge. A plane that is moved by δ along its unit normal n moves by δ/((R⁻¹)ᵀn)_z along z,
+    /// whatever R is.
+    pub fn slack(&self) -> f64 {
+        match (self.patch, self.normal) {
+            (Some(Patch::Contact(_)), Some(normal)) if normal.z.abs() > STEEPEST => {
+                0.5 * self.thickness() / normal.z.abs()
+            }
+            (Some(Patch::Contact(_)), _) => f64::INFINITY,
+            _ => 0.0,
+        }
+    }
+
+    /// How high it is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a patch on
     /// edge.
     pub fn height_at(&self, x: f64, y: f64, rounding: f64) -> Option<(f64, f64)> {
-        let Some(face) = self.face else {
+        let Some(patch) = self.patch else {
             let (from, to) = (self.spot(0), self.spot(self.count - 1));
             let along = to - from;
             let share =
                 ((x - from.x) * along.x + (y - from.y) * along.y) / divisor(along.x * along.x + along.y * along.y);
             return Some((from.z + along.z * share.clamp(0.0, 1.0), rounding));
         };
-        let face = &self.polyhedron.faces[face as usize];
         let normal = self.normal?;
         if !(normal.z.abs() > STEEPEST * normal.norm()) {
             return None;
         }
         let corner = self.spot(0);
         let rise = (normal.x * (x - corner.x) + normal.y * (y - corner.y)) / normal.z;
-        let error = (face.slack + rounding) * normal.norm() / normal.z.abs();
-        Some((corner.z - rise, 2.0 * error))
+        // Off by that of the corner it is measured from and by its own.
+        let slack = match patch {
+            Patch::Merged(face) => self.polyhedron.faces[face as usize].slack,
+            Patch::Contact(_) => 0.0,
+        };
+        let error = 2.0 * (slack + rounding) * normal.norm() / normal.z.abs();
+        Some((corner.z - rise, error + self.slack()))
     }
 
     /// A point in the body's frame, in centred coordinates.
@@ -170,7 +221,7 @@ impl<'a> Outline<'a> {
     }
 }
 
-/// A face whose normal is flatter to the contact's than this has no height over a point.
+/// A patch whose normal is flatter to the contact's than this has no height over a point.
 const STEEPEST: f64 = 1e-3;
 
 /// One side of an outline, from its leftmost corner to its rightmost.
@@ -205,6 +256,16 @@ impl Chain<'_> {
     /// The side that the segment is.
     pub fn side(&self) -> usize {
         if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
+    }
+
+    /// Whether a place is within a distance of the segment, across the normal.
+    pub fn is_near(&self, place: &Vector, distance: f64) -> bool {
+        let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
+        // No squares, which would underflow where lengths do not.
+        let length = along.x.hypot(along.y);
+        let direction = along / divisor(length);
+        let rest = arm - direction * arm.dot(&direction).clamp(0.0, length);
+        rest.x.abs() <= distance && rest.y.abs() <= distance && rest.x.hypot(rest.y) <= distance
     }
 
     /// The segment's point over a first coordinate.

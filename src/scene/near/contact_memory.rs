@@ -26,7 +26,7 @@ struct Remembered {
 
 const NO_DEPTH: u32 = u32::MAX;
 
-const NOTHING: Remembered = Remembered { reference: [0; 2], depth: NO_DEPTH };
+const NOTHING: Remembered = Remembered { reference: Reference::NONE, depth: NO_DEPTH };
 
 impl ContactMemory {
     /// Room for so many pairs.

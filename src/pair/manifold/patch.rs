@@ -1,0 +1,81 @@
+//! The patch of a body that looks towards the other: a merged face, or what contact faces make of several.
+
+use crate::base::math::{Pose, Vector};
+use crate::pair::contact::faces_at;
+use crate::polyhedron::{FacePart, Polyhedron};
+use crate::tables;
+
+/// A polygon that a manifold is made over.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Patch {
+    /// A merged face.
+    Merged(u32),
+    /// A contact face.
+    Contact(u32),
+}
+
+impl Patch {
+    /// The patch of a number, if there is one: merged faces come first.
+    fn of_number(polyhedron: &Polyhedron, number: u32) -> Option<Patch> {
+        match number.checked_sub(polyhedron.faces.len() as u32) {
+            None => Some(Patch::Merged(number)),
+            Some(face) => polyhedron.contact_faces.faces.get(face as usize).map(|_| Patch::Contact(face)),
+        }
+    }
+
+    /// Its number.
+    pub fn number(self, polyhedron: &Polyhedron) -> u32 {
+        match self {
+            Patch::Merged(face) => face,
+            Patch::Contact(face) => polyhedron.faces.len() as u32 + face,
+        }
+    }
+
+    /// The unit outward normal.
+    pub fn normal(self, polyhedron: &Polyhedron) -> &Vector {
+        match self {
+            Patch::Merged(face) => &polyhedron.faces[face as usize].normal,
+            Patch::Contact(face) => &polyhedron.contact_faces.faces[face as usize].normal,
+        }
+    }
+
+    /// The caller's polygon that it goes by: of several the lowest, as which of them holds a point may change while it stays.
+    pub fn label(self, polyhedron: &Polyhedron) -> u32 {
+        match self {
+            Patch::Merged(face) => polyhedron.labels_of_face(face).first().copied().unwrap_or(0),
+            Patch::Contact(face) => polyhedron.contact_faces.faces[face as usize].label,
+        }
+    }
+}
+
+/// A patch that looks towards the other body.
+#[derive(Debug, Clone, Copy)]
+pub struct Facing {
+    pub patch: Patch,
+    /// The cosine between its normal and the direction towards the other body.
+    pub parallel: f64,
+}
+
+/// The patch most parallel to a direction, which is in the world, of those at the vertex that reaches farthest along it; the last
+/// one, if it is as parallel up to `sticky`. `None` of bodies without faces.
+pub fn facing(
+    polyhedron: &Polyhedron,
+    pose: &Pose,
+    direction: &Vector,
+    last: Option<u32>,
+    sticky: f64,
+) -> Option<Facing> {
+    let towards = pose.rotate_back(direction);
+    let cosine = |patch: Patch| Facing { patch, parallel: patch.normal(polyhedron).dot(&towards) };
+    let first = polyhedron.edges.first()?.tail();
+    let (vertex, _) = polyhedron.support(&towards, tables::farthest(polyhedron, &towards).unwrap_or(first));
+    let contact = &polyhedron.contact_faces;
+    let merged = || polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
+    let whole = merged().filter(|face| contact.part(*face) == FacePart::Whole);
+    let sound = contact.at(vertex).map(Patch::Contact).chain(whole.map(Patch::Merged));
+    let better = |a: Facing, b: Facing| if b.parallel > a.parallel { b } else { a };
+    // Where there are only slivers they have to do.
+    let best = sound.map(cosine).reduce(better).or_else(|| merged().map(Patch::Merged).map(cosine).reduce(better))?;
+    let last = last.and_then(|number| Patch::of_number(polyhedron, number)).map(cosine);
+    Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
+}
