@@ -31,6 +31,8 @@ static void defaults()
     check_defaults(SceneOptions{}.to_c(), swiftprox_scene_options_init_sized);
     check_defaults(ObjectOptions{}.to_c(), swiftprox_object_options_init_sized);
     check_defaults(SceneQuery{}.to_c(), swiftprox_scene_query_init_sized);
+    check_defaults(CastConfig{}.to_c(), swiftprox_cast_config_init_sized);
+    check_defaults(ClearanceConfig{}.to_c(), swiftprox_clearance_config_init_sized);
     check_defaults(ShapeTuning{}.to_c(), swiftprox_shape_tuning_init_sized);
     check_defaults(PairTuning{}.to_c(), swiftprox_pair_tuning_init_sized);
     swiftprox_shape_tuning tuning;
@@ -152,6 +154,35 @@ static void pairs()
     CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
     CHECK(swiftprox::try_distance({box, Pose(std::array<double, 12>{})}, {box, here}, cache).status == SWIFTPROX_ERROR_POSE);
     CHECK(swiftprox::try_distance({Shape(), here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
+}
+
+/* A cube that flies at another: contact at time 2/3, where the gap of 2 is closed at a speed of 3. */
+static void motions()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    swiftprox_motion still{};
+    still.kind = SWIFTPROX_MOTION_KIND_FIXED;
+    for (std::size_t i = 0; i < 12; ++i) {
+        still.start[i] = Pose().rows()[i];
+    }
+    const auto flight = swiftprox::try_motion_between(Pose::at(3, 0.1, 0), Pose::at(0, 0.1, 0), {0, 0, 0}, 1);
+    CHECK(flight && flight.value.end_error < 1e-12);
+    swiftprox::PairCache cache;
+    const auto hit = swiftprox::try_cast({box, still}, {box, flight.value.motion}, cache);
+    CHECK(hit && hit.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+    CHECK(hit.value.t_lo <= 2.0 / 3 && 2.0 / 3 <= hit.value.t_hi && hit.value.t_hi - hit.value.t_lo <= 1e-8);
+    CHECK_OK(swiftprox::try_cast_verify({box, still}, {box, flight.value.motion}, hit.value).status);
+    swiftprox_cast_answer forged = hit.value;
+    forged.t_lo = 0.7;
+    forged.t_hi = 0.7;
+    CHECK(swiftprox::try_cast_verify({box, still}, {box, flight.value.motion}, forged).status == SWIFTPROX_ERROR_UNVERIFIED);
+    const auto past = swiftprox::try_motion_between(Pose::at(3, 2, 0), Pose::at(0, 2, 0), {0, 0, 0}, 1);
+    const auto clearance = swiftprox::try_clearance({box, still}, {box, past.value.motion}, cache);
+    CHECK(clearance && clearance.value.lower <= 1 && 1 <= clearance.value.upper && clearance.value.lower > 0.98);
+    CHECK(std::strlen(swiftprox::to_string(hit.value.outcome)) > 0);
+    const std::array<double, 6> written{0.125, 0.25, 0.5, 1.123, 2.25, 3.5};
+    CHECK(swiftprox::try_estimate_tolerance(written).value > 1e-9);
 }
 
 static void scenes(const std::string &folder)
@@ -293,6 +324,7 @@ int main(int argc, char **argv)
     poses();
     shapes();
     pairs();
+    motions();
     scenes(folder);
     mesh_readers(folder);
 #if SWIFTPROX_HAS_EXCEPTIONS

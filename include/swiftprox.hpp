@@ -16,6 +16,7 @@
 #define SWIFTPROX_HPP
 
 #include "swiftprox/library.hpp"
+#include "swiftprox/motion.hpp"
 #include "swiftprox/pair.hpp"
 #include "swiftprox/pose.hpp"
 #include "swiftprox/scene.hpp"

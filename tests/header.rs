@@ -20,10 +20,10 @@ const SOURCES: [&str; 15] = [
     "src/pair/manifold/answer.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",
-    "src/scene/object.rs",
-    "src/scene/query.rs",
-    "src/scene/statistics.rs",
-    "src/scene/events.rs",
+    "src/scene/world/object.rs",
+    "src/scene/search/query.rs",
+    "src/scene/search/statistics.rs",
+    "src/scene/search/events.rs",
 ];
 
 /// What stands before the declarations of swiftprox.h.

@@ -25,7 +25,7 @@ bool run_load(char *const files[3], struct run *run)
 {
     *run = (struct run){0};
     return run_load_body(files[0], &run->bodies[0]) && run_load_body(files[1], &run->bodies[1]) &&
-           pose_list_read(files[2], SIZE_MAX, &run->poses);
+           pose_list_read(files[2], 1, SIZE_MAX, &run->poses);
 }
 
 void run_free(struct run *run)

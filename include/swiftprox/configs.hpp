@@ -83,6 +83,7 @@ struct ShapeOptions {
     std::array<double, 3> translation{};
     double scale = 1;
     double convexity_tolerance = -1;
+    double face_noise = -1;
     Progress progress{};
     ShapeTuning tuning{};
 
@@ -100,6 +101,7 @@ struct ShapeOptions {
         }
         c.scale = scale;
         c.convexity_tolerance = convexity_tolerance;
+        c.face_noise = face_noise;
         c.progress = detail::callback_of(progress);
         c.progress_user = detail::user_of(progress);
         tuning_in_c = tuning.to_c();
@@ -161,6 +163,46 @@ struct ManifoldConfig {
         c.rotation_limit = rotation_limit;
         c.margin = margin;
         c.reduces = reduces ? 1 : 0;
+        return c;
+    }
+};
+
+struct CastConfig {
+    double t_begin = 0;
+    double t_end = 1;
+    double time_tolerance = 1e-9;
+    double margin = 0;
+    std::uint32_t step_budget = 100000;
+
+    swiftprox_cast_config to_c() const noexcept
+    {
+        swiftprox_cast_config c{};
+        c.struct_size = sizeof c;
+        c.t_begin = t_begin;
+        c.t_end = t_end;
+        c.time_tolerance = time_tolerance;
+        c.margin = margin;
+        c.step_budget = step_budget;
+        return c;
+    }
+};
+
+struct ClearanceConfig {
+    double t_begin = 0;
+    double t_end = 1;
+    double absolute_error = 0;
+    double relative_error = 0.01;
+    std::uint32_t step_budget = 100000;
+
+    swiftprox_clearance_config to_c() const noexcept
+    {
+        swiftprox_clearance_config c{};
+        c.struct_size = sizeof c;
+        c.t_begin = t_begin;
+        c.t_end = t_end;
+        c.absolute_error = absolute_error;
+        c.relative_error = relative_error;
+        c.step_budget = step_budget;
         return c;
     }
 };

@@ -200,6 +200,20 @@ class Shape
     const swiftprox_shape *shape_ = nullptr;
 };
 
+/** How far a vertex may lie outside a face by the precision of the coordinates, relative to the bounding box's diagonal. */
+inline Result<double> try_estimate_tolerance(Range<const double> vertices) noexcept
+{
+    return detail::asked<double>([&](double *tolerance) {
+        return swiftprox_mesh_estimate_tolerance(vertices.data(), vertices.size() / 3, tolerance);
+    });
+}
+#if SWIFTPROX_HAS_EXCEPTIONS
+inline double estimate_tolerance(Range<const double> vertices)
+{
+    return take(try_estimate_tolerance(vertices));
+}
+#endif
+
 } // namespace swiftprox
 
 #endif

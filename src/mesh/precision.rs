@@ -7,26 +7,29 @@ use crate::base::math::Vector;
 /// Doubles that went through text have fewer significant digits; what a program computes has nearly always as many.
 const FULL_DIGITS: usize = 15;
 
+/// … and floats.
+const FULL_DIGITS_OF_FLOATS: usize = 8;
+
 /// The last place of the coarsest coordinates: the largest distance between two neighbours among the numbers that they could have
 /// been. A coordinate that was rounded is off by half of it at most. 0 where all are 0.
 ///
 /// Text of k decimals has its longest numbers in one decade only, since each decade less costs a digit. Longest numbers in two
 /// decades are significant digits, of which the largest coordinates have the coarsest place. Both count in shortest form: of floats
-/// the shortest that gives the float back.
+/// the shortest that gives the float back. Few numbers may end in zeros that are not written: the place is then taken for coarser.
 pub fn coordinate_unit(points: &[Vector]) -> f64 {
     let coordinates = || points.iter().flat_map(|point| point.iter().copied()).filter(|x| *x != 0.0);
     let largest = coordinates().fold(0.0, |largest: f64, x| largest.max(x.abs()));
     // Of the binade that holds the largest.
     let power = f64::from_bits(largest.to_bits() >> 52 << 52);
     if coordinates().all(|x| f64::from(x as f32) == x) {
-        text_unit(coordinates().map(|x| x as f32)).max(power * f64::from(f32::EPSILON))
+        text_unit(coordinates().map(|x| x as f32), FULL_DIGITS_OF_FLOATS).max(power * f64::from(f32::EPSILON))
     } else {
-        text_unit(coordinates()).max(power * f64::EPSILON)
+        text_unit(coordinates(), FULL_DIGITS).max(power * f64::EPSILON)
     }
 }
 
-/// The last place of decimal text; 0 where there are as many digits as a double has, or no numbers.
-fn text_unit(numbers: impl Iterator<Item = impl LowerExp>) -> f64 {
+/// The last place of decimal text; 0 where there are as many digits as a computed number has, or no numbers.
+fn text_unit(numbers: impl Iterator<Item = impl LowerExp>, full_digits: usize) -> f64 {
     let mut room = String::new();
     let mut top = i32::MIN;
     let mut longest = 0;
@@ -34,7 +37,7 @@ fn text_unit(numbers: impl Iterator<Item = impl LowerExp>) -> f64 {
     let mut decades = (0, 0);
     for number in numbers {
         let (digits, decade) = shortest_form(number, &mut room);
-        if digits >= FULL_DIGITS {
+        if digits >= full_digits {
             return 0.0;
         }
         top = top.max(decade);
@@ -74,7 +77,7 @@ mod tests {
 
     #[test]
     fn decimals_are_found_whichever_coordinates_show_them() {
-        assert!(is_about(unit_of([0.123, -0.5, 12.25]), 1e-3));
+        assert!(is_about(unit_of([0.123, -0.5, 12.253]), 1e-3));
         assert!(is_about(unit_of([10.0, -10.0, 9.876]), 1e-3), "the largest show none");
         assert!(is_about(unit_of([0.00012, 0.5, 3.0]), 1e-5));
         assert!(is_about(unit_of([250.0, 125.0, -1000.0]), 1.0));

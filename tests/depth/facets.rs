@@ -96,8 +96,10 @@ fn depths_of_scaled_and_skewed_solids_hold() {
             Pose::new(&turn, &(far + random.direction() * (moved * scale * random.uniform(0.0, 1.5))))
         });
         let answer = check([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut DepthCache::default());
-        overlapping += usize::from(answer.lower > 0.0);
-        by_facets += usize::from(answer.lower > 0.0 && answer.statistics.triangles == 0);
+        // Beyond 2^±100 a polytope is searched, of copies.
+        let counts = answer.lower > 0.0 && scale.log2().abs() < 100.0;
+        overlapping += usize::from(counts);
+        by_facets += usize::from(counts && answer.statistics.triangles == 0);
     }
     println!("{overlapping} overlap, {by_facets} by facets");
     assert!(overlapping > 500 && 2 * by_facets > overlapping, "{overlapping} {by_facets}");

@@ -1,0 +1,73 @@
+/* Pairs that move: casts, their check, and clearances. */
+#ifndef SWIFTPROX_MOTION_HPP
+#define SWIFTPROX_MOTION_HPP
+
+#include "pair.hpp"
+
+namespace swiftprox
+{
+
+/** A motion between two poses, and how far its end is from the second. */
+struct MotionBetween {
+    swiftprox_motion motion{};
+    double end_error = 0;
+};
+
+/** A shape and how it moves, for the time of a call. */
+struct Moving {
+    const Shape &shape;
+    const swiftprox_motion &motion;
+};
+
+/** `centre` is in the object's frame, no point of the object farther from it than `reach`. */
+inline Result<MotionBetween> try_motion_between(const Pose &pose1, const Pose &pose2, const std::array<double, 3> &centre,
+                                                double reach) noexcept
+{
+    Result<MotionBetween> result;
+    result.status = swiftprox_motion_between(pose1.data(), pose2.data(), centre.data(), reach, &result.value.motion,
+                                             &result.value.end_error);
+    return result;
+}
+inline Result<swiftprox_cast_answer> try_cast(Moving a, Moving b, PairCache &cache, const CastConfig &config = {}) noexcept
+{
+    const swiftprox_cast_config c = config.to_c();
+    Result<swiftprox_cast_answer> result;
+    result.status = swiftprox_pair_cast(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &cache, &c, &result.value);
+    return result;
+}
+/** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
+inline Result<void> try_cast_verify(Moving a, Moving b, const swiftprox_cast_answer &answer, const CastConfig &config = {}) noexcept
+{
+    const swiftprox_cast_config c = config.to_c();
+    return detail::status(swiftprox_cast_verify(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &c, &answer));
+}
+inline Result<swiftprox_clearance> try_clearance(Moving a, Moving b, PairCache &cache, const ClearanceConfig &config = {}) noexcept
+{
+    const swiftprox_clearance_config c = config.to_c();
+    Result<swiftprox_clearance> result;
+    result.status = swiftprox_pair_clearance(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &cache, &c, &result.value);
+    return result;
+}
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+inline MotionBetween motion_between(const Pose &pose1, const Pose &pose2, const std::array<double, 3> &centre, double reach)
+{
+    return take(try_motion_between(pose1, pose2, centre, reach));
+}
+inline swiftprox_cast_answer cast(Moving a, Moving b, PairCache &cache, const CastConfig &config = {})
+{
+    return take(try_cast(a, b, cache, config));
+}
+inline void cast_verify(Moving a, Moving b, const swiftprox_cast_answer &answer, const CastConfig &config = {})
+{
+    take(try_cast_verify(a, b, answer, config));
+}
+inline swiftprox_clearance clearance(Moving a, Moving b, PairCache &cache, const ClearanceConfig &config = {})
+{
+    return take(try_clearance(a, b, cache, config));
+}
+#endif
+
+} // namespace swiftprox
+
+#endif
