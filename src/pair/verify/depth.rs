@@ -168,7 +168,8 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
             return Ok(());
         }
     }
-    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, bounds.in_units(lower))) {
+    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, bounds.in_units(lower)))
+    {
         return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
