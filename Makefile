@@ -12,6 +12,7 @@
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
 # make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
+# make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -43,7 +44,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths steps charts cases hard clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -149,6 +150,14 @@ depths:
 	TIMED='$(TIMED)' scripts/depths.sh $(DEPTHS).csv $(DEPTHS)-failures.csv
 	$(DRAW) benches/plot.py $(DEPTHS).csv
 	$(DRAW) benches/plot.py $(DEPTHS)-failures.csv
+
+engines:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	-@scripts/require.sh /usr/include/bullet=libbullet-dev
+	. scripts/peers.sh
+	$(MAKE) build
+	for engine in mujoco bullet; do if [ -x $(BUILD)/examples/engines/$${engine}_compare ]; then \
+	    $(BUILD)/examples/engines/$${engine}_compare $(BUILD) || exit 1; fi; done
 
 steps:
 	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)

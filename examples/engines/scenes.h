@@ -1,5 +1,5 @@
-/* Scenes for rigid-body engines: stacks, a wall, an arch, a card house and a pile. All bodies are convex meshes given by points, each
- * turned in its own frame and rounded to float, as meshes come from files: their flat faces are flat only to float. */
+/* Scenes for rigid-body engines: stacks, a wall, an arch, a card house and a pile. All bodies are convex meshes given by points,
+ * each turned in its own frame and rounded to float, as meshes come from files: their flat faces are flat only to float. */
 #ifndef SWIFTPROX_EXAMPLES_ENGINES_SCENES_H
 #define SWIFTPROX_EXAMPLES_ENGINES_SCENES_H
 

@@ -36,8 +36,8 @@ fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
 }
 
 /// Two tips of bodies of size 1 are 5e-34 apart. Their difference is noise in double-double arithmetic: in some turns it lies on
-/// the wrong side of the origin, and a tetrahedron from it seems to surround the origin. Cut-off: determinants were taken for clear as
-/// if each column were right to u of itself, and an upper end passed where the bodies do not overlap along the normal.
+/// the wrong side of the origin, and a tetrahedron from it seems to surround the origin. Cut-off: determinants were taken for clear
+/// as if each column were right to u of itself, and an upper end passed where the bodies do not overlap along the normal.
 #[test]
 fn noise_does_not_surround_the_origin() {
     // The first tip is half a unit off the second, and so far the first body is moved: exactly.

@@ -1,5 +1,5 @@
-/* swiftprox as MuJoCo's collider of boxes and convex meshes. MuJoCo calls it by its table mjCOLLISIONFUNC, which the process has one
- * of, and which has no place for a pointer of the program's: so there is one collider, for one model, used by one thread. */
+/* swiftprox as MuJoCo's collider of boxes and convex meshes. MuJoCo calls it by its table mjCOLLISIONFUNC, of which a process has
+ * one, and which has no place for a pointer of the program's: so there is one collider, for one model, used by one thread. */
 #ifndef SWIFTPROX_EXAMPLES_MUJOCO_COLLIDER_H
 #define SWIFTPROX_EXAMPLES_MUJOCO_COLLIDER_H
 

@@ -17,7 +17,8 @@ const MOST_WORK: usize = 100_000;
 /// Pairs of edges beyond which it is not tried.
 const MOST_PAIRS: usize = 4_096;
 
-/// Whether the depth is at least `lower`, more than 0 and in units of the pair. It takes time in proportion to triangles times vertices.
+/// Whether the depth is at least `lower`, more than 0 and in units of the pair. It takes time in proportion to triangles times
+/// vertices.
 pub fn prove_lower(polyhedra: [&Polyhedron; 2], bounds: &Bounds, lower: f64) -> bool {
     let work = |i: usize| polyhedra[i].triangles.len() * polyhedra[1 - i].vertices.len();
     if polyhedra.iter().any(|polyhedron| polyhedron.dimension < 3) || work(0) + work(1) > MOST_WORK {
