@@ -251,7 +251,8 @@ fn choose_patches(bodies: [Placed; 2], contact: &Contact, last: &Reference) -> O
         let sticky = if last.body == i as u32 + 1 { STICKY } else { STICKY_INCIDENT };
         let direction = if i == 0 { -contact.normal } else { contact.normal };
         let last = (1..=2).contains(&last.body).then_some(last.patches[i]);
-        facing(bodies[i].shape.polyhedron(), bodies[i].pose, &direction, last, sticky)
+        let witness = Vector::from([contact.witness.local1, contact.witness.local2][i]);
+        facing(bodies[i], &direction, &witness, last, sticky)
     });
     let parallel = |i: usize| facing[i].map_or(-1.0, |facing| facing.parallel);
     let best = if parallel(1) > parallel(0) { 1 } else { 0 };

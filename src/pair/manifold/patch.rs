@@ -1,7 +1,9 @@
 //! The patch of a body that looks towards the other: a merged face, or what contact faces make of several.
 
-use crate::base::math::{Pose, Vector};
+use super::COINCIDENT;
+use crate::base::math::Vector;
 use crate::pair::contact::faces_at;
+use crate::pair::placed::Placed;
 use crate::polyhedron::{FacePart, Polyhedron};
 use crate::tables;
 
@@ -57,18 +59,13 @@ pub struct Facing {
 }
 
 /// The patch most parallel to a direction, which is in the world, of those at the vertex that reaches farthest along it; the last
-/// one, if it is as parallel up to `sticky`. `None` of bodies without faces.
-pub fn facing(
-    polyhedron: &Polyhedron,
-    pose: &Pose,
-    direction: &Vector,
-    last: Option<u32>,
-    sticky: f64,
-) -> Option<Facing> {
-    let towards = pose.rotate_back(direction);
+/// one, if it is as parallel up to `sticky`. The witness point, in the body's own frame, reaches as far. `None` of bodies without
+/// faces.
+pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u32>, sticky: f64) -> Option<Facing> {
+    let polyhedron = body.shape.polyhedron();
+    let towards = body.pose.rotate_back(direction);
     let cosine = |patch: Patch| Facing { patch, parallel: patch.normal(polyhedron).dot(&towards) };
-    let first = polyhedron.edges.first()?.tail();
-    let (vertex, _) = polyhedron.support(&towards, tables::farthest(polyhedron, &towards).unwrap_or(first));
+    let vertex = farthest_vertex(polyhedron, &towards, &(witness - polyhedron.centre))?;
     let contact = &polyhedron.contact_faces;
     let merged = || polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
     let whole = merged().filter(|face| contact.part(*face) == FacePart::Whole);
@@ -78,4 +75,18 @@ pub fn facing(
     let best = sound.map(cosine).reduce(better).or_else(|| merged().map(Patch::Merged).map(cosine).reduce(better))?;
     let last = last.and_then(|number| Patch::of_number(polyhedron, number)).map(cosine);
     Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
+}
+
+/// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without edges.
+///
+/// All neighbours of a vertex may be as high as itself up to rounding, as on the far face of a mesh that is flat up to rounding:
+/// there a climb ends. The witness point is the judge of that, and then all vertices are looked at.
+fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector) -> Option<u32> {
+    let first = polyhedron.edges.first()?.tail();
+    let (reached, _) = polyhedron.support(towards, tables::farthest(polyhedron, towards).unwrap_or(first));
+    let height = |v: u32| polyhedron.vertices[v as usize].position.dot(towards);
+    if height(reached) >= witness.dot(towards) - COINCIDENT * polyhedron.radius {
+        return Some(reached);
+    }
+    (0..polyhedron.vertices.len() as u32).reduce(|a, b| if height(b) > height(a) { b } else { a })
 }
