@@ -40,12 +40,14 @@ impl From<&DepthAnswer> for Numbers {
 const POINTS: [&str; 4] =
     ["witness point 1", "witness point 2", "witness point 1 in the world", "witness point 2 in the world"];
 
-/// Refuses an answer with a number that is not finite. Two things may be: the upper end of an interval, which may be +∞, and what
-/// is not said, which is NaN: the normal as a whole, the points with the features as a whole.
+/// Refuses an answer with a number that is not finite. Three things may be: the upper end of an interval, and of a distance above
+/// all doubles the estimate, too; a coordinate in the world beyond them, which the comparison with its local point then judges; and
+/// what is not said, which is NaN: the normal as a whole, the points with the features as a whole.
 pub fn check_numbers(numbers: &Numbers) -> Result<()> {
     let Numbers { interval, points, normal, .. } = numbers;
     let [lower, best, upper] = *interval;
-    if !(lower.is_finite() && best.is_finite() && (upper.is_finite() || upper == f64::INFINITY)) {
+    let is_number = |x: f64| x.is_finite() || x == f64::INFINITY;
+    if !(lower.is_finite() && (best.is_finite() || (is_number(best) && lower == f64::MAX)) && is_number(upper)) {
         return Err(unverified(format!("an interval from lower to upper of {lower:e}, {best:e}, {upper:e}")));
     }
     let is_unsaid = normal.iter().all(|x| x.is_nan());
@@ -55,8 +57,9 @@ pub fn check_numbers(numbers: &Numbers) -> Result<()> {
     if !are_points_said(numbers) {
         return Ok(());
     }
-    for (what, point) in POINTS.iter().zip(points) {
-        if point.iter().any(|x| !x.is_finite()) {
+    for (index, (what, point)) in POINTS.iter().zip(points).enumerate() {
+        let is_local = index < 2;
+        if point.iter().any(|x| x.is_nan() || (is_local && x.is_infinite())) {
             return Err(unverified(format!("{what} is {point:?}")));
         }
     }
