@@ -27,7 +27,7 @@ pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::Precision;
 use id::id_of;
 use outline::{Axes, Outline};
-use patch::{Facing, facing};
+use patch::{COINCIDENT, Facing, facing};
 use places::{Origin, View};
 use reduction::Reduction;
 
@@ -265,10 +265,6 @@ fn choose_patches(bodies: [Placed; 2], contact: &Contact, last: &Reference) -> O
 
 /// Larger objects are not clipped, and their manifold is the pair of witness points: squares of lengths must not overflow.
 const LARGEST: f64 = 1e150;
-
-/// What is nearer than this, relative to the size of the pair, is at one place, 2⁻²⁷: far above rounding, and above what aligned
-/// bricks at rest move by; far below what shows.
-const COINCIDENT: f64 = f64::from_bits((1023 - 27) << 52);
 
 /// Writes the points that both patches have in common; how many there are.
 fn clip(

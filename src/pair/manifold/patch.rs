@@ -1,11 +1,14 @@
 //! The patch of a body that looks towards the other: a merged face, or what contact faces make of several.
 
-use super::COINCIDENT;
 use crate::base::math::Vector;
 use crate::pair::contact::faces_at;
 use crate::pair::placed::Placed;
 use crate::polyhedron::{FacePart, Polyhedron};
 use crate::tables;
+
+/// What is nearer than this, relative to the size of the pair, is at one place, 2⁻²⁷: far above rounding, and above what aligned
+/// bricks at rest move by; far below what shows.
+pub const COINCIDENT: f64 = f64::from_bits((1023 - 27) << 52);
 
 /// A polygon that a manifold is made over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
