@@ -3,7 +3,7 @@
 use super::acceptance::{Acceptance, Closely};
 use super::contact;
 use super::depth::deepest;
-use super::query::{Attempt, PairQuery, Query, Rungs, set_interval};
+use super::query::{Attempt, PairQuery, Query, set_interval};
 use super::start::policy;
 use super::{DecidedBy, Outcome, Start, Statistics};
 use crate::base::math::ROTATION_LIMIT;
@@ -25,14 +25,10 @@ pub(super) struct Hint {
 
 impl PairQuery<'_> {
     /// Whether a closer look at what marching came to answers; else where to go on.
-    pub(super) fn look_closer(&mut self, attempt: Attempt, rungs: Rungs) -> Option<Hint> {
+    pub(super) fn look_closer(&mut self, attempt: Attempt) -> Option<Hint> {
         let (at, steps) = match attempt {
             Attempt::Answered => return None,
-            Attempt::Open(open)
-                if open.is_minimum && rungs.closer_look && self.accepts_closely(open.at, open.steps) =>
-            {
-                return None;
-            }
+            Attempt::Open(open) if open.is_minimum && self.accepts_closely(open.at, open.steps) => return None,
             Attempt::Open(open) => (open.at, open.steps),
             Attempt::Untried | Attempt::NotEnclosed => (State::vertex_vertex([0, 0]), 0),
         };
@@ -100,16 +96,15 @@ impl PairQuery<'_> {
         frame.has_moved(&self.cache.marker, TURNED_AWAY)
     }
 
-    /// The last rungs: the fallback, if it is to be asked, and integers.
+    /// The last rungs: the fallback, where there is a frame in range, and integers.
     #[inline(never)]
-    pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint, asks_fallback: bool) {
+    pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
         let tolerance = self.config.distance_tolerance;
         // Cheap bounds or not, nearest points are to be nearest.
         let tight = self.query != Query::Intersection || tolerance < f64::INFINITY;
         let wanted = Wanted { tight, distance_tolerance: tolerance };
-        let (decision, work) =
-            decide::decide(polyhedra, poses, frame.is_some() & asks_fallback, hint.pairs.as_slice(), wanted);
+        let (decision, work) = decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), wanted);
         let decide::Work { fallback_iterations, exact_iterations } = work;
         self.answer.statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };

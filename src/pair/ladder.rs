@@ -3,7 +3,7 @@
 
 use super::decision::Hint;
 use super::levels::Searched;
-use super::query::{Attempt, PairQuery, Rungs};
+use super::query::{Attempt, Glances, PairQuery};
 use super::start::policy::StartFrom;
 use super::start::{Guess, start_pair};
 use crate::base::error::Result;
@@ -13,28 +13,28 @@ use crate::solve::frame::Frame;
 
 /// From the first rung.
 #[inline(always)]
-pub(super) fn climb(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+pub(super) fn climb(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     pair.check_config()?;
-    if rungs.spheres && pair.spheres_are_far_apart() {
+    if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
     if pair.may_ask_levels() {
-        return climb_levels(pair, rungs);
+        return climb_levels(pair, glances);
     }
-    climb_bodies(pair, rungs)
+    climb_bodies(pair, glances)
 }
 
 /// Levels of detail, where they may answer; else the bodies themselves.
 #[inline(never)]
-fn climb_levels(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+fn climb_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if pair.last_levels_answer() {
         return Ok(());
     }
     match pair.search_levels()? {
         Searched::Answered => Ok(()),
-        Searched::Bodies => climb_bodies(pair, rungs),
+        Searched::Bodies => climb_bodies(pair, glances),
         Searched::Marched(search, attempt) => {
-            climb_on(pair, attempt, rungs)?;
+            climb_on(pair, attempt)?;
             search.remember(pair);
             Ok(())
         }
@@ -43,36 +43,36 @@ fn climb_levels(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
 
 /// The bodies themselves.
 #[inline(always)]
-fn climb_bodies(pair: &mut PairQuery, rungs: Rungs) -> Result<()> {
+fn climb_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     let mut attempt = Attempt::Untried;
     if pair.is_simple() & pair.config.start.asks_cache() {
-        if rungs.last_axis && pair.last_axis_separates() {
+        if glances == Glances::Asked && pair.last_axis_separates() {
             return Ok(());
         }
-        if rungs.last_enclosure && pair.holds_enclosure() {
+        if pair.holds_enclosure() {
             attempt = pair.look_at_last_enclosure();
-        } else if rungs.marching {
+        } else {
             attempt = pair.march_from_last_features();
         }
     }
     match attempt {
         Attempt::Answered => Ok(()),
-        attempt => climb_on(pair, attempt, rungs),
+        attempt => climb_on(pair, attempt),
     }
 }
 
 /// The rest, for what is not the common case.
 #[inline(never)]
-fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<()> {
+fn climb_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
     let enclosure = pair.cache.enclosure(pair.polyhedra());
-    if rungs.marching && matches!(attempt, Attempt::Untried) && enclosure.is_none() {
+    if matches!(attempt, Attempt::Untried) && enclosure.is_none() {
         attempt = pair.march(None);
     }
     let is_known_open = matches!(attempt, Attempt::NotEnclosed);
     let mut hint = match (attempt, enclosure) {
         (Attempt::Untried | Attempt::NotEnclosed, Some(pairs)) => Hint { pairs, steps: 0 },
-        (attempt, _) => match pair.look_closer(attempt, rungs) {
+        (attempt, _) => match pair.look_closer(attempt) {
             None => return Ok(()),
             Some(hint) => hint,
         },
@@ -81,25 +81,25 @@ fn climb_on(pair: &mut PairQuery, mut attempt: Attempt, rungs: Rungs) -> Result<
     let frame = Frame::<Portable>::new(pair.polyhedra(), pair.poses(), pair.config.rotation_limit);
     if !frame.in_range {
         pair.check_poses()?;
-        pair.decide(None, &hint, rungs.fallback);
+        pair.decide(None, &hint);
         return Ok(());
     }
-    if rungs.last_enclosure && !is_known_open && pair.is_enclosed(&frame, &hint) {
+    if !is_known_open && pair.is_enclosed(&frame, &hint) {
         return Ok(());
     }
-    if rungs.marching && pair.may_have_come_apart(&frame) {
+    if pair.may_have_come_apart(&frame) {
         let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
         if pair.has_turned_away(&frame) {
             hint.pairs = Pairs::new(&[start.vertices()]);
         }
         if start.guess == Guess::Apart {
             let attempt = pair.march(Some(start));
-            match pair.look_closer(attempt, rungs) {
+            match pair.look_closer(attempt) {
                 None => return Ok(()),
                 Some(nearer) => hint = nearer,
             }
         }
     }
-    pair.decide(Some(&frame), &hint, rungs.fallback);
+    pair.decide(Some(&frame), &hint);
     Ok(())
 }

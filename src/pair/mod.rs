@@ -34,10 +34,8 @@ use ladder::climb;
 pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 pub use placed::Placed;
-use query::PairQuery;
 pub use query::Query;
-#[doc(hidden)]
-pub use query::Rungs;
+use query::{Glances, PairQuery};
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
@@ -55,7 +53,7 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Distance, Rungs::ALL, bodies, cache, config, answer)
+    query_with(Query::Distance, Glances::Asked, bodies, cache, config, answer)
 }
 
 /// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
@@ -69,7 +67,7 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Intersection, Rungs::ALL, bodies, cache, config, answer)
+    query_with(Query::Intersection, Glances::Asked, bodies, cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which
@@ -78,7 +76,7 @@ pub fn intersection(
 /// # Errors
 /// As [`distance`].
 pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer) -> Result<()> {
-    query_with(Query::Contact, Rungs::ALL, bodies, cache, config, answer)
+    query_with(Query::Contact, Glances::Asked, bodies, cache, config, answer)
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the interval holds the true distance, and the query stops as
@@ -98,25 +96,35 @@ pub fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Approximate, Rungs::ALL, bodies, cache, config, answer)
+    query_with(Query::Approximate, Glances::Asked, bodies, cache, config, answer)
 }
 
-/// As the function of that query, with some rungs of the ladder left out: for benchmarks and tests.
+/// As [`intersection`], by marching as Ehmann & Lin had it: neither bounding spheres nor the last separating axis are asked. For
+/// the figures.
 ///
 /// # Errors
-/// As the function.
+/// As [`distance`].
 #[doc(hidden)]
+pub fn intersection_by_marching(
+    bodies: [Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    query_with(Query::Intersection, Glances::LeftOut, bodies, cache, config, answer)
+}
+
 #[inline(always)]
-pub fn query_with(
+fn query_with(
     query: Query,
-    rungs: Rungs,
+    glances: Glances,
     bodies: [Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if !environment::is_default() {
-        return with_default(move || climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, rungs));
+        return with_default(move || climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, glances));
     }
-    climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, rungs)
+    climb(&mut PairQuery { query, bodies: &bodies, cache, config, answer }, glances)
 }

@@ -23,33 +23,12 @@ pub enum Query {
     Approximate = 3,
 }
 
-/// Which rungs of the ladder a query may use, of those that it can do without. Benchmarks and tests leave some out.
+/// Whether the rungs that need no marching are asked first: bounding spheres and the last separating axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub struct Rungs {
-    /// Bounding spheres.
-    pub spheres: bool,
-    /// The separating axis of the last verdict.
-    pub last_axis: bool,
-    /// Voronoi marching, from the last features or anew.
-    pub marching: bool,
-    /// A closer look at a minimum that the certificate left open.
-    pub closer_look: bool,
-    /// The enclosure that proved the last intersection.
-    pub last_enclosure: bool,
-    /// Gilbert-Johnson-Keerthi and the search for an enclosure.
-    pub fallback: bool,
-}
-
-impl Rungs {
-    /// All: what every query of the interface uses.
-    pub const ALL: Rungs = Rungs {
-        spheres: true,
-        last_axis: true,
-        marching: true,
-        closer_look: true,
-        last_enclosure: true,
-        fallback: true,
-    };
+pub(super) enum Glances {
+    Asked,
+    /// For a figure of the paper, which knew neither.
+    LeftOut,
 }
 
 /// One query.

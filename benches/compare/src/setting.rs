@@ -5,7 +5,7 @@ use std::rc::Rc;
 
 use swiftprox::error::Result;
 use swiftprox::math::Pose;
-use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Rungs};
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use swiftprox::shape::Shape;
 
 use crate::method::{Method, Reply};
@@ -54,11 +54,7 @@ pub fn setting_of_pair(
 
 /// A verdict as Ehmann & Lin had it, by marching: neither bounding spheres nor the last separating axis are asked.
 pub fn verdict_by_marching(name: impl Into<String>, shape: &Rc<Shape>, config: PairConfig) -> Box<dyn Method> {
-    const RUNGS: Rungs = Rungs { spheres: false, last_axis: false, ..Rungs::ALL };
-    let ask = |bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer| {
-        pair::query_with(pair::Query::Intersection, RUNGS, bodies, cache, config, answer)
-    };
-    Box::new(Setting::new(name.into(), ask, [Rc::clone(shape), Rc::clone(shape)], config))
+    Box::new(Setting::new(name.into(), pair::intersection_by_marching, [Rc::clone(shape), Rc::clone(shape)], config))
 }
 
 /// A type for each function of the library, so that the compiler sees which is called.

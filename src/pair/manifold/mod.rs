@@ -14,7 +14,7 @@ mod places;
 mod reduction;
 
 use super::depth::{DepthAnswer, DepthConfig, depth};
-use super::query::{PairQuery, Query, Rungs};
+use super::query::{Glances, PairQuery, Query};
 use super::{Outcome, PairAnswer, PairConfig};
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -177,7 +177,7 @@ fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &Manifol
         config: &pair_config,
         answer: answer_of,
     };
-    climb(&mut query, Rungs::ALL)?;
+    climb(&mut query, Glances::Asked)?;
     if answer.outcome == Outcome::Intersecting
         && let Some(contact) = find_depth(bodies, cache, config)?
     {
