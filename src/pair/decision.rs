@@ -75,6 +75,13 @@ impl PairQuery<'_> {
         true
     }
 
+    /// The same of the last enclosure alone, for bodies and poses of any kind.
+    pub(super) fn is_still_enclosed(&mut self) -> bool {
+        let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
+        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
+        frame.in_range && self.is_enclosed(&frame, &Hint { pairs, steps: 0 })
+    }
+
     /// Answer and cache from a hint that holds the origin.
     #[inline(always)]
     fn fill_enclosed<L: Lanes>(&mut self, frame: &Frame<L>, hint: &Hint, weights: [f64; 4]) {
@@ -121,7 +128,7 @@ impl PairQuery<'_> {
     }
 
     /// Answer and cache from a decision.
-    pub(super) fn fill(&mut self, decision: &Decision) {
+    fn fill(&mut self, decision: &Decision) {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
         let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self;
         match decision {

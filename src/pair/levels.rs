@@ -11,13 +11,11 @@ use super::start::start_pair;
 use super::{DecidedBy, Levels, Outcome, Start, Statistics};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
-use crate::base::simd::{self, Kernel, Lanes, Portable};
+use crate::base::simd::{self, Kernel, Lanes};
 use crate::levels::hierarchy::{HierarchyKind, Level};
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 use crate::solve::certificate::Interval;
-use crate::solve::decide::Decision;
-use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
 use crate::solve::gjk::{self, Nearest, Simplex};
 use crate::solve::marching::step_limit;
@@ -180,21 +178,6 @@ impl<'a> PairQuery<'a> {
         }
         let search = LevelSearch { bodies: Leveled::new(*self.bodies), has_levels, before: self.cache.spent_before() };
         Ok(search.run(self))
-    }
-
-    /// Whether what proved the last intersection proves this one.
-    fn is_still_enclosed(&mut self) -> bool {
-        let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
-        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
-        if !frame.in_range {
-            return false;
-        }
-        let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return false };
-        self.answer.decided_by = DecidedBy::Coherence;
-        self.answer.statistics = Statistics::default();
-        self.fill(&Decision::Intersecting { pairs, weights });
-        frame.mark(&mut self.cache.marker);
-        true
     }
 
     /// What the query wants to know.
