@@ -8,14 +8,12 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 13] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
     "src/pair/answer.rs",
     "src/pair/config.rs",
-    "src/pair/descent.rs",
-    "src/pair/query.rs",
     "src/pair/depth/answer.rs",
     "src/pair/manifold/answer.rs",
     "src/motion/answer.rs",

@@ -6,11 +6,10 @@
 //! | nothing | 0, or any other number | | |
 //! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
 //! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
-//! | a place in levels | 16 and the kind of state | of the features | the levels, and the steps spent |
+//! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
 
-use super::descent::{Leveled, Place};
-use super::{PairConfig, Start};
 use crate::base::math::Vector;
+use crate::pair::levels::{LevelState, Leveled};
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::Pairs;
 use crate::solve::exact::VertexPair;
@@ -38,12 +37,12 @@ enum Content {
     /// How many vertex pairs.
     Enclosure(usize),
     /// The kind of the state.
-    Place(u32),
+    Levels(u32),
 }
 
-/// What the first word of an enclosure and of a place have more than the number in [`Content`].
+/// What the first word of an enclosure and of features of levels have more than the number in [`Content`].
 const ENCLOSURE: u32 = 8;
-const PLACE: u32 = 16;
+const LEVELS: u32 = 16;
 
 /// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
@@ -54,7 +53,7 @@ impl PairCache {
         match self.tag {
             tag @ 1..=6 => Content::Features(tag),
             tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
-            tag @ 17..=22 => Content::Place(tag - PLACE),
+            tag @ 17..=22 => Content::Levels(tag - LEVELS),
             _ => Content::Nothing,
         }
     }
@@ -126,19 +125,19 @@ impl PairCache {
         self.pairs[..pairs.len()].copy_from_slice(pairs);
     }
 
-    // --- A place in levels -------------------------------------------------------------------------------------------------------
+    // --- Features of levels -------------------------------------------------------------------------------------------------------
 
     /// Whether the last answer came from levels of detail.
     #[inline(always)]
-    pub(super) fn holds_place(&self) -> bool {
-        matches!(self.content(), Content::Place(_))
+    pub(super) fn holds_level_state(&self) -> bool {
+        matches!(self.content(), Content::Levels(_))
     }
 
-    /// A place among levels, if the bodies have it. Features without levels are one, too.
+    /// Levels and features of theirs, if the bodies have them. Features without levels are those of the bodies themselves.
     #[inline(always)]
-    pub(super) fn place(&self, bodies: &Leveled) -> Option<Place> {
+    pub(super) fn level_state(&self, bodies: &Leveled) -> Option<LevelState> {
         let (kind, levels) = match self.content() {
-            Content::Place(kind) => (kind, self.pairs[0]),
+            Content::Levels(kind) => (kind, self.pairs[0]),
             Content::Features(kind) => (kind, [0, 0]),
             Content::Nothing | Content::Enclosure(_) => return None,
         };
@@ -147,28 +146,22 @@ impl PairCache {
         if levels[0] > coarsest[0] || levels[1] > coarsest[1] {
             return None;
         }
-        State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| Place { levels, state })
+        State::checked(kind, self.indices, bodies.polyhedra(levels)).map(|state| LevelState { levels, state })
     }
 
-    /// `spent`: steps that queries whose budget ran out have made on the way to this place.
+    /// `spent`: steps that queries whose budget ran out have made on the way there.
     #[inline(always)]
-    pub(super) fn remember_place(&mut self, place: Place, spent: u32) {
-        self.tag = PLACE + place.state.kind as u32;
-        self.indices = place.state.indices();
-        self.pairs[0] = place.levels.map(u32::from);
+    pub(super) fn remember_level_state(&mut self, at: LevelState, spent: u32) {
+        self.tag = LEVELS + at.state.kind as u32;
+        self.indices = at.state.indices();
+        self.pairs[0] = at.levels.map(u32::from);
         self.pairs[1] = [spent, 0];
     }
 
-    /// Steps that queries whose budget ran out have made on the way to the place that it holds.
+    /// Steps that queries whose budget ran out have made on the way to the features of levels that it holds.
     #[inline(always)]
     pub(super) fn spent_before(&self) -> u32 {
-        if self.holds_place() { self.pairs[1][0] } else { 0 }
-    }
-
-    /// From where a pair may have jumped, unless it is to begin at its last features all the same.
-    #[inline(always)]
-    pub(super) fn last_marker(&self, config: &PairConfig) -> Option<&Marker> {
-        (config.start != Start::Cache).then_some(&self.marker)
+        if self.holds_level_state() { self.pairs[1][0] } else { 0 }
     }
 }
 

@@ -1,9 +1,21 @@
 //! What a pair query is asked for.
 
-use super::descent::{Accuracy, Refinement};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
-use crate::solve::frame::RIGID_TOGETHER;
+
+/// What is asked of a pair.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(i32)]
+pub enum Query {
+    /// The verdict alone.
+    Intersection = 0,
+    /// The distance.
+    Distance = 1,
+    /// The distance, and of intersecting bodies a common point and a normal.
+    Contact = 2,
+    /// The distance as narrow as asked for.
+    Approximate = 3,
+}
 
 /// Where marching starts. It changes how fast an answer comes, never the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -21,13 +33,6 @@ pub enum Start {
     Cold = 3,
 }
 
-impl Start {
-    #[inline(always)]
-    pub(super) fn asks_cache(self) -> bool {
-        self as i32 <= Start::Cache as i32
-    }
-}
-
 /// Which levels of detail a query goes through, of those that the shapes have.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
@@ -41,6 +46,43 @@ pub enum Levels {
     None = 1,
     /// All, whatever is asked (Ehmann & Lin 2000).
     All = 2,
+}
+
+/// Which object goes to a finer level, and by how many, when a pair of levels is too coarse.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum Refinement {
+    /// The object whose level has the larger deviation, by one.
+    #[default]
+    Adaptive = 0,
+    /// One object by one: that at the coarser level, object 1 where both are at the same.
+    Single = 1,
+    /// Both by one.
+    SingleSingle = 2,
+    /// Both by two.
+    DoubleDouble = 3,
+}
+
+/// How much a query wants to know.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Accuracy {
+    /// `upper − lower` may be as large as this …
+    pub absolute: f64,
+    /// … or as this times `lower`.
+    pub relative: f64,
+    /// A distance beyond this need not be known.
+    pub beyond: f64,
+}
+
+impl Accuracy {
+    /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known. A narrow one
+    /// is to be wholly on this side of that: another start would not say otherwise.
+    #[inline(always)]
+    pub fn is_met_by(&self, lower: f64, upper: f64) -> bool {
+        let width = upper - lower;
+        let is_narrow = (width <= self.absolute) | (width <= self.relative * lower);
+        lower > 0.0 && ((is_narrow & (upper <= self.beyond)) | (lower > self.beyond))
+    }
 }
 
 /// What a pair query is asked for.
@@ -84,29 +126,25 @@ impl Default for PairConfig {
 }
 
 impl PairConfig {
-    /// Whether the rotation limit is one, and no rotation that is right up to rounding is refused.
+    /// Refuses a configuration with a member out of its range, of those that the query looks at.
+    ///
+    /// # Errors
+    /// [`Error::Argument`], naming the first such member.
     #[inline(always)]
-    pub(super) fn admits_rounding(&self) -> bool {
-        (RIGID_TOGETHER..=ROTATION_LIMIT).contains(&self.rotation_limit)
-    }
-
-    /// What an approximate query wants to know.
-    #[inline(always)]
-    pub(super) fn accuracy(&self) -> Accuracy {
-        Accuracy { absolute: self.absolute_error, relative: self.relative_error, beyond: self.distance_tolerance }
+    pub(super) fn check(&self, query: Query) -> Result<()> {
+        if !((self.distance_tolerance >= 0.0) & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)) {
+            check_range("distance_tolerance", self.distance_tolerance, 0.0..=f64::INFINITY)?;
+            check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
+        }
+        let is_accurate = (self.absolute_error >= 0.0) & (self.relative_error >= 0.0) & (self.step_budget > 0);
+        if (query == Query::Approximate) & !is_accurate {
+            check_accuracy(self.absolute_error, self.relative_error, self.step_budget)?;
+        }
+        Ok(())
     }
 }
 
-/// Refuses a tolerance and a limit that are none.
-///
-/// # Errors
-/// [`Error::Argument`], naming the first.
-pub(super) fn check_config(config: &PairConfig) -> Result<()> {
-    check_range("distance_tolerance", config.distance_tolerance, 0.0..=f64::INFINITY)?;
-    check_range("rotation_limit", config.rotation_limit, 0.0..=ROTATION_LIMIT)
-}
-
-/// Refuses error tolerances and step budgets that are none.
+/// Refuses error tolerances and step budgets that are out of range.
 ///
 /// # Errors
 /// [`Error::Argument`], naming the first.

@@ -1,6 +1,6 @@
 //! Numbers by which contact points are known again.
 
-use crate::pair::{Feature, FeatureKind};
+use crate::pair::answer::{Feature, FeatureKind};
 
 /// A number made of two features, the same for the same (SplitMix64's finaliser, Steele, Lea & Flood 2014).
 pub fn id_of(feature1: &Feature, feature2: &Feature) -> u64 {

@@ -13,14 +13,14 @@ mod clip;
 mod places;
 mod reduction;
 
-use super::depth::{DepthAnswer, DepthConfig, depth};
-use super::query::{Glances, PairQuery, Query};
-use super::{Outcome, PairAnswer, PairConfig};
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
-use crate::pair::ladder::climb;
+use crate::pair::answer::{Outcome, PairAnswer};
+use crate::pair::config::PairConfig;
+use crate::pair::depth::{DepthAnswer, DepthConfig, depth};
 use crate::pair::placed::Placed;
+use crate::pair::queries::distance;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
@@ -169,15 +169,7 @@ fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &Manifol
         rotation_limit: config.rotation_limit,
         ..PairConfig::default()
     };
-    let (pair_cache, answer_of) = (&mut cache.pair, &mut answer);
-    let mut query = PairQuery {
-        query: Query::Distance,
-        bodies: &bodies,
-        cache: pair_cache,
-        config: &pair_config,
-        answer: answer_of,
-    };
-    climb(&mut query, Glances::Asked)?;
+    distance(bodies, &mut cache.pair, &pair_config, &mut answer)?;
     if answer.outcome == Outcome::Intersecting
         && let Some(contact) = find_depth(bodies, cache, config)?
     {

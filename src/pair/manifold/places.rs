@@ -5,8 +5,8 @@ use super::clip::{Corner, Precision, Spot, common_part};
 use super::id::id_of;
 use super::outline::Outline;
 use crate::base::math::{Pose, Vector};
+use crate::pair::answer::{Feature, FeatureKind};
 use crate::pair::contact::{PlacedPoints, label, placed_points};
-use crate::pair::{Feature, FeatureKind};
 use crate::polyhedron::Polyhedron;
 use crate::solve::state::FeatureId;
 

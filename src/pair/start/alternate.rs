@@ -1,6 +1,6 @@
 //! Look-ups on both bodies by turns, each for what was found on the other.
 
-use super::{Guess, StartPair};
+use super::start_pair::{Guess, StartPair};
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;

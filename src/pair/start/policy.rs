@@ -1,11 +1,13 @@
 //! The policy of starts: what has moved since the last query, by how much, and which tables there are say where a search starts.
 //! The numbers are in [`tuning`](crate::tables::tuning).
 
-use super::may_cores_overlap;
-use crate::base::math::Pose;
+use crate::base::math::{Pose, Vector};
 use crate::base::simd::Lanes;
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron::lookup::{Plan, Table};
 use crate::solve::frame::{Frame, Marker};
 use crate::solve::state::State;
+use crate::tables::tables;
 use crate::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
 
 /// From what a search starts, if not from the features of the last query.
@@ -60,4 +62,20 @@ pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [
 fn square_jump<L: Lanes>(frame: &Frame<L>) -> f64 {
     let [first, second] = frame.polyhedra();
     first.lookup.square_jump(&second.lookup)
+}
+
+/// Whether spheres inside two bodies overlap, as far as their tables know any; beside a body that needs no table they may.
+fn may_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else {
+        return polyhedra.iter().any(|polyhedron| matches!(polyhedron.lookup.plan, Plan::AllVertices { .. }));
+    };
+    let between = centre_of_mass(polyhedra[0], poses[0]) - centre_of_mass(polyhedra[1], poses[1]);
+    let radii = first.core * polyhedra[0].mass.radius + second.core * polyhedra[1].mass.radius;
+    between.norm_squared() < radii * radii
+}
+
+/// In the world, in plain rounding.
+#[inline(always)]
+pub(super) fn centre_of_mass(polyhedron: &Polyhedron, pose: &Pose) -> Vector {
+    pose.transform(&polyhedron.mass.centre_of_mass)
 }

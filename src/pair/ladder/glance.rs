@@ -1,11 +1,11 @@
 //! What settles a query at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
 
-use super::contact;
-use super::query::{PairQuery, Query, set_interval};
-use super::{DecidedBy, PairAnswer, PairConfig, Statistics};
+use super::query::PairQuery;
 use crate::base::simd::{self, Kernel, Lanes};
+use crate::pair::answer::{DecidedBy, Statistics};
+use crate::pair::config::Query;
+use crate::pair::contact;
 use crate::solve::certificate::reciprocal_length;
-use crate::solve::frame::Frame;
 use crate::solve::separating_axis::{self, AxisSearch, Trial};
 
 impl PairQuery<'_> {
@@ -44,18 +44,17 @@ impl Kernel for Spheres<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
-        let &mut PairQuery { config, ref mut answer, .. } = self.pair;
-        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let pair = &mut *self.pair;
+        let frame = pair.frame_of_simple::<L>();
         let interval = separating_axis::between_spheres(&frame);
         if !(frame.in_range & (interval.lower > self.enough)) {
             return false;
         }
-        answer.decided_by = DecidedBy::BoundingSpheres;
-        answer.statistics = Statistics::default();
-        set_interval(answer, &interval, frame.separation, config.distance_tolerance);
+        pair.answer.decided_by = DecidedBy::BoundingSpheres;
+        pair.answer.statistics = Statistics::default();
+        pair.set_interval(&interval, frame.separation);
         let offset = frame.bodies[0].offset;
-        contact::fill_normal(answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
+        contact::fill_normal(pair.answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
         true
     }
 }
@@ -70,27 +69,26 @@ impl Kernel for Separation<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> bool {
-        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
-        let &mut PairQuery { ref mut cache, config, ref mut answer, .. } = self.pair;
-        let frame = Frame::<L>::of_rigid(polyhedra, poses);
-        let Some(axis) = cache.axis(polyhedra) else { return false };
+        let pair = &mut *self.pair;
+        let frame = pair.frame_of_simple::<L>();
+        let Some(axis) = pair.cache.axis(pair.polyhedra()) else { return false };
         if !frame.in_range {
             return false;
         }
         let trial = Trial::of_axis(&frame, &axis);
-        if trial.separates() && trial.interval.settles(config.distance_tolerance) {
-            cache.move_axis(trial.vertices);
-            fill_trial(&trial, config, answer);
+        if trial.separates() && pair.is_settled_by(&trial.interval) {
+            pair.cache.move_axis(trial.vertices);
+            fill_trial(&trial, pair);
             return true;
         }
         let mut search = AxisSearch { frame: &frame, trial };
         L::out_of_line(&mut search);
         let trial = &search.trial;
-        let is_answer = trial.separates() && trial.interval.settles(config.distance_tolerance);
+        let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
         if is_answer {
             let unit = trial.direction.mul(L::splat(trial.inverse));
-            cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
-            fill_trial(trial, config, answer);
+            pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
+            fill_trial(trial, pair);
         }
         is_answer
     }
@@ -98,9 +96,9 @@ impl Kernel for Separation<'_, '_> {
 
 /// The answer of an axis that separates.
 #[inline(always)]
-fn fill_trial<L: Lanes>(trial: &Trial<L>, config: &PairConfig, answer: &mut PairAnswer) {
-    answer.decided_by = DecidedBy::Coherence;
-    answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
-    set_interval(answer, &trial.interval, trial.distance, config.distance_tolerance);
-    contact::fill_normal(answer, trial.direction.mul(L::splat(trial.inverse)));
+fn fill_trial<L: Lanes>(trial: &Trial<L>, pair: &mut PairQuery) {
+    pair.answer.decided_by = DecidedBy::Coherence;
+    pair.answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
+    pair.set_interval(&trial.interval, trial.distance);
+    contact::fill_normal(pair.answer, trial.direction.mul(L::splat(trial.inverse)));
 }

@@ -1,40 +1,48 @@
 //! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on what it learnt; the
 //! last one, integers, always answers.
 
-use super::decision::Hint;
-use super::levels::Searched;
-use super::query::{Attempt, Glances, PairQuery};
-use super::start::policy::StartFrom;
-use super::start::{Guess, start_pair};
+mod query;
+mod glance;
+mod acceptance;
+mod marching;
+mod decision;
+mod level_choice;
+mod level_search;
+mod level_glance;
+
 use crate::base::error::Result;
 use crate::base::simd::Portable;
+use crate::pair::start::policy::StartFrom;
+use crate::pair::start::{Guess, start_pair};
 use crate::solve::decide::Pairs;
-use crate::solve::frame::Frame;
+use decision::Hint;
+use level_search::Searched;
+use query::Attempt;
+pub(super) use query::{Glances, PairQuery};
 
 /// From the first rung.
 #[inline(always)]
-pub(super) fn climb(pair: &mut PairQuery, glances: Glances) -> Result<()> {
-    pair.check_config()?;
+pub(super) fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
     if pair.may_ask_levels() {
-        return climb_levels(pair, glances);
+        return answer_by_levels(pair, glances);
     }
-    climb_bodies(pair, glances)
+    answer_by_bodies(pair, glances)
 }
 
 /// Levels of detail, where they may answer; else the bodies themselves.
 #[inline(never)]
-fn climb_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if pair.last_levels_answer() {
         return Ok(());
     }
     match pair.search_levels()? {
         Searched::Answered => Ok(()),
-        Searched::Bodies => climb_bodies(pair, glances),
+        Searched::Bodies => answer_by_bodies(pair, glances),
         Searched::Marched(search, attempt) => {
-            climb_on(pair, attempt)?;
+            answer_on(pair, attempt)?;
             search.remember(pair);
             Ok(())
         }
@@ -43,9 +51,9 @@ fn climb_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
 
 /// The bodies themselves.
 #[inline(always)]
-fn climb_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     let mut attempt = Attempt::Untried;
-    if pair.is_simple() & pair.config.start.asks_cache() {
+    if pair.is_simple() & pair.asks_cache() {
         if glances == Glances::Asked && pair.last_axis_separates() {
             return Ok(());
         }
@@ -57,13 +65,13 @@ fn climb_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     }
     match attempt {
         Attempt::Answered => Ok(()),
-        attempt => climb_on(pair, attempt),
+        attempt => answer_on(pair, attempt),
     }
 }
 
 /// The rest, for what is not the common case.
 #[inline(never)]
-fn climb_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
+fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
     let enclosure = pair.cache.enclosure(pair.polyhedra());
     if matches!(attempt, Attempt::Untried) && enclosure.is_none() {
@@ -78,7 +86,7 @@ fn climb_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
         },
     };
     // Made in place: it is large.
-    let frame = Frame::<Portable>::new(pair.polyhedra(), pair.poses(), pair.config.rotation_limit);
+    let frame = pair.frame::<Portable>();
     if !frame.in_range {
         pair.check_poses()?;
         pair.decide(None, &hint);

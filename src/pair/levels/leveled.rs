@@ -1,58 +1,11 @@
-//! Marching across levels of detail: from coarse levels to ever finer ones, as far as the query needs (Ehmann & Lin 2000, §3
-//! and §5.2).
-//!
-//! A level contains its body and stands off by at most its deviation. So bodies are at least as far apart as any two levels of
-//! theirs, and at most by the deviations farther: a pair of levels that is disjoint already bounds the distance from both
-//! sides, for sure. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a
-//! start.
+//! Two placed shapes with their levels of detail, and the way from a pair of levels to finer and coarser ones.
 
-use super::placed::Placed;
-use super::start::policy;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::base::simd::{Kernel, Lanes};
+use crate::base::math::Pose;
 use crate::levels::hierarchy::Level;
+use crate::pair::config::Refinement;
+use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
-use crate::solve::certificate::{Certify, CloserLook, Minimum};
-use crate::solve::frame::{Frame, Marker};
-use crate::solve::marching::{self, March, Step, Transition, step_limit};
 use crate::solve::state::{FeatureId, State};
-
-/// Which object goes to a finer level, and by how many, when a pair of levels is too coarse.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(i32)]
-pub enum Refinement {
-    /// The object whose level has the larger deviation, by one.
-    #[default]
-    Adaptive = 0,
-    /// One object by one: that at the coarser level, object 1 where both are at the same.
-    Single = 1,
-    /// Both by one.
-    SingleSingle = 2,
-    /// Both by two.
-    DoubleDouble = 3,
-}
-
-/// How much a query wants to know.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Accuracy {
-    /// `upper − lower` may be as large as this …
-    pub absolute: f64,
-    /// … or as this times `lower`.
-    pub relative: f64,
-    /// A distance beyond this need not be known.
-    pub beyond: f64,
-}
-
-impl Accuracy {
-    /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known. A narrow one
-    /// is to be wholly on this side of that: another start would not say otherwise.
-    #[inline(always)]
-    pub fn is_met_by(&self, lower: f64, upper: f64) -> bool {
-        let width = upper - lower;
-        let is_narrow = (width <= self.absolute) | (width <= self.relative * lower);
-        lower > 0.0 && ((is_narrow & (upper <= self.beyond)) | (lower > self.beyond))
-    }
-}
 
 /// Two placed shapes with their levels; level 0 is the body itself, P₀.
 #[derive(Clone, Copy)]
@@ -67,7 +20,7 @@ pub struct Leveled<'a> {
 
 /// A pair of levels and a pair of features of theirs.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Place {
+pub struct LevelState {
     /// The levels of body 1 and body 2.
     pub levels: [u16; 2],
     /// Features of these levels.
@@ -99,7 +52,7 @@ impl<'a> Leveled<'a> {
 
     /// ρ₁ + ρ₂ of the bodies themselves.
     #[inline(always)]
-    fn size(&self) -> f64 {
+    pub(super) fn size(&self) -> f64 {
         self.bodies[0].radius + self.bodies[1].radius
     }
 
@@ -120,27 +73,27 @@ impl<'a> Leveled<'a> {
         }
     }
 
-    /// The features of finer (or the same) levels that belong to those of a place.
-    pub fn descended(&self, from: Place, to: [u16; 2]) -> Place {
+    /// The features of finer (or the same) levels that belong to the given ones.
+    pub fn descended(&self, from: LevelState, to: [u16; 2]) -> LevelState {
         let mut features = from.state.features();
         for (i, feature) in features.iter_mut().enumerate() {
             for level in (to[i]..from.levels[i]).rev() {
                 *feature = self.levels[i][usize::from(level)].children.of(*feature);
             }
         }
-        self.place(to, features)
+        self.state_at(to, features)
     }
 
-    fn place(&self, levels: [u16; 2], features: [FeatureId; 2]) -> Place {
+    fn state_at(&self, levels: [u16; 2], features: [FeatureId; 2]) -> LevelState {
         let polyhedra = self.polyhedra(levels);
         // There is no state of an edge and a face.
         let vertices = || State::vertex_vertex([0, 1].map(|i| features[i].vertex(polyhedra[i])));
-        Place { levels, state: State::of_features(features).unwrap_or_else(vertices) }
+        LevelState { levels, state: State::of_features(features).unwrap_or_else(vertices) }
     }
 
-    /// Whether [`Leveled::climbed`] stays where it is.
+    /// Whether [`Leveled::coarsened`] stays where it is.
     #[inline(always)]
-    pub fn stays(&self, at: Place, gap: f64, most: f64) -> bool {
+    pub fn stays(&self, at: LevelState, gap: f64, most: f64) -> bool {
         let off = self.deviation(0, at.levels[0]) + self.deviation(1, at.levels[1]);
         self.next_rise(at.levels, gap, most - off).is_none()
     }
@@ -148,8 +101,8 @@ impl<'a> Leveled<'a> {
     /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap`
     /// of the levels being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by
     /// no more than `most`.
-    pub fn climbed(&self, from: Place, gap: f64, most: f64) -> Place {
-        let Place { mut levels, state } = from;
+    pub fn coarsened(&self, from: LevelState, gap: f64, most: f64) -> LevelState {
+        let LevelState { mut levels, state } = from;
         let mut features = state.features();
         let (mut left, mut off) = (gap, self.deviation(0, levels[0]) + self.deviation(1, levels[1]));
         while let Some((i, rise)) = self.next_rise(levels, left, most - off) {
@@ -158,7 +111,7 @@ impl<'a> Leveled<'a> {
             features[i] = self.levels[i][usize::from(levels[i])].parents.of(features[i]);
             levels[i] += 1;
         }
-        self.place(levels, features)
+        self.state_at(levels, features)
     }
 
     /// Which body goes to its next coarser level, and by how much farther that stands off, if there is one by less than `left` and
@@ -177,7 +130,7 @@ impl<'a> Leveled<'a> {
     }
 
     /// The finer levels that come next.
-    fn refined(&self, [level1, level2]: [u16; 2], refinement: Refinement) -> [u16; 2] {
+    pub(super) fn refined(&self, [level1, level2]: [u16; 2], refinement: Refinement) -> [u16; 2] {
         let first = match refinement {
             Refinement::SingleSingle => return [level1.saturating_sub(1), level2.saturating_sub(1)],
             Refinement::DoubleDouble => return [level1.saturating_sub(2), level2.saturating_sub(2)],
@@ -188,203 +141,10 @@ impl<'a> Leveled<'a> {
     }
 }
 
-/// What a pair of levels says of its bodies.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct Found {
-    /// The levels and the features where they are nearest.
-    pub place: Place,
-    /// A lower bound of the bodies' distance, above 0: that of the levels' distance.
-    pub lower: f64,
-    /// An upper bound of the bodies' distance.
-    pub upper: f64,
-    /// The unit direction, from body 2 to body 1, along which the bodies are `lower` apart.
-    pub normal: Vector,
-}
-
-/// What a search came to.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Descended {
-    /// An interval as narrow as was asked for, or beyond what has to be known: the one found.
-    Enough,
-    /// The bodies themselves have to be looked at, from the place reached.
-    Finest,
-    /// The pair has jumped since the marker, or the trial took too long.
-    Lost,
-    /// The steps are spent.
-    Spent,
-}
-
-/// A search from a place on. It is lent to the kernel and keeps what it finds.
-pub struct Descent<'a> {
-    /// What is searched.
-    pub bodies: Leveled<'a>,
-    /// What is asked for.
-    pub accuracy: Accuracy,
-    /// How it goes to finer levels.
-    pub refinement: Refinement,
-    /// Largest accepted entry of |RᵀR − I|.
-    pub rotation_limit: f64,
-    /// Where it is; the features are features of the levels.
-    pub place: Place,
-    /// Whether the first levels get but a few steps: the place is that of an earlier query, and the bodies may have jumped.
-    pub is_trial: bool,
-    /// Where a trial is given up at once if the pair has [jumped](levels_have_jumped) since it had this marker.
-    pub marker: Option<Marker>,
-    /// Steps of marching that it may make, at least 1.
-    pub step_limit: u32,
-    /// Steps made.
-    pub steps: u32,
-    /// The last that a pair of disjoint levels said.
-    pub found: Option<Found>,
-}
-
-/// Steps of a trial. Marching from the features of an earlier query is given up for a new start after so many: the pair has jumped
-/// without being noticed.
-pub(crate) const TRIAL_STEPS: u32 = 16;
-
-impl Kernel for Descent<'_> {
-    type Output = Descended;
-
-    #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Descended {
-        while self.place.levels != [0, 0] {
-            let Place { levels, state } = self.place;
-            let polyhedra = self.bodies.polyhedra(levels);
-            let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
-            if frame.in_range {
-                if self.is_trial && levels_have_jumped(&frame, &self.bodies, self.marker.as_ref()) {
-                    return Descended::Lost;
-                }
-                let limit =
-                    if self.is_trial { TRIAL_STEPS } else { step_limit(polyhedra) }.min(self.step_limit - self.steps);
-                let mut keep = Keep::nothing();
-                let (march, more) = marching::march(&frame, state, limit, &mut keep);
-                self.steps += more;
-                let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
-                self.place.state = at;
-                if march == March::Minimum(at) {
-                    // Ties and skewed rotations.
-                    if !(keep.interval[0] > f64::NEG_INFINITY) {
-                        look_closer(&frame, &mut keep, at);
-                    }
-                    if let Some(found) = keep.found(&frame, &self.bodies, self.place) {
-                        self.found = Some(found);
-                        if self.accuracy.is_met_by(found.lower, found.upper) {
-                            return Descended::Enough;
-                        }
-                    }
-                }
-                if self.steps >= self.step_limit {
-                    return Descended::Spent;
-                }
-                if self.is_trial && march == March::Limit(at) {
-                    return Descended::Lost;
-                }
-            }
-            self.is_trial = false;
-            self.place = self.bodies.descended(self.place, self.bodies.refined(levels, self.refinement));
-        }
-        Descended::Finest
-    }
-}
-
-/// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the
-/// pair's frame. It is what the search would find.
-#[inline(always)]
-pub fn try_first<'a, L: Lanes>(
-    bodies: &Leveled<'a>,
-    place: Place,
-    marker: Option<&Marker>,
-) -> Option<(Found, u32, Frame<'a, L>)> {
-    let frame = Frame::<L>::of_rigid(bodies.polyhedra(place.levels), bodies.poses);
-    if !frame.in_range || levels_have_jumped(&frame, bodies, marker) {
-        return None;
-    }
-    let mut keep = Keep::nothing();
-    // Most often the features still are the nearest: one state (R3).
-    let Step { transition, at: mut state } = marching::visit(&frame, place.state, &mut keep);
-    let mut steps = 1;
-    if transition == Transition::Move {
-        let (march, more) = marching::march(&frame, state, TRIAL_STEPS - 1, &mut keep);
-        let (March::Minimum(at) | March::Open(at) | March::Limit(at)) = march;
-        state = at;
-        steps += more;
-    }
-    // Of a minimum alone it has kept something.
-    let found = keep.found(&frame, bodies, Place { state, ..place })?;
-    Some((found, steps, frame))
-}
-
-/// Whether the pair has jumped since it had a marker.
-#[inline(always)]
-fn levels_have_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Option<&Marker>) -> bool {
-    // The levels' lever is that of the bodies. No closure (R2).
-    let frame = Frame { size: bodies.size(), ..*frame };
-    match marker {
-        Some(marker) => policy::has_jumped(&frame, marker),
-        None => false,
-    }
-}
-
-/// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.
-#[inline(always)]
-fn stretch<L: Lanes>(frame: &Frame<L>, pose: &Pose) -> f64 {
-    // Rounding leaves 25u at most, see `certificate::RIGID_MISFIT`; as computed the defect is right to 4u.
-    if frame.rigid { 1.0 + 64.0 * U } else { 1.0 + 1.5 * (pose.rotation_defect() + 16.0 * U) }
-}
-
-/// The interval of the levels' distance and the unit direction at a minimum.
-struct Keep<L> {
-    /// Lower and upper end.
-    interval: [f64; 2],
-    normal: L,
-}
-
-impl<L: Lanes> Certify<L> for Keep<L> {
-    #[inline(always)]
-    fn certify(&mut self, frame: &Frame<L>, _: State, minimum: &Minimum<L>) {
-        let interval = minimum.gap(frame).interval;
-        self.interval = [interval.lower, interval.upper];
-        self.normal = minimum.direction.mul(L::splat(minimum.inverse));
-    }
-}
-
-impl<L: Lanes> Keep<L> {
-    #[inline(always)]
-    fn nothing() -> Self {
-        Keep { interval: [f64::NEG_INFINITY, f64::INFINITY], normal: L::splat(0.0) }
-    }
-
-    /// What it says of the bodies, if it proves that the levels are disjoint.
-    #[inline(always)]
-    fn found(&self, frame: &Frame<L>, bodies: &Leveled, place: Place) -> Option<Found> {
-        let [lower, upper] = self.interval;
-        if !(lower > 0.0) {
-            return None;
-        }
-        // Ends of the shortest connection of the levels have points of the bodies within the deviations.
-        let off1 = bodies.deviation(0, place.levels[0]) * stretch(frame, bodies.poses[0]);
-        let off2 = bodies.deviation(1, place.levels[1]) * stretch(frame, bodies.poses[1]);
-        let upper = (upper + off1 + off2) * (1.0 + 8.0 * U);
-        Some(Found { place, lower, upper, normal: self.normal.to_vector() })
-    }
-}
-
-/// What a quick look at a minimum leaves open.
-#[inline(always)]
-fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
-    let mut closer = CloserLook::<L, false> { found: None };
-    marching::visit(frame, at, &mut closer);
-    if let Some((minimum, gap)) = &closer.found {
-        keep.interval = [gap.interval.lower, gap.interval.upper];
-        keep.normal = minimum.direction.mul(L::splat(minimum.inverse));
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::math::Vector;
     use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
     use crate::shape::{Shape, ShapeOptions};
     use crate::solve::exact;
@@ -464,19 +224,19 @@ mod tests {
     /// Up the parents, the level that stands off least more first, for as long as the levels may be disjoint and near enough.
     #[test]
     #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
-    fn climbing_stops_before_levels_would_meet_or_stand_off_too_far() {
+    fn coarser_levels_stop_before_levels_would_meet_or_stand_off_too_far() {
         let [large, small] = shapes();
         let bodies = leveled([&large, &small], [&Pose::IDENTITY; 2]);
         let off = |levels: [u16; 2]| bodies.deviation(0, levels[0]) + bodies.deviation(1, levels[1]);
-        let finest = Place { levels: [0, 0], state: State::edge_edge([7, 9]) };
-        let coarsest = bodies.climbed(finest, f64::INFINITY, f64::INFINITY);
+        let finest = LevelState { levels: [0, 0], state: State::edge_edge([7, 9]) };
+        let coarsest = bodies.coarsened(finest, f64::INFINITY, f64::INFINITY);
         assert_eq!(coarsest.levels, bodies.coarsest());
         let mut random = Random::new(3);
         let mut reached = Vec::new();
         for _ in 0..2000 {
             let [gap, most] = [0, 1].map(|_| off(bodies.coarsest()) * random.power(-12, 1) * random.uniform(0.5, 1.0));
             let most = random.pick(&[most, f64::INFINITY]);
-            let Place { levels, state } = bodies.climbed(finest, gap, most);
+            let LevelState { levels, state } = bodies.coarsened(finest, gap, most);
             assert!(off(levels) < gap && off(levels) <= most, "{levels:?} {gap} {most}");
             // One more of either would not do.
             for i in 0..2 {
@@ -487,7 +247,7 @@ mod tests {
                 }
             }
             // On from there is the same as at once.
-            let on = bodies.climbed(Place { levels, state }, f64::INFINITY, f64::INFINITY);
+            let on = bodies.coarsened(LevelState { levels, state }, f64::INFINITY, f64::INFINITY);
             assert_eq!(on, coarsest);
             // The features are the parents of the parents.
             let mut features = finest.state.features();
@@ -496,7 +256,7 @@ mod tests {
                     features[i] = level.parents.of(features[i]);
                 }
             }
-            assert_eq!(state, bodies.place(levels, features).state);
+            assert_eq!(state, bodies.state_at(levels, features).state);
             if !reached.contains(&levels) {
                 reached.push(levels);
             }
@@ -505,10 +265,10 @@ mod tests {
         assert!(reached.len() >= 6, "{reached:?}");
     }
 
-    /// Where climbing promises levels that are disjoint they are: each stands off by no more than its deviation.
+    /// Where going up promises levels that are disjoint they are: each stands off by no more than its deviation.
     #[test]
     #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
-    fn levels_climbed_to_are_disjoint() {
+    fn coarsened_levels_are_disjoint() {
         let [large, small] = shapes();
         let mut random = Random::new(4);
         let (mut higher, mut open) = (0, 0);
@@ -522,8 +282,8 @@ mod tests {
             };
             let gap = solve([0, 0]).lower;
             if gap > 0.0 {
-                let finest = Place { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
-                let Place { levels, .. } = bodies.climbed(finest, gap, f64::INFINITY);
+                let finest = LevelState { levels: [0, 0], state: State::vertex_vertex([0, 0]) };
+                let LevelState { levels, .. } = bodies.coarsened(finest, gap, f64::INFINITY);
                 assert!(solve(levels).lower > 0.0, "{levels:?}, {gap} apart");
                 higher += usize::from(levels != [0, 0]);
                 open += usize::from(levels != bodies.coarsest() && !(solve(bodies.coarsest()).lower > 0.0));

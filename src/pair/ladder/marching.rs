@@ -2,12 +2,12 @@
 //! as it is found.
 
 use super::acceptance::{Acceptance, AtFirst};
-use super::descent::TRIAL_STEPS;
 use super::query::{Attempt, Open, PairQuery};
-use super::start::policy::{self, StartFrom};
-use super::start::{Guess, StartPair, start_pair};
-use super::{Start, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
+use crate::pair::answer::Statistics;
+use crate::pair::levels::TRIAL_STEPS;
+use crate::pair::start::policy::{self, StartFrom};
+use crate::pair::start::{Guess, StartPair, start_pair};
 use crate::polyhedron::Polyhedron;
 use crate::solve::frame::Frame;
 use crate::solve::marching::{self, March, Transition, step_limit};
@@ -80,16 +80,15 @@ impl Kernel for Coherent<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let frame = Frame::<L>::of_rigid(self.pair.polyhedra(), self.pair.poses());
-        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
+        let frame = self.pair.frame_of_simple::<L>();
         if !frame.in_range {
             return Attempt::Untried;
         }
-        let Some(state) = cache.features() else { return Attempt::Untried };
-        let mut certifier = Acceptance { query, config, cache, answer, accepted: false };
-        let step = marching::visit(&frame, state, &mut AtFirst(&mut certifier));
-        if certifier.accepted {
-            certifier.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
+        let Some(state) = self.pair.cache.features() else { return Attempt::Untried };
+        let mut acceptance = Acceptance { pair: &mut *self.pair, accepted: false };
+        let step = marching::visit(&frame, state, &mut AtFirst(&mut acceptance));
+        if acceptance.accepted {
+            self.pair.answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
             return Attempt::Answered;
         }
         match step.transition {
@@ -118,12 +117,12 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
     #[inline(always)]
     fn run(&mut self) -> Attempt {
         let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
-        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self.pair;
-        let mut certifier = Acceptance { query, config, cache, answer, accepted: false };
+        let may_start_anew = self.pair.may_start_anew();
+        let mut acceptance = Acceptance { pair: &mut *self.pair, accepted: false };
         let (mut state, mut steps, mut leg) = (self.start, self.steps, self.leg);
         let frame = self.frame;
-        if (leg == Leg::Trial) & (config.start != Start::Cache)
-            && let Some(from) = policy::choose(&frame, &certifier.cache.marker, state)
+        if (leg == Leg::Trial) & may_start_anew
+            && let Some(from) = policy::choose(&frame, &acceptance.pair.cache.marker, state)
         {
             let start = start_pair(polyhedra, poses, from);
             state = State::vertex_vertex(start.vertices());
@@ -133,23 +132,23 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
             }
         }
         let (at, is_minimum) = loop {
-            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut certifier);
+            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut acceptance);
             steps += more;
             state = match march {
                 March::Minimum(at) => break (at, true),
                 March::Open(at) => break (at, false),
                 March::Limit(at) if leg != Leg::Trial => break (at, false),
-                March::Limit(at) if config.start == Start::Cache => at,
+                March::Limit(at) if !may_start_anew => at,
                 March::Limit(_) => State::vertex_vertex(start_pair(polyhedra, poses, StartFrom::Centres).vertices()),
             };
             leg = Leg::Whole;
         };
-        if !certifier.accepted {
+        if !acceptance.accepted {
             return Attempt::Open(Open { at, is_minimum, steps });
         }
-        certifier.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
+        self.pair.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
         // A pair that stays on its features keeps its old marker: they are near.
-        frame.mark(&mut certifier.cache.marker);
+        frame.mark(&mut self.pair.cache.marker);
         Attempt::Answered
     }
 }
@@ -167,7 +166,7 @@ impl Kernel for General<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
         let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
-        let frame = Frame::<L>::new(polyhedra, poses, self.pair.config.rotation_limit);
+        let frame = self.pair.frame::<L>();
         if !frame.in_range {
             return Attempt::Untried;
         }
@@ -204,7 +203,7 @@ impl Kernel for FromState<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
         let &mut FromState { start, steps, leg, .. } = self;
-        let frame = Frame::<L>::new(self.pair.polyhedra(), self.pair.poses(), self.pair.config.rotation_limit);
+        let frame = self.pair.frame::<L>();
         if !frame.in_range {
             return Attempt::Untried;
         }

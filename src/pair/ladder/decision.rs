@@ -1,14 +1,15 @@
 //! What marching leaves open: a closer look, the last enclosure re-tested, the fallback, integers.
 
 use super::acceptance::{Acceptance, Closely};
-use super::contact;
-use super::depth::deepest;
-use super::query::{Attempt, PairQuery, Query, set_interval};
-use super::start::policy;
-use super::{DecidedBy, Outcome, Start, Statistics};
+use super::query::{Attempt, PairQuery};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
-use crate::solve::decide::{self, Decision, Pairs, Wanted};
+use crate::pair::answer::{DecidedBy, Outcome, Statistics};
+use crate::pair::config::Query;
+use crate::pair::contact;
+use crate::pair::depth::deepest;
+use crate::pair::start::policy;
+use crate::solve::decide::{self, Decision, Pairs};
 use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
 use crate::solve::state::State;
@@ -36,16 +37,13 @@ impl PairQuery<'_> {
     }
 
     fn accepts_closely(&mut self, at: State, steps: u32) -> bool {
-        let (polyhedra, poses) = (self.polyhedra(), self.poses());
-        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self;
-        let certifier = Acceptance { query, config, cache, answer, accepted: false };
-        let mut look = Closely::<false> { certifier, polyhedra, poses, at };
+        let mut look = Closely::<false> { acceptance: Acceptance { pair: self, accepted: false }, at };
         simd::dispatch(&mut look);
-        let mut accepted = look.certifier.accepted;
+        let mut accepted = look.acceptance.accepted;
         if !accepted {
-            let mut look = Closely::<true> { certifier: look.certifier, polyhedra, poses, at };
+            let mut look = Closely::<true> { acceptance: look.acceptance, at };
             simd::dispatch(&mut look);
-            accepted = look.certifier.accepted;
+            accepted = look.acceptance.accepted;
         }
         if accepted {
             self.answer.statistics = Statistics { marching_steps: steps, ..Statistics::default() };
@@ -78,7 +76,7 @@ impl PairQuery<'_> {
     /// The same of the last enclosure alone, for bodies and poses of any kind.
     pub(super) fn is_still_enclosed(&mut self) -> bool {
         let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
-        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), self.config.rotation_limit);
+        let frame = self.frame::<Portable>();
         frame.in_range && self.is_enclosed(&frame, &Hint { pairs, steps: 0 })
     }
 
@@ -93,7 +91,7 @@ impl PairQuery<'_> {
 
     /// Whether the bodies intersected the last time and have jumped so that they are for marching.
     pub(super) fn may_have_come_apart(&self, frame: &Frame<Portable>) -> bool {
-        self.config.start != Start::Cache
+        self.may_start_anew()
             && self.cache.enclosure(self.polyhedra()).is_some()
             && policy::may_have_come_apart(frame, &self.cache.marker, self.poses())
     }
@@ -107,11 +105,7 @@ impl PairQuery<'_> {
     #[inline(never)]
     pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
-        let tolerance = self.config.distance_tolerance;
-        // Cheap bounds or not, nearest points are to be nearest.
-        let tight = self.query != Query::Intersection || tolerance < f64::INFINITY;
-        let wanted = Wanted { tight, distance_tolerance: tolerance };
-        let (decision, work) = decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), wanted);
+        let (decision, work) = decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), self.wanted());
         let decide::Work { fallback_iterations, exact_iterations } = work;
         self.answer.statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };
@@ -130,10 +124,12 @@ impl PairQuery<'_> {
     /// Answer and cache from a decision.
     fn fill(&mut self, decision: &Decision) {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
-        let &mut PairQuery { query, ref mut cache, config, ref mut answer, .. } = self;
+        if let Decision::Separated { interval, .. } = decision {
+            self.set_interval(interval, 0.5 * interval.lower + 0.5 * interval.upper);
+        }
+        let &mut PairQuery { query, ref mut cache, ref mut answer, .. } = self;
         match decision {
-            Decision::Separated { points, direction, interval, pairs } => {
-                set_interval(answer, interval, 0.5 * interval.lower + 0.5 * interval.upper, config.distance_tolerance);
+            Decision::Separated { points, direction, pairs, .. } => {
                 let vertices = State::vertex_vertex(pairs.as_slice()[0]);
                 if query == Query::Intersection {
                     // The points need not be nearest, so no feature need hold them, and to search all takes long.

@@ -1,0 +1,88 @@
+//! What of a minimum that marching finds is good enough an answer, at a quick look or a closer one.
+
+use super::query::PairQuery;
+use crate::base::math::{ROTATION_LIMIT, divisor};
+use crate::base::simd::{Kernel, Lanes};
+use crate::pair::answer::{DecidedBy, Outcome};
+use crate::pair::config::Query;
+use crate::pair::contact;
+use crate::solve::certificate::{Certify, CloserLook, Gap, Minimum};
+use crate::solve::frame::Frame;
+use crate::solve::marching;
+use crate::solve::separating_axis::NUDGE;
+use crate::solve::state::State;
+
+/// Accepts a minimum whose interval is good enough: answer and cache are then written.
+pub(super) struct Acceptance<'a, 'b> {
+    pub(super) pair: &'a mut PairQuery<'b>,
+    pub(super) accepted: bool,
+}
+
+impl<L: Lanes> Certify<L> for Acceptance<'_, '_> {
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        let gap = minimum.gap(frame);
+        self.accepted = self.pair.is_answered_by(&gap.interval, frame.size);
+        if self.accepted {
+            self.fill(frame, state, minimum, &gap);
+        }
+    }
+}
+
+/// The same at the first state of a query: mostly it is the last one, too, and what the memory is asked for then goes unused.
+pub(super) struct AtFirst<'a, 'b, 'c>(pub(super) &'a mut Acceptance<'b, 'c>);
+
+impl<L: Lanes> Certify<L> for AtFirst<'_, '_, '_> {
+    const LOOKS_AHEAD: bool = false;
+
+    #[inline(always)]
+    fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
+        self.0.certify(frame, state, minimum);
+    }
+}
+
+impl Acceptance<'_, '_> {
+    /// Answer, but for the statistics, and cache from a minimum.
+    #[inline(always)]
+    fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
+        let pair = &mut *self.pair;
+        let normal = minimum.direction.mul(L::splat(minimum.inverse));
+        pair.cache.remember_features(state);
+        pair.answer.decided_by = DecidedBy::Marching;
+        pair.set_interval(&gap.interval, gap.distance);
+        if pair.query != Query::Intersection && pair.answer.outcome == Outcome::Separated {
+            contact::fill_separated(pair.answer, frame, minimum, normal, state.features());
+        } else {
+            contact::fill_normal(pair.answer, normal);
+        }
+        if pair.query == Query::Intersection {
+            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / divisor(frame.separation)), normal);
+            let direction = frame.bodies[0].rotate_back(nudged).to_vector();
+            pair.cache.remember_axis(state.vertices(frame.polyhedra()), direction);
+        }
+    }
+}
+
+/// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
+pub(super) struct Closely<'a, 'b, const BETWEEN_PLANES: bool> {
+    pub(super) acceptance: Acceptance<'a, 'b>,
+    pub(super) at: State,
+}
+
+impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, BETWEEN_PLANES> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        let &mut Closely { ref mut acceptance, at } = self;
+        let frame = Frame::<L>::new(acceptance.pair.polyhedra(), acceptance.pair.poses(), ROTATION_LIMIT);
+        let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
+        marching::march(&frame, at, 1, &mut closer);
+        if let Some((minimum, gap)) = &closer.found {
+            acceptance.accepted = acceptance.pair.is_answered_by(&gap.interval, frame.size);
+            if acceptance.accepted {
+                acceptance.fill(&frame, at, minimum, gap);
+            }
+        }
+    }
+}

@@ -1,0 +1,220 @@
+//! One query: what is asked, of which bodies, and where the answer goes.
+
+use crate::base::error::Result;
+use crate::base::math::{Pose, clamp};
+use crate::base::simd::Lanes;
+use crate::pair::answer::{Outcome, PairAnswer};
+use crate::pair::cache::PairCache;
+use crate::pair::config::{Accuracy, PairConfig, Query, Start};
+use crate::pair::placed::Placed;
+use crate::polyhedron::Polyhedron;
+use crate::solve::certificate::Interval;
+use crate::solve::decide::Wanted;
+use crate::solve::frame::{Frame, Marker, RIGID_TOGETHER};
+use crate::solve::state::State;
+
+/// Whether the rungs that need no marching are asked first: bounding spheres and the last separating axis.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(in crate::pair) enum Glances {
+    Asked,
+    /// For a figure of the paper, which knew neither.
+    LeftOut,
+}
+
+/// One query. What is asked for is read here and in [`level_choice`](super::level_choice) alone.
+pub(in crate::pair) struct PairQuery<'a> {
+    pub query: Query,
+    /// Where the caller has them: a copy would load at once what has just been stored pointer by pointer, and wait for it (10 ns).
+    pub bodies: &'a [Placed<'a>; 2],
+    pub cache: &'a mut PairCache,
+    pub config: &'a PairConfig,
+    pub answer: &'a mut PairAnswer,
+}
+
+impl<'a> PairQuery<'a> {
+    /// A query whose configuration is checked, here and nowhere else.
+    ///
+    /// # Errors
+    /// Of [`PairConfig::check`].
+    #[inline(always)]
+    pub fn new(
+        query: Query,
+        bodies: &'a [Placed<'a>; 2],
+        cache: &'a mut PairCache,
+        config: &'a PairConfig,
+        answer: &'a mut PairAnswer,
+    ) -> Result<PairQuery<'a>> {
+        config.check(query)?;
+        Ok(PairQuery { query, bodies, cache, config, answer })
+    }
+
+    #[inline(always)]
+    pub fn polyhedra(&self) -> [&'a Polyhedron; 2] {
+        [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()]
+    }
+
+    #[inline(always)]
+    pub fn poses(&self) -> [&'a Pose; 2] {
+        [self.bodies[0].pose, self.bodies[1].pose]
+    }
+
+    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are in range, and a rotation
+    /// limit that refuses no pose which is right up to rounding.
+    #[inline(always)]
+    pub fn is_simple(&self) -> bool {
+        let [body1, body2] = self.polyhedra();
+        body1.simple & body2.simple & self.admits_rounding()
+    }
+
+    /// Whether the rotation limit refuses no rotation that is right up to rounding.
+    #[inline(always)]
+    pub fn admits_rounding(&self) -> bool {
+        self.config.rotation_limit >= RIGID_TOGETHER
+    }
+
+    /// What an approximate query wants to know.
+    #[inline(always)]
+    pub fn accuracy(&self) -> Accuracy {
+        let config = self.config;
+        Accuracy { absolute: config.absolute_error, relative: config.relative_error, beyond: config.distance_tolerance }
+    }
+
+    /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
+    #[inline(always)]
+    pub fn enough(&self) -> f64 {
+        let tolerance = self.config.distance_tolerance;
+        let is_verdict = (self.query == Query::Intersection) & (tolerance == f64::INFINITY);
+        if is_verdict { 0.0 } else { tolerance }
+    }
+
+    /// Made in place by whoever calls it: it is large.
+    #[inline(always)]
+    pub fn frame<L: Lanes>(&self) -> Frame<'a, L> {
+        Frame::new(self.polyhedra(), self.poses(), self.config.rotation_limit)
+    }
+
+    /// The frame of bodies that are [simple](PairQuery::is_simple).
+    #[inline(always)]
+    pub fn frame_of_simple<L: Lanes>(&self) -> Frame<'a, L> {
+        Frame::of_rigid(self.polyhedra(), self.poses())
+    }
+
+    pub fn check_poses(&self) -> Result<()> {
+        self.poses().iter().try_for_each(|pose| pose.check(self.config.rotation_limit))
+    }
+
+    /// Clears a cache that is not to be asked, unless the poses are refused: who is refused finds nothing changed.
+    pub fn forget(&mut self) -> Result<()> {
+        if !self.asks_cache() {
+            self.check_poses()?;
+            *self.cache = PairCache::default();
+        }
+        Ok(())
+    }
+
+    /// Whether the cache may say where to start.
+    #[inline(always)]
+    pub fn asks_cache(&self) -> bool {
+        matches!(self.config.start, Start::Automatic | Start::Cache)
+    }
+
+    /// Whether look-up tables may say where to start.
+    #[inline(always)]
+    pub fn asks_tables(&self) -> bool {
+        self.config.start != Start::Cold
+    }
+
+    /// Whether a pair that has jumped may start anew, or is to begin at its last features all the same.
+    #[inline(always)]
+    pub fn may_start_anew(&self) -> bool {
+        self.config.start != Start::Cache
+    }
+
+    /// From where the pair may have jumped, if it may then start anew.
+    #[inline(always)]
+    pub fn last_marker(&self) -> Option<&Marker> {
+        self.may_start_anew().then_some(&self.cache.marker)
+    }
+
+    /// What the integers and the fallback are to tell. Cheap bounds or not, nearest points are to be nearest.
+    pub fn wanted(&self) -> Wanted {
+        let distance_tolerance = self.config.distance_tolerance;
+        let tight = self.query != Query::Intersection || distance_tolerance < f64::INFINITY;
+        Wanted { tight, distance_tolerance }
+    }
+
+    // --- Answers -----------------------------------------------------------------------------------------------------------------
+
+    /// Whether an interval of the distance, of bodies of a size, answers the query.
+    #[inline(always)]
+    pub fn is_answered_by(&self, interval: &Interval, size: f64) -> bool {
+        let is_narrow = interval.is_tight(size)
+            || match self.query {
+                // Without an upper bound a witness point may lie out of its body.
+                Query::Approximate => {
+                    interval.upper < f64::INFINITY && self.accuracy().is_met_by(interval.lower, interval.upper)
+                }
+                Query::Intersection => interval.lower > 0.0,
+                Query::Distance | Query::Contact => false,
+            };
+        is_narrow && self.is_settled_by(interval)
+    }
+
+    /// Whether an interval tells on which side of the tolerance the distance is.
+    #[inline(always)]
+    pub fn is_settled_by(&self, interval: &Interval) -> bool {
+        interval.settles(self.config.distance_tolerance)
+    }
+
+    /// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair. The interval settles the
+    /// tolerance: its upper end is beyond it just where the true distance is.
+    #[inline(always)]
+    pub fn set_interval(&mut self, interval: &Interval, distance: f64) {
+        set_interval(self.answer, interval, distance, self.config.distance_tolerance);
+    }
+
+    /// The same of an interval that need not settle the tolerance: what a budget leaves open is not beyond.
+    #[inline(always)]
+    pub fn set_open_interval(&mut self, interval: &Interval, distance: f64) {
+        let tolerance = if self.is_settled_by(interval) { self.config.distance_tolerance } else { f64::INFINITY };
+        set_interval(self.answer, interval, distance, tolerance);
+    }
+}
+
+/// What became of an attempt at marching.
+pub(super) enum Attempt {
+    /// The answer is there.
+    Answered,
+    /// It is left open.
+    Open(Open),
+    /// Nothing was tried: there are no features to begin at, or poses that are not rigid or not within range.
+    Untried,
+    /// The enclosure of the last intersection no longer holds the origin.
+    NotEnclosed,
+}
+
+/// What marching left open.
+#[derive(Clone, Copy)]
+pub(super) struct Open {
+    /// Where it came to.
+    pub at: State,
+    /// Whether that is a minimum, whose certificate does not hold.
+    pub is_minimum: bool,
+    /// Steps made.
+    pub steps: u32,
+}
+
+#[inline(always)]
+fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, distance_tolerance: f64) {
+    answer.lower = interval.lower;
+    answer.proof_count = 0;
+    if interval.upper > distance_tolerance {
+        answer.outcome = Outcome::Beyond;
+        answer.upper = f64::INFINITY;
+        answer.distance = interval.lower;
+    } else {
+        answer.outcome = Outcome::Separated;
+        answer.upper = interval.upper;
+        answer.distance = clamp(distance, interval.lower, interval.upper);
+    }
+}
