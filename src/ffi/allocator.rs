@@ -10,7 +10,9 @@ use std::ptr::null_mut;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicPtr, Ordering};
 
-use super::{Failure, StatusCode, guard, must_return};
+use super::failure::{Failure, StatusCode};
+use super::guard::guard;
+use super::log::must_return;
 use crate::base::locks::locked;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of

@@ -3,7 +3,8 @@
 use std::ffi::c_char;
 use std::path::Path;
 
-use super::{Checked, Failure, StatusCode, array, string};
+use super::failure::{Checked, Failure, StatusCode};
+use super::pointers::{array, string};
 use crate::base::math::Vector;
 use crate::base::memory::{collected, copied};
 use crate::mesh::PolygonMesh;

@@ -1,9 +1,10 @@
 //! Depths and contact manifolds of pairs.
 
-use super::{
-    Checked, DepthEndingNumber, Failure, StatusCode, Versioned, exclusive, guard, init_struct, input, read_enumerator,
-    read_struct,
-};
+use super::enumerators::{DepthEndingNumber, read_enumerator};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
+use super::pointers::{exclusive, input};
+use super::structs::{Versioned, init_struct, read_struct};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify_depth;
 use crate::pair::{

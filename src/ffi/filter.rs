@@ -2,8 +2,10 @@
 
 use std::ffi::c_void;
 
+use super::failure::StatusCode;
+use super::log::must_return;
+use super::pointers::array;
 use super::scene::{SceneHandle, change};
-use super::{StatusCode, array, must_return};
 use crate::scene::PairFilter;
 use crate::scene::object::ObjectId;
 

@@ -1,9 +1,12 @@
 //! Levels of detail: those that a caller gives, and what the levels of a shape are.
 
 use super::arrays::{copy_triangles, copy_vertices, read_arrays};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
+use super::pointers::{array, input};
 use super::shape::create;
 use super::shape_options::{CShapeOptions, read_options};
-use super::{Checked, Failure, StatusCode, Versioned, array, guard, input, write_struct};
+use super::structs::{Versioned, write_struct};
 use crate::base::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;

@@ -1,12 +1,11 @@
 //! The library as a whole: its version, its statuses and what answers say in words, the last error, the log.
 
 use std::ffi::{CStr, c_char, c_void};
-use std::sync::{PoisonError, RwLock};
 
-use super::{
-    DecidedByNumber, Failure, FeatureKindNumber, LAST_ERROR, OutcomeNumber, StatusCode, StatusNumber, guard,
-    must_return,
-};
+use super::enumerators::{DecidedByNumber, FeatureKindNumber, OutcomeNumber, StatusNumber};
+use super::failure::{Failure, StatusCode};
+use super::guard::{LAST_ERROR, guard};
+use super::log::{LogCallback, set_log};
 use crate::base::enumerator::Enumerator;
 use crate::pair::{DecidedBy, FeatureKind, Outcome};
 
@@ -126,39 +125,10 @@ pub extern "C" fn swiftprox_library_last_error_message() -> *const c_char {
     LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
-/// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
-/// and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
-pub type LogCallback =
-    Option<unsafe extern "C-unwind" fn(status: StatusNumber, message: *const c_char, user: *mut c_void)>;
-
-#[derive(Clone, Copy)]
-struct Log {
-    callback: LogCallback,
-    user: *mut c_void,
-}
-
-// SAFETY: `user` is only ever handed back to the callback, which swiftprox_library_set_log requires to be callable from every
-// thread.
-unsafe impl Send for Log {}
-// SAFETY: as above.
-unsafe impl Sync for Log {}
-
-static LOG: RwLock<Log> = RwLock::new(Log { callback: None, user: std::ptr::null_mut() });
-
 /// Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
 /// not return SWIFTPROX_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
 /// from several at once; calls already under way in other threads may still reach the old one for a moment.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_set_log(callback: LogCallback, user: *mut c_void) {
-    *LOG.write().unwrap_or_else(PoisonError::into_inner) = Log { callback, user };
-}
-
-/// Hands a failure to the log.
-pub(super) fn log(status: StatusCode, message: &CStr) {
-    // The lock is let go first: a callback may set the log.
-    let log = *LOG.read().unwrap_or_else(PoisonError::into_inner);
-    if let Some(callback) = log.callback {
-        // SAFETY: the callback takes any status and message and its own user pointer (swiftprox_library_set_log).
-        must_return(|| unsafe { callback(status as i32, message.as_ptr(), log.user) });
-    }
+    set_log(callback, user);
 }

@@ -4,7 +4,9 @@ use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
 use super::arrays::{Faces, check_count, read_faces, read_vectors};
-use super::{Checked, Failure, StatusCode, call_out, exclusive, guard, string};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::{call_out, guard};
+use super::pointers::{exclusive, string};
 use crate::base::error::{Error, Result};
 use crate::base::memory::{extend, reserve, with_capacity};
 use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};

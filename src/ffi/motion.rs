@@ -2,11 +2,13 @@
 
 use std::ffi::{c_char, c_void};
 
+use super::enumerators::{CastOutcomeNumber, read_enumerator};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::{call_out, guard};
 use super::pair::CPairCache;
-use super::{
-    CastOutcomeNumber, Checked, Failure, MotionKindNumber, StatusCode, Versioned, call_out, exclusive, guard,
-    init_struct, input, output, read_enumerator, read_struct,
-};
+use super::pointers::{exclusive, input, output};
+use super::structs::{Versioned, init_struct, read_struct};
+use crate::base::enumerator::enumerator;
 use crate::base::math::{Pose, Vector};
 use crate::motion::{
     Callback, CastAnswer, CastConfig, CastOutcome, Clearance, ClearanceConfig, Motion, Moving, Screw, cast, clearance,
@@ -29,6 +31,11 @@ pub enum MotionKind {
     /// Where `pose` says.
     Callback = 3,
 }
+
+enumerator!(MotionKind { Fixed, Screw, Affine, Callback });
+
+/// A [`MotionKind`].
+pub type MotionKindNumber = i32;
 
 /// Writes the pose at a time, 12 doubles, row by row; they are NaN before, which is refused. The same time gives the same pose. It
 /// runs in the thread that asks, and must return; a C++ exception that leaves it ends the program.

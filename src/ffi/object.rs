@@ -4,9 +4,12 @@ use std::ffi::c_char;
 use std::sync::Arc;
 
 use super::arrays::{check_capacity, read_arrays, read_path};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
+use super::pointers::{array, output};
 use super::scene::{SceneHandle, change, look};
 use super::shape_options::{CShapeOptions, read_options};
-use super::{Checked, Failure, StatusCode, Versioned, array, guard, init_struct, output, read_struct, write_struct};
+use super::structs::{Versioned, init_struct, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::scene::Object;

@@ -1,9 +1,12 @@
 //! Queries about one object, and about what has changed.
 
+use super::enumerators::{QueryNumber, read_enumerator};
+use super::failure::{Failure, StatusCode};
+use super::guard::guard;
 use super::object::share;
+use super::pointers::{input, output};
 use super::query::{CSceneAnswer, CSceneQuery, ask};
 use super::scene::{SceneHandle, change};
-use super::{Failure, QueryNumber, StatusCode, guard, input, output, read_enumerator};
 use crate::base::math::Pose;
 use crate::scene::object::ObjectId;
 use crate::scene::{ObjectPair, Query, SceneEvents};

@@ -3,10 +3,12 @@
 
 use std::mem::MaybeUninit;
 
+use super::enumerators::read_enumerator;
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::{caught, guard};
+use super::pointers::{exclusive, input};
+use super::structs::{Versioned, init_struct, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
-use super::{
-    Checked, Failure, StatusCode, Versioned, caught, exclusive, guard, init_struct, input, read_enumerator, view_struct,
-};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify;

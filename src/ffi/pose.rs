@@ -1,8 +1,10 @@
 //! Where objects of a scene and their pieces are.
 
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
 use super::object::check_piece;
+use super::pointers::{array, input, output};
 use super::scene::{SceneHandle, change, look};
-use super::{Checked, Failure, StatusCode, array, guard, input, output};
 use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::collected;
 use crate::scene::Scene;

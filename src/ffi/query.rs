@@ -1,10 +1,12 @@
 //! Queries over a scene, whose results the scene owns, and their statistics.
 
+use super::enumerators::{ContactDetailNumber, read_enumerator};
+use super::failure::{Checked, StatusCode};
+use super::guard::guard;
+use super::pointers::output;
 use super::scene::{SceneHandle, change, look};
+use super::structs::{Versioned, init_struct, read_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
-use super::{
-    Checked, ContactDetailNumber, StatusCode, Versioned, guard, init_struct, output, read_enumerator, read_struct,
-};
 use crate::pair::ManifoldPoint;
 use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,

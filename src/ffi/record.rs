@@ -3,12 +3,13 @@
 use std::ffi::c_char;
 
 use super::arrays::read_path;
+use super::enumerators::QueryNumber;
+use super::failure::{Checked, StatusCode};
+use super::guard::{guard, keep_panics_quiet};
+use super::pointers::{exclusive, input, output};
 use super::query::{CSceneAnswer, DEFAULT_TOLERANCE};
 use super::scene::{CSceneOptions, SceneHandle, change, look, new_scene, swiftprox_scene_destroy};
-use super::{
-    Checked, QueryNumber, StatusCode, Versioned, exclusive, guard, input, keep_panics_quiet, output, read_struct,
-    write_struct,
-};
+use super::structs::{Versioned, read_struct, write_struct};
 use crate::pair::Query;
 use crate::scene::object::ObjectId;
 use crate::scene::{Replay, Scene};

@@ -4,10 +4,12 @@ use std::cell::UnsafeCell;
 use std::ffi::c_void;
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::{guard, keep_panics_quiet};
+use super::log::log;
+use super::pointers::{input, output};
+use super::structs::{Versioned, init_struct, read_struct};
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
-use super::{
-    Checked, Failure, StatusCode, Versioned, guard, init_struct, input, keep_panics_quiet, log, output, read_struct,
-};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::workers::parked::MOST_THREADS;
 use crate::scene::object::ObjectId;

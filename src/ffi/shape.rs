@@ -4,8 +4,11 @@ use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
 use super::arrays::{copy_triangles, copy_vertices, read_arrays, read_path, read_vectors};
+use super::failure::{Checked, StatusCode};
+use super::guard::{guard, keep_panics_quiet};
+use super::pointers::{input, output};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
-use super::{Checked, StatusCode, Versioned, guard, input, keep_panics_quiet, output, write_struct};
+use super::structs::{Versioned, write_struct};
 use crate::build::hull::check_points;
 use crate::shape::file as shape_file;
 use crate::shape::{Shape, precision_tolerance};

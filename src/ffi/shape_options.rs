@@ -2,10 +2,11 @@
 
 use std::ffi::c_void;
 
+use super::enumerators::{InputNumber, read_enumerator};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::call_out;
+use super::structs::{Versioned, init_struct, read_struct};
 use super::tuning::{CShapeTuning, read_shape_tuning};
-use super::{
-    Checked, Failure, InputNumber, StatusCode, Versioned, call_out, init_struct, read_enumerator, read_struct,
-};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Vector};
 use crate::base::progress::Progress;

@@ -2,7 +2,8 @@
 
 use std::mem::MaybeUninit;
 
-use super::{Checked, Failure, StatusCode, guard};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
 
 /// No struct of this interface is smaller than struct_size and one member: such a struct_size was never initialised.
 const SMALLEST_STRUCT: usize = 16;

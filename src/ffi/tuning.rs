@@ -2,10 +2,11 @@
 
 use std::mem::MaybeUninit;
 
-use super::{
-    Checked, HierarchyNumber, LevelsNumber, LookupNumber, RefinementNumber, StartNumber, StatusCode, Versioned, guard,
-    init_struct, input, read_enumerator, read_struct, view_struct, write_struct,
-};
+use super::enumerators::{HierarchyNumber, LevelsNumber, LookupNumber, RefinementNumber, StartNumber, read_enumerator};
+use super::failure::{Checked, StatusCode};
+use super::guard::guard;
+use super::pointers::input;
+use super::structs::{Versioned, init_struct, read_struct, view_struct, write_struct};
 use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::pair::{Levels, PairConfig, Refinement, Start};
 use crate::polyhedron::lookup::Plan;

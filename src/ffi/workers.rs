@@ -4,7 +4,7 @@ use std::ffi::c_void;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use super::must_return;
+use super::log::must_return;
 use crate::base::workers::Workers;
 
 /// Does the items from `first` on and before `end` of a task; `context` is what came with it. It may be called from any threads,

@@ -4,7 +4,7 @@ use std::cell::OnceCell;
 use std::collections::HashSet;
 
 use super::edges::{Matching, match_edges};
-use super::{FLAT_HINT, HULL_HINT, violation};
+use super::violation::{FLAT_HINT, HULL_HINT, violation};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{collected, copied, filled, lacking};

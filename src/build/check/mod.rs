@@ -1,23 +1,24 @@
 //! Is the caller's mesh what it promises: closed, 2-manifold, oriented, connected, convex? Or a
 //! message naming the face, edge or vertex where it is not.
 
+mod violation;
+mod duplicates;
 mod edges;
 mod convexity;
 mod proof;
 
-use convexity::{Side, most_inward};
-
-pub use convexity::{check_convexity, is_inside_out};
-pub use proof::{check_hull, check_hull_in_steps};
-
-use crate::base::error::{Error, Result};
-use crate::base::locality::for_each_cell;
-use crate::base::math::Vector;
+use crate::base::error::Result;
 use crate::base::memory::{collected, filled, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::build::hull::convex_hull_in_steps;
 use crate::mesh::{PolygonMesh, check_vertex};
+use convexity::{Side, most_inward};
+pub use convexity::{check_convexity, is_inside_out};
+use duplicates::first_of_equal;
 use edges::{Matching, match_edges};
+pub use proof::{check_hull, check_hull_in_steps};
+use violation::violation;
+pub use violation::{FLAT_HINT, HULL_HINT};
 
 /// Checks a mesh in the caller's numbering against the contract of `docs/conventions.md`. `tolerance` is the
 /// largest distance that a vertex may lie outside a face's plane, in the mesh's units; `allow_flat`
@@ -32,7 +33,7 @@ pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Resul
 /// As [`check_mesh`], saying how far it is.
 ///
 /// # Errors
-/// As [`check_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
+/// As [`check_mesh`]; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn check_mesh_in_steps(
     mesh: &PolygonMesh,
     tolerance: f64,
@@ -50,7 +51,7 @@ pub fn check_mesh_in_steps(
 /// one fan, the surface connected and of genus 0.
 ///
 /// # Errors
-/// The first violation found, naming the face, edge or vertex; [`Error::Cancelled`] when the caller does not want to go on.
+/// The first violation found, naming the face, edge or vertex; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
     check_indices(mesh)?;
     let corners = Corners::new(mesh, &mut progress.part(0.0, 0.3))?;
@@ -60,30 +61,6 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
     corners.check_fans(&twins, &mut progress.part(0.7, 0.85))?;
     corners.check_connected(&twins, &mut progress.part(0.85, 0.95))?;
     corners.check_genus(&twins, mesh, &mut progress.part(0.95, 1.0))
-}
-
-/// Which option admits a body that lies in a plane.
-pub const FLAT_HINT: &str = "the input policy Flat (SWIFTPROX_INPUT_FLAT) admits bodies without interior";
-
-/// Which option admits a body that is a segment or a point.
-pub const HULL_HINT: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) admits segments and points";
-
-fn violation<T>(message: String) -> Result<T> {
-    Err(Error::Mesh(message))
-}
-
-/// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
-fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
-    // Equal points are in one cell of the curve; there are few in one nearly always.
-    let mut first: Vec<u32> = collected(0..points.len() as u32)?;
-    for_each_cell(points, progress, |cell| {
-        let key = |i: &u32| points[*i as usize].map(|x| (x + 0.0).to_bits());
-        cell.sort_unstable_by(|i, j| key(i).iter().cmp(key(j).iter()).then(i.cmp(j)));
-        for equal in cell.chunk_by(|i, j| points[*i as usize] == points[*j as usize]) {
-            equal.iter().for_each(|i| first[*i as usize] = equal[0]);
-        }
-    })?;
-    Ok(first)
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.

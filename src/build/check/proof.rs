@@ -1,5 +1,6 @@
 //! An independent proof that a surface is the convex hull of the points it was made from.
 
+use super::duplicates::first_of_equal;
 use super::edges::{Matching, match_edges};
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
@@ -73,7 +74,7 @@ fn fault<T>(message: String) -> Result<T> {
 
 /// Of exactly equal points only the first may be a vertex.
 fn check_lowest_duplicates(points: &[Vector], is_vertex: &[bool], progress: &mut Progress) -> Result<()> {
-    let first = super::first_of_equal(points, progress)?;
+    let first = first_of_equal(points, progress)?;
     match (0..points.len()).find(|&i| is_vertex[i] && first[i] != i as u32) {
         Some(i) => fault(format!("vertex {i} equals point {}", first[i])),
         None => Ok(()),

@@ -47,9 +47,6 @@ const MOST_POINTS: usize = 1 << 30;
 /// Of the time that a hull takes, what putting the points in order does, about.
 const SHARE_OF_ORDER: f64 = 0.05;
 
-/// No index.
-const NONE: u32 = u32::MAX;
-
 /// The exact convex hull of `points`.
 ///
 /// # Errors

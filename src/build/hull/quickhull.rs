@@ -28,11 +28,11 @@
 //! vertices are found at the end (fewer than three edges between planes that differ meet there), and the hull is built once
 //! more from the vertices without them.
 
-use super::NONE;
 use crate::base::error::Result;
 use crate::base::memory::{collected, extend, filled, push, reserve, with_capacity};
 use crate::base::predicates::{ExactPoints, FilteredPlane};
 use crate::base::progress::Progress;
+use crate::polyhedron::NONE;
 
 /// New facets beyond which a point looks for one that it sees by bisection.
 const MANY_FACETS: usize = 32;

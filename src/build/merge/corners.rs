@@ -1,6 +1,6 @@
 //! Which vertices of the merged faces are corners, and which lie inside a straight edge up to rounding.
 
-use super::MergedFaces;
+use super::faces::MergedFaces;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{collected, copied, filled, push, with_capacity};

@@ -1,12 +1,13 @@
 //! Which triangles lie in one plane up to rounding.
 
-use super::{NONE, Triangles};
+use super::faces::Triangles;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{filled, push, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
+use crate::polyhedron::NONE;
 use crate::polyhedron::triangulation::{Triangulation, previous};
 
 /// The region of each triangle, and the unit normal of each region: connected, each within `bound` of one plane and facing one way,

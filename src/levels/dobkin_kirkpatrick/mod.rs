@@ -15,18 +15,17 @@
 //! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
 //! (see `hierarchy`).
 
+mod surface;
 mod relaxation;
-
-use relaxation::Cone;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{collected, copied, extend, filled, push, with_capacity};
-use crate::base::normal::{area_vector, normal_of};
-use crate::base::predicates::ExactPoints;
 use crate::base::progress::Progress;
-use crate::polyhedron::triangulation::Triangulation;
-use crate::polyhedron::{NONE, Polyhedron};
+use crate::polyhedron::NONE;
+use relaxation::Cone;
+pub use surface::DobkinKirkpatrick;
+use surface::{Triangle, normal, place_of};
 
 /// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin
 /// 2000, §4.4). A corner of a box has importance 3, so a box gets no level.
@@ -40,38 +39,6 @@ const LARGEST_VALENCE: usize = 100;
 /// vertex at a time can go would fill it.
 const LEAST_SAVING: usize = 16;
 
-/// The levels of a body, one after the other.
-pub struct DobkinKirkpatrick<'a> {
-    base: &'a Polyhedron,
-    exact: ExactPoints,
-    /// The body's vertices as seen from its centre of mass.
-    rays: Vec<Vector>,
-    /// Free ones, to be reused, only while vertices are removed.
-    triangles: Vec<Triangle>,
-    free: Vec<u32>,
-    /// For each vertex that is left one of its triangles; NONE for the others.
-    triangle_at: Vec<u32>,
-    /// For each removed vertex the next one in the same region, or NONE.
-    next_in_region: Vec<u32>,
-    triangle_count: usize,
-    /// The vertices that are left, ascending.
-    left: Vec<u32>,
-}
-
-/// A triangle of the hull of the vertices that are left.
-struct Triangle {
-    /// Counter-clockwise from outside; vertices of the body.
-    corners: [u32; 3],
-    /// `neighbours[k]` is across the edge from `corners[k]` to `corners[(k + 1) % 3]`.
-    neighbours: [u32; 3],
-    /// Unit outward normal.
-    normal: Vector,
-    /// The first of the removed vertices of the body in this triangle's centre-of-mass region, or NONE; then
-    /// [`DobkinKirkpatrick::next_in_region`].
-    region: u32,
-    is_free: bool,
-}
-
 /// The next level as it comes from here.
 pub struct Removal {
     /// The vertices of the body that are left, ascending.
@@ -82,45 +49,7 @@ pub struct Removal {
     pub filled: Vec<([u32; 3], u32)>,
 }
 
-impl<'a> DobkinKirkpatrick<'a> {
-    /// Begins with a body of dimension 3.
-    ///
-    /// # Errors
-    /// [`Error::Bug`](crate::base::error::Error::Bug) if its triangles are no closed surface,
-    /// [`crate::base::error::Error::Memory`].
-    pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
-        let positions: Vec<Vector> = collected(base.vertices.iter().map(|v| v.position))?;
-        let centre = base.mass.centre_of_mass - base.centre;
-        let normal_of = |corners: &[u32; 3]| normal(&positions, *corners);
-        let normals: Vec<Vector> = collected(base.triangles.iter().map(normal_of))?;
-        let surface = Triangulation::new(copied(&base.triangles)?, &normals, positions.len())?;
-        let mut triangle_at = filled(NONE, positions.len())?;
-        let mut triangles = with_capacity(base.triangles.len())?;
-        for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
-            let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
-            triangles.push(Triangle { corners, neighbours, normal, region: NONE, is_free: false });
-            for v in corners {
-                triangle_at[v as usize] = t as u32;
-            }
-        }
-        Ok(DobkinKirkpatrick {
-            base,
-            exact: ExactPoints::new(&positions)?,
-            rays: collected(positions.iter().map(|p| p - centre))?,
-            triangle_count: triangles.len(),
-            left: collected(0..positions.len() as u32)?,
-            triangles,
-            free: Vec::new(),
-            triangle_at,
-            next_in_region: filled(NONE, positions.len())?,
-        })
-    }
-
-    /// Triangles that are left.
-    pub fn triangle_count(&self) -> usize {
-        self.triangle_count
-    }
-
+impl DobkinKirkpatrick<'_> {
     /// The next level, of at least `minimum` triangles. `None` where the construction ends: a tetrahedron or the minimum is
     /// reached, hardly any vertex is flat enough to be removed, or the centre of mass would come to lie outside.
     ///
@@ -217,22 +146,6 @@ impl<'a> DobkinKirkpatrick<'a> {
         Ok(set)
     }
 
-    /// The triangles around a vertex, counter-clockwise.
-    fn star(&self, v: u32, star: &mut Vec<u32>) -> Result<()> {
-        star.clear();
-        let first = self.triangle_at[v as usize];
-        let mut t = first;
-        loop {
-            push(star, t)?;
-            let triangle = &self.triangles[t as usize];
-            t = triangle.neighbours[(place_of(triangle, v) + 2) % 3];
-            if t == first {
-                break;
-            }
-        }
-        Ok(())
-    }
-
     /// Removes a vertex and fills the hole by the outer hull of the vertices around it. `false` if the centre of mass is not inside
     /// of all of the filling.
     fn remove(&mut self, v: u32, filled: &mut Vec<([u32; 3], u32)>) -> Result<bool> {
@@ -291,12 +204,6 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         self.free.clear();
         Ok(())
-    }
-
-    /// The removed vertices in a region, from its first.
-    fn region(&self, first: u32) -> impl Iterator<Item = u32> {
-        let some = |q: u32| (q != NONE).then_some(q);
-        std::iter::successors(some(first), move |q| some(self.next_in_region[*q as usize]))
     }
 
     /// Fills the hole within a ring (counter-clockwise from outside; `outer[k]` is the triangle beyond the edge from
@@ -363,41 +270,13 @@ impl<'a> DobkinKirkpatrick<'a> {
         }
         Ok(t)
     }
-
-    /// How far the plane of a triangle is from the centre of mass.
-    fn height(&self, t: u32) -> f64 {
-        let triangle = &self.triangles[t as usize];
-        triangle.normal.dot(&self.rays[triangle.corners[0] as usize])
-    }
-
-    /// The corner of a triangle after a vertex.
-    fn following(&self, t: u32, v: u32) -> u32 {
-        let triangle = &self.triangles[t as usize];
-        triangle.corners[(place_of(triangle, v) + 1) % 3]
-    }
-
-    /// The corner of a triangle opposite to its edge that begins at `from`.
-    fn opposite(&self, t: u32, from: u32) -> u32 {
-        let triangle = &self.triangles[t as usize];
-        triangle.corners[(place_of(triangle, from) + 2) % 3]
-    }
-}
-
-/// Which corner of a triangle a vertex is.
-fn place_of(triangle: &Triangle, v: u32) -> usize {
-    triangle.corners.iter().position(|w| *w == v).unwrap_or(0)
-}
-
-/// The unit normal of a triangle.
-fn normal(positions: &[Vector], corners: [u32; 3]) -> Vector {
-    let [a, b, c] = corners.map(|v| positions[v as usize]);
-    normal_of(&area_vector(&a, &b, &c), &a, &b, &c)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::build::assembly::build;
+    use crate::polyhedron::Polyhedron;
     use swiftprox::random::Random;
 
     /// Ellipsoids of few and of many vertices, and a ball with spikes.

@@ -1,6 +1,6 @@
 //! Scaling a level until it bounds the body, and drawing its vertices back along their rays.
 
-use super::{DobkinKirkpatrick, place_of};
+use super::surface::{DobkinKirkpatrick, place_of};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{extend, filled, push, with_capacity};

@@ -1,8 +1,8 @@
 //! Which features of two neighbouring levels belong together (Ehmann & Lin 2000, §4.3): from where to march on after a step
 //! from one level to the other. A heuristic for speed; nothing rests on it.
 
-use super::Links;
 use super::bounding::faces_in_order;
+use super::links::Links;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{collected, filled, push};

@@ -4,6 +4,7 @@
 //! The makers (quadric error simplification, Dobkin-Kirkpatrick, cutting planes) propose points; what all have in common is here. A
 //! level is the *exact* hull of its points, laid out like P₀, so all that runs on a body runs on its levels.
 
+mod links;
 mod bounding;
 mod correspondence;
 
@@ -12,7 +13,7 @@ use std::borrow::Cow;
 use crate::base::enumerator::enumerator;
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, extend, filled, push, with_capacity};
+use crate::base::memory::{collected, extend, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build;
@@ -27,6 +28,7 @@ use crate::solve::state::FeatureId;
 use crate::tables::plan_for_level;
 use bounding::{Scaling, bounding, translated};
 use correspondence::{Correspondence, by_identity, by_position};
+pub use links::Links;
 
 /// How the levels of a body are made.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -93,57 +95,6 @@ impl HierarchyOptions {
             ));
         }
         Ok(())
-    }
-}
-
-/// For each feature of a polyhedron one of a neighbouring level.
-#[derive(Debug, Clone, PartialEq)]
-pub struct Links {
-    /// For each vertex.
-    pub vertices: Vec<FeatureId>,
-    /// For each edge.
-    pub edges: Vec<FeatureId>,
-    /// For each face.
-    pub faces: Vec<FeatureId>,
-}
-
-impl Links {
-    /// All to vertex 0.
-    fn new(polyhedron: &Polyhedron) -> Result<Links> {
-        let links = |count: usize| filled(FeatureId::Vertex(0), count);
-        Ok(Links {
-            vertices: links(polyhedron.vertices.len())?,
-            edges: links(polyhedron.edges.len())?,
-            faces: links(polyhedron.faces.len())?,
-        })
-    }
-
-    /// Whether there is one for each feature of a polyhedron, to a feature that the other has.
-    fn lead(&self, from: &Polyhedron, to: &Polyhedron) -> bool {
-        let exists = |feature: &FeatureId| match *feature {
-            FeatureId::Vertex(v) => (v as usize) < to.vertices.len(),
-            FeatureId::Edge(e) => (e as usize) < to.edges.len(),
-            FeatureId::Face(f) => (f as usize) < to.faces.len(),
-        };
-        let Links { vertices, edges, faces } = self;
-        (vertices.len(), edges.len(), faces.len()) == (from.vertices.len(), from.edges.len(), from.faces.len())
-            && vertices.iter().chain(edges).chain(faces).all(exists)
-    }
-
-    /// What a feature is linked to.
-    #[inline]
-    pub fn of(&self, feature: FeatureId) -> FeatureId {
-        match feature {
-            FeatureId::Vertex(v) => self.vertices[v as usize],
-            FeatureId::Edge(e) => self.edges[e as usize],
-            FeatureId::Face(f) => self.faces[f as usize],
-        }
-    }
-
-    /// Memory held, in bytes.
-    pub fn heap_bytes(&self) -> usize {
-        let Links { vertices, edges, faces } = self;
-        size_of_val(&vertices[..]) + size_of_val(&edges[..]) + size_of_val(&faces[..])
     }
 }
 

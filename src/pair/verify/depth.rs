@@ -6,9 +6,10 @@
 //! in the search.
 
 use super::bounds::Bounds;
+use super::checks::{allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
 use super::facets;
 use super::numbers::{are_points_said, check_numbers};
-use super::{Witness, allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
+use super::witness::{Witness, difference_of};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
@@ -105,7 +106,7 @@ fn check_overlapping(
         witness.check_point(allowed, &[])?;
         witness.check_on_feature(allowed + local_width)?;
     }
-    let apart = super::difference_of(polyhedra, poses, &witnesses);
+    let apart = difference_of(polyhedra, poses, &witnesses);
     let off = length(&(apart + normal * depth));
     if off <= allowed + (upper - lower) {
         return Ok(());

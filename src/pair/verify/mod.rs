@@ -1,6 +1,7 @@
 //! The independent check of an answer, trusting nothing of the solver that made it: bounds of the distance over all vertices, the
 //! witness points on their features, an intersection's proof in integers, and so whatever rounding hides of a distance.
 
+mod checks;
 mod numbers;
 mod bounds;
 mod facets;
@@ -8,7 +9,7 @@ mod witness;
 mod depth;
 
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
@@ -16,9 +17,10 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 pub(crate) use bounds::Bounds;
 use bounds::PointInside;
+use checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
 pub use depth::verify_depth;
 use numbers::{are_points_said, check_numbers};
-use witness::Witness;
+use witness::{Witness, distance_between};
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
 ///
@@ -205,55 +207,6 @@ fn not_in_interval(truth: &exact::ExactDistance, answer: &PairAnswer) -> Error {
     })
 }
 
-/// Along the normal the bodies are at least `least` apart, as far as doubles tell.
-fn check_normal(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    normal: &Vector,
-    between: &Vector,
-    least: f64,
-) -> Result<()> {
-    let support = |i: usize, direction: Vector| {
-        let local = poses[i].rotate_back(&direction);
-        polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
-    };
-    let gap = normal.dot(between) - support(0, -normal) - support(1, *normal);
-    if gap >= least {
-        return Ok(());
-    }
-    Err(unverified(format!("along the normal the bodies are {gap:e} apart, not {least:e}")))
-}
-
-/// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
-fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
-    (poses[0].translation() - poses[1].translation())
-        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
-}
-
-/// What rounding may make of a length as it is checked here; `None` where sums of eight such lengths may overflow.
-fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> Option<f64> {
-    let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
-    let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres;
-    // Some hundred operations, each with at most half the least double where its result is subnormal.
-    let underflow = 128.0 * f64::from_bits(1);
-    (all <= f64::MAX / 8.0).then_some(64.0 * U * all + underflow)
-}
-
-fn too_large() -> Error {
-    Error::Argument("the objects are too large or too far apart to be checked in doubles".into())
-}
-
-/// The distance of the witness points.
-fn distance_between(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> f64 {
-    length(&difference_of(polyhedra, poses, witnesses))
-}
-
-/// From the witness point of object 2 to that of object 1, in the world.
-fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> Vector {
-    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
-    between_origins(polyhedra, poses) + first - second
-}
-
 fn check_no_points(answer: &PairAnswer) -> Result<()> {
     if are_points_said(&answer.into()) {
         return Err(unverified(format!("points or features of an answer that is {:?}", answer.outcome)));
@@ -266,13 +219,6 @@ fn check_no_normal(answer: &PairAnswer) -> Result<()> {
         return Ok(());
     }
     Err(unverified(format!("a normal of an answer that says no points: {:?}", answer.normal)))
-}
-
-fn check_unit(normal: &Vector) -> Result<()> {
-    if (normal.norm_squared() - 1.0).abs() <= 16.0 * U {
-        return Ok(());
-    }
-    Err(unverified(format!("the normal is not a unit vector: {normal:?}")))
 }
 
 /// What the answer says of each object.
@@ -337,15 +283,4 @@ fn verify_without_proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: 
     check_no_normal(answer)?;
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
     if truth.compare(0.0).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
-}
-
-/// The length of a vector whose squares may leave the range of doubles; NaN where a coordinate is.
-fn length(v: &Vector) -> f64 {
-    // `amax` passes over a NaN.
-    let scale = if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
-    if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
-}
-
-fn unverified(what: String) -> Error {
-    Error::Unverified(format!("the answer does not hold: {what}"))
 }

@@ -1,6 +1,6 @@
 //! The numbers of an answer of any kind: each is finite, or NaN with all that belongs to it.
 
-use super::unverified;
+use super::checks::unverified;
 use crate::base::error::Result;
 use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
 use crate::pair::depth::DepthAnswer;

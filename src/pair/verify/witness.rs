@@ -1,7 +1,7 @@
 //! What an answer says of one object: its witness point, in both frames, and the feature that holds it.
 
 use super::bounds::PointInside;
-use super::{length, unverified};
+use super::checks::{between_origins, length, unverified};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::build::assembly::build;
@@ -181,4 +181,15 @@ fn distance_from_face(polyhedron: &Polyhedron, face: &Face, point: &Vector) -> f
         distance_from_segment(&ends, point)
     };
     sides.iter().map(of_side).fold(f64::INFINITY, f64::min)
+}
+
+/// The distance of the witness points.
+pub(super) fn distance_between(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> f64 {
+    length(&difference_of(polyhedra, poses, witnesses))
+}
+
+/// From the witness point of object 2 to that of object 1, in the world.
+pub(super) fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> Vector {
+    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
+    between_origins(polyhedra, poses) + first - second
 }

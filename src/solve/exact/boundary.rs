@@ -1,4 +1,4 @@
-//! Where the origin is: outside the difference body, on its boundary or inside, in integers.
+//! Where the origin is: outside the Minkowski difference, on its boundary or inside, in integers.
 //!
 //! The carrier of the origin, a simplex of differences that has it in its relative interior, spans a linear space to which every
 //! supporting plane at the origin is perpendicular. So what is left is the same question one to three dimensions lower, across that
@@ -6,12 +6,12 @@
 //! vertex lies ahead of the origin, a normal, or ends at a carrier in the projection, and the space grows. Every descent ends since
 //! |P| falls strictly, and there are at most three.
 
+use super::answer::ExactAnswer;
 use super::dyadic::{IntVector, bounds_of_quotient_by_root, cross, dot, leading_bits};
-use super::simplex::{Corner, Simplex};
-use super::{DifferenceBody, ExactAnswer, VertexPair, answer};
+use super::minkowski::MinkowskiDifference;
+use super::simplex::{DifferenceVertex, Simplex, VertexPair};
 use crate::base::math::{Pose, Vector};
 use crate::polyhedron::Polyhedron;
-use crate::solve::exact::body::Body;
 use dashu_int::IBig;
 
 /// Where two bodies are relative to each other.
@@ -41,16 +41,16 @@ pub enum Supports {
 
 /// Where two bodies are relative to each other, exactly, for any finite poses. `start` as of [`super::solve`].
 pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPair], supports: Supports) -> Position {
-    let difference = DifferenceBody { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) };
+    let difference = MinkowskiDifference::new(polyhedra, poses);
     let (mut simplex, mut iterations) = difference.descend(start);
     if supports == Supports::OfAll {
         while !simplex.holds_origin() && simplex.improve(&difference.support_of_all(&simplex)) {}
     }
     if !simplex.holds_origin() {
-        return Position::Separated(answer(&simplex, iterations));
+        return Position::Separated(ExactAnswer::new(&simplex, iterations));
     }
     let normal = supporting_normal(&difference, &simplex, supports, &mut iterations);
-    let common = answer(&simplex, iterations);
+    let common = ExactAnswer::new(&simplex, iterations);
     match normal {
         Some(normal) => Position::Touching { normal: -leading_bits(&normal).normalize(), common },
         None => Position::Overlapping(common),
@@ -60,7 +60,7 @@ pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPai
 /// An upper bound of the least overlap, whatever the magnitudes: of those along the world's axes the least. And the unit vector
 /// from body 2 to body 1 along which that is.
 pub fn overlap_along_axes(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> (f64, Vector) {
-    let difference = DifferenceBody { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) };
+    let difference = MinkowskiDifference::new(polyhedra, poses);
     let mut least = (f64::INFINITY, Vector::x());
     for axis in 0..3 {
         for sign in [IBig::ONE, IBig::NEG_ONE] {
@@ -83,9 +83,9 @@ pub fn overlap_along_axes(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> (f6
     least
 }
 
-impl DifferenceBody<'_> {
+impl MinkowskiDifference<'_> {
     /// A vertex pair farthest along a direction.
-    pub(super) fn farthest(&self, from: VertexPair, along: &IntVector, supports: Supports) -> Corner {
+    pub(super) fn farthest(&self, from: VertexPair, along: &IntVector, supports: Supports) -> DifferenceVertex {
         let against = [0, 1, 2].map(|k| -&along[k]);
         let (towards_a, towards_b) = (self.a.local_direction(along), self.b.local_direction(&against));
         self.corner(match supports {
@@ -96,9 +96,9 @@ impl DifferenceBody<'_> {
 }
 
 /// A direction along which no difference is ahead of the origin, which `carrier` has in its relative interior; `None` if the origin
-/// is inside the difference body.
+/// is inside the Minkowski difference.
 fn supporting_normal(
-    difference: &DifferenceBody,
+    difference: &MinkowskiDifference,
     carrier: &Simplex,
     supports: Supports,
     iterations: &mut u32,
@@ -159,7 +159,7 @@ fn across(along: &IntVector) -> IntVector {
 }
 
 /// A positive multiple, the same for all, of a corner's part perpendicular to the space, which has one dimension or none.
-fn projected(mut corner: Corner, space: &[IntVector]) -> Corner {
+fn projected(mut corner: DifferenceVertex, space: &[IntVector]) -> DifferenceVertex {
     if let [along] = space {
         let (square, part) = (dot(along, along), dot(along, &corner.position.components));
         let components = &corner.position.components;

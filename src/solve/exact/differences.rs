@@ -2,21 +2,22 @@
 
 use std::cmp::Ordering;
 
+use super::answer::ExactDistance;
+use super::boundary::Supports;
 use super::dyadic::{DyadicVector, IntVector, cross, dot};
-use super::{DifferenceBody, ExactDistance, VertexPair, nearest_of_hull};
+use super::minkowski::MinkowskiDifference;
+use super::simplex::{VertexPair, nearest_of_hull};
 use crate::base::math::{Pose, Vector};
 use crate::polyhedron::Polyhedron;
-use crate::solve::exact::body::Body;
-use crate::solve::exact::boundary::Supports;
 use dashu_int::IBig;
 
 /// The differences of the vertices of two placed bodies.
-pub struct Differences<'a>(DifferenceBody<'a>);
+pub struct Differences<'a>(MinkowskiDifference<'a>);
 
 impl<'a> Differences<'a> {
     /// For any finite poses.
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Differences<'a> {
-        Differences(DifferenceBody { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) })
+        Differences(MinkowskiDifference::new(polyhedra, poses))
     }
 
     fn components(&self, pair: VertexPair) -> IntVector {
@@ -39,9 +40,7 @@ impl<'a> Differences<'a> {
     /// How far the hull of a few differences is from the origin.
     pub fn distance_of_hull(&self, pairs: &[VertexPair]) -> Option<ExactDistance> {
         let corners = self.0.corners(pairs);
-        let simplex = nearest_of_hull(corners.first()?.clone(), &corners);
-        let square = dot(&simplex.direction, &simplex.direction);
-        Some(ExactDistance { exponent: simplex.exponent(), square, height: simplex.height })
+        Some(ExactDistance::of_nearest(nearest_of_hull(corners.first()?.clone(), &corners)))
     }
 
     /// By how much the bodies overlap along a direction from body 2 to body 1, over all vertices; `None` if they do not.

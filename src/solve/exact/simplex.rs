@@ -2,12 +2,14 @@
 
 use dashu_int::IBig;
 
-use super::VertexPair;
 use super::dyadic::{DyadicVector, IntVector, cross, dot};
 
-/// A corner: the difference of a vertex of A and one of B.
+/// A pair of vertices, one of each polyhedron (indices into `vertices`): a vertex of the Minkowski difference A − B.
+pub type VertexPair = [u32; 2];
+
+/// The difference of a vertex of A and one of B: a corner of a simplex.
 #[derive(Debug, Clone)]
-pub(crate) struct Corner {
+pub(crate) struct DifferenceVertex {
     pub pair: VertexPair,
     pub position: DyadicVector,
 }
@@ -17,7 +19,7 @@ pub(crate) struct Corner {
 #[derive(Debug, Clone)]
 pub(crate) struct Simplex {
     /// All over the same power of two, the latest first.
-    pub corners: Vec<Corner>,
+    pub corners: Vec<DifferenceVertex>,
     /// P = Σ weightₖ·cornerₖ / Σ weightₖ, all positive.
     pub weights: Vec<IBig>,
     /// A positive multiple of P, over no particular power of two; not used when P = 0.
@@ -29,7 +31,7 @@ pub(crate) struct Simplex {
 
 impl Simplex {
     /// The simplex of a single corner.
-    pub fn new(corner: Corner) -> Simplex {
+    pub fn new(corner: DifferenceVertex) -> Simplex {
         let direction = corner.position.components.clone();
         let height = dot(&direction, &direction);
         Simplex { corners: vec![corner], weights: vec![IBig::ONE], direction, height }
@@ -48,7 +50,7 @@ impl Simplex {
     /// Adds `corner` when it lies strictly on the origin's side of the plane through P perpendicular to P (P·w < P·P), and
     /// takes the nearest point anew; says whether it did. |P| falls strictly if it did: the segment from P to the corner starts
     /// towards the origin. Otherwise the corner brings nothing: P·w ≥ P·P.
-    pub fn improve(&mut self, corner: &Corner) -> bool {
+    pub fn improve(&mut self, corner: &DifferenceVertex) -> bool {
         if self.holds_origin() {
             return false;
         }
@@ -65,7 +67,7 @@ impl Simplex {
     }
 
     /// Brings a new corner and the present ones to the finer of their powers of two.
-    fn align(&mut self, corner: &mut Corner) {
+    fn align(&mut self, corner: &mut DifferenceVertex) {
         let (own, exponent) = (self.exponent(), self.exponent().min(corner.position.exponent));
         corner.position.refine(exponent);
         if exponent < own {
@@ -172,4 +174,12 @@ struct Face {
     weights: Vec<IBig>,
     direction: IntVector,
     height: IBig,
+}
+
+/// The nearest point of the hull of a few corners: the same descent, with the corners themselves as the support. They may
+/// coincide or be coplanar; what brings nothing is never added.
+pub(super) fn nearest_of_hull(first: DifferenceVertex, corners: &[DifferenceVertex]) -> Simplex {
+    let mut simplex = Simplex::new(first);
+    while corners.iter().any(|corner| simplex.improve(corner)) {}
+    simplex
 }

@@ -1,6 +1,6 @@
 //! Nodes and arcs of the fans: which of them one corner of the other body proves.
 
-use super::Search;
+use super::search::Search;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::Lanes;
 use crate::polyhedron::fan::{Fan, MOST_EDGES};
@@ -56,7 +56,7 @@ impl Survivors {
 ///
 /// On the chord n(s) = (1 − s)a + s·b both S are linear, l and m. Where l(s) ≥ T|n(s)| is an interval from s = 0 on, as l − T|n|
 /// is concave for T ≥ 0; where m(s) is, one to s = 1. If both hold at one s, they cover the chord. Any computed s will do. There l
-/// and m are off by what [`NODE`](super::NODE) says and |n| by 33u, both over |n|, which is all that 80uM is for.
+/// and m are off by what [`NODE`](super::search::NODE) says and |n| by 33u, both over |n|, which is all that 80uM is for.
 #[inline(always)]
 pub fn proved_by_two_corners<L: Lanes, const C: usize, const F: usize>(
     search: &Search<L, C, F>,

@@ -5,7 +5,7 @@
 //! So n* is within θ of the computed ±(e × g)/|e × g|, θ = (32u + leans)/|e × g|.
 
 use super::arcs::{Survivors, proved_by_two_corners};
-use super::{Facet, Search};
+use super::search::{Facet, Search};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 

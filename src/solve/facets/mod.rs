@@ -1,4 +1,4 @@
-//! How deep two small bodies are in each other, by all facets of their difference body; nearly none of them is looked at.
+//! How deep two small bodies are in each other, by all facets of their Minkowski difference; nearly none of them is looked at.
 //!
 //! C = {x − y: x in body 1, y in body 2} has the support h(n) in a direction n. Of intersecting bodies the depth is the least h(n)
 //! over all unit vectors. Both bodies have a fan of directions ([`Fan`]): nodes, arcs and cells. Those of body 1 as placed and
@@ -22,6 +22,7 @@
 //! pairs of arcs by the normals' fans is D. Gregorius's (The Separating Axis Test between Convex Polyhedra, GDC 2013).
 
 mod placed;
+mod search;
 mod arcs;
 mod crossings;
 mod witness;
@@ -33,16 +34,9 @@ use crate::solve::frame::Frame;
 use arcs::Survivors;
 use crossings::Crossings;
 use placed::PlacedFan;
+pub use search::Facet;
+use search::{Best, NODE, SUPPORT, Search};
 pub use witness::Witness;
-
-/// A facet of the difference body, by indices of the polyhedra.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Facet {
-    /// Of a face of body 1 (0) or body 2 (1).
-    Face(usize, u32),
-    /// Of an edge of each.
-    Edges([u32; 2]),
-}
 
 /// What all facets tell.
 #[derive(Debug, Clone, Copy)]
@@ -64,7 +58,7 @@ pub struct Overlap {
     pub upper: f64,
     /// The overlap of the witness points, in between.
     pub depth: f64,
-    /// The unit vector, from the inside of the difference body to the boundary, along which the bodies overlap least.
+    /// The unit vector, from the inside of the Minkowski difference to the boundary, along which the bodies overlap least.
     pub direction: Vector,
     /// The nearest facet.
     pub facet: Facet,
@@ -77,29 +71,6 @@ pub struct Overlap {
 pub fn work([fan1, fan2]: [&Fan; 2]) -> usize {
     4 * (fan1.planes.len() * fan2.corners.len() + fan2.planes.len() * fan1.corners.len())
 }
-
-/// What ties may differ by, over M: a node this much below the least bound found counts as proved. Computed supports of equal
-/// facets differ by less.
-const TIE: f64 = 12.0 * U;
-
-/// What rounding does to S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are alike but for Δ.
-///
-/// | | ρ₁ | ρ₂ | \|Δ\| |
-/// |---|--:|--:|--:|
-/// | R·n for the unit vector along R⁻ᵀn: RᵀR − I up to 25 turns it by as much; product, length of n 8 | 33 | 33 | 33 |
-/// | how far the body reaches along n | 1 | | |
-/// | Δ, and its product with the normal | | | 5 |
-/// | their sum | 1 | | 1 |
-/// | R·w | | 5.3 | |
-/// | its product with the normal | | 3.1 | 0 |
-///
-/// The comparison with the threshold is one more of M. Of skewed poses normals are by the cofactors of R and normalised, 3 + 5.3 +
-/// 3.
-const NODE: f64 = 44.0 * U;
-
-/// What rounding does to a support along a computed unit vector, over M: vertices 5.3ρ and their sum with Δ 1 + 2, products 3, the
-/// difference 1, the vector's length 3.
-const SUPPORT: f64 = 16.0 * U;
 
 /// Room for blocks of points and of planes: of 8 corners and 12 faces, as of boxes; of 24 and 44; of all that have a fan. It is
 /// zeroed, and all of it takes longer than two boxes do.
@@ -162,25 +133,6 @@ impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
     }
 }
 
-/// The least support so far, as computed over the corners.
-#[derive(Clone, Copy)]
-struct Best {
-    value: f64,
-    /// About of unit length.
-    direction: Vector,
-    facet: Facet,
-}
-
-struct Search<'a, L, const C: usize, const F: usize> {
-    frame: &'a Frame<'a, L>,
-    fans: [&'a Fan; 2],
-    placed: [PlacedFan<C, F>; 2],
-    /// M: no difference of vertices is longer.
-    longest: f64,
-    widest: f64,
-    best: Best,
-}
-
 impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
     #[inline(always)]
     fn run(&mut self, known: Option<Facet>) -> Outcome {
@@ -208,46 +160,6 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
             crossings.look_at(self, &survivors);
         }
         if crossings.is_unclear { Outcome::Unclear } else { self.finish(crossings.least) }
-    }
-
-    /// Whether the least support may be less than 0, rounding apart.
-    #[inline(always)]
-    fn is_separated(&self) -> bool {
-        self.best.value < -SUPPORT * self.longest
-    }
-
-    /// What is proved of nodes and arcs: T.
-    #[inline(always)]
-    fn threshold(&self) -> f64 {
-        self.best.value - TIE * self.longest
-    }
-
-    /// A support over the corners, along a direction of about unit length.
-    #[inline(always)]
-    fn support(&self, direction: &Vector) -> f64 {
-        let [placed1, placed2] = &self.placed;
-        -placed1.least::<L>(&-direction) - placed2.least::<L>(direction)
-    }
-
-    /// How far the other body reaches below a face of one.
-    #[inline(always)]
-    fn value_of_face(&self, body: usize, face: usize) -> f64 {
-        let placed = &self.placed[body];
-        placed.reach(face) - self.placed[1 - body].least::<L>(&placed.normal(face))
-    }
-
-    #[inline(always)]
-    fn take(&mut self, value: f64, direction: &Vector, facet: Facet) {
-        if value < self.best.value {
-            self.best = Best { value, direction: *direction, facet };
-        }
-    }
-
-    #[inline(always)]
-    fn take_face(&mut self, body: usize, face: usize, value: f64) {
-        let normal = self.placed[body].normal(face);
-        let direction = if body == 0 { normal } else { -normal };
-        self.take(value, &direction, Facet::Face(body, face as u32));
     }
 
     /// The facet that was the nearest.

@@ -1,6 +1,6 @@
 //! Where the nearest facet is: points of both bodies, one over the other along the direction of least overlap.
 
-use super::{Facet, SUPPORT, Search, TIE};
+use super::search::{Facet, SUPPORT, Search, TIE};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::Lanes;
 use crate::polyhedron::{Edge, Polyhedron};

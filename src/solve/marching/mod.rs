@@ -7,6 +7,7 @@
 //! Marching proposes. What it finds is accepted by the certificate alone, which is fused with the last step; what it cannot
 //! finish (a suspected penetration, a cycle, the step limit) is decided elsewhere.
 
+mod step;
 mod ahead;
 mod shortcuts;
 mod walks;
@@ -18,6 +19,7 @@ use crate::solve::certificate::Certify;
 use crate::solve::frame::Frame;
 use crate::solve::state::{Kind, State};
 use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
+pub use step::{Step, Transition};
 
 /// What marching came to.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -28,51 +30,6 @@ pub enum March {
     Limit(State),
     /// A penetration is suspected, or a cycle was met, at this state.
     Open(State),
-}
-
-/// What one state's tests say. No enum that holds the state (R5).
-pub struct Step {
-    /// How to go on.
-    pub transition: Transition,
-    /// From which state.
-    pub at: State,
-}
-
-/// How marching goes on from a state.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Transition {
-    /// To another state.
-    Move,
-    /// Not at all: a minimum; the certifier has seen it.
-    Minimum,
-    /// A vertex lies over the face and behind it: a penetration, or the wrong side of the other body. Elsewhere.
-    Behind,
-    /// An edge of one body crosses a face of the other.
-    Crossing,
-    /// Not at all: the bodies have no such features.
-    Nowhere,
-}
-
-impl Step {
-    #[inline(always)]
-    fn to(at: State) -> Step {
-        Step { transition: Transition::Move, at }
-    }
-
-    #[inline(always)]
-    fn minimum(at: State) -> Step {
-        Step { transition: Transition::Minimum, at }
-    }
-
-    #[inline(always)]
-    fn crossing(at: State) -> Step {
-        Step { transition: Transition::Crossing, at }
-    }
-
-    #[inline(always)]
-    fn nowhere() -> Step {
-        Step { transition: Transition::Nowhere, at: State::vertex_vertex([0, 0]) }
-    }
 }
 
 /// Tests one state; a minimum goes to `certifier`.

@@ -1,9 +1,9 @@
 //! The states: tests of one pair of features, and where to go from there or what minimum it is. Where a state has a vertex, that is
 //! a vertex of the body NEAR, and the other body is "far".
 
-use super::Step;
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
 use super::shortcuts::{NEARLY_UNIT, is_passed, over_another_feature, past_the_end};
+use super::step::Step;
 use super::walks::{Descent, WIDE_FACE, behind, walk_along_edge, walk_over_face};
 use crate::base::math::{UNIT_ROUNDOFF, clamp};
 use crate::base::simd::Lanes;

@@ -2,7 +2,7 @@
 //! end, or into the face.
 
 use super::shortcuts::NEARLY_UNIT;
-use super::{Step, Transition};
+use super::step::{Step, Transition};
 use crate::base::math::Vector;
 use crate::base::simd::{Lanes, Work};
 use crate::polyhedron::{NONE, PlaneBlock, Polyhedron, clear_slope};

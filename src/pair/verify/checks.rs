@@ -1,0 +1,61 @@
+//! What all checks share: lengths, what rounding may make of them, and the refusal.
+
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::polyhedron::Polyhedron;
+
+/// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
+pub(super) fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
+    (poses[0].translation() - poses[1].translation())
+        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
+}
+
+/// What rounding may make of a length as it is checked here; `None` where sums of eight such lengths may overflow.
+pub(super) fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> Option<f64> {
+    let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
+    let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres;
+    // Some hundred operations, each with at most half the least double where its result is subnormal.
+    let underflow = 128.0 * f64::from_bits(1);
+    (all <= f64::MAX / 8.0).then_some(64.0 * U * all + underflow)
+}
+
+/// Along the normal the bodies are at least `least` apart, as far as doubles tell.
+pub(super) fn check_normal(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    normal: &Vector,
+    between: &Vector,
+    least: f64,
+) -> Result<()> {
+    let support = |i: usize, direction: Vector| {
+        let local = poses[i].rotate_back(&direction);
+        polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)
+    };
+    let gap = normal.dot(between) - support(0, -normal) - support(1, *normal);
+    if gap >= least {
+        return Ok(());
+    }
+    Err(unverified(format!("along the normal the bodies are {gap:e} apart, not {least:e}")))
+}
+
+pub(super) fn check_unit(normal: &Vector) -> Result<()> {
+    if (normal.norm_squared() - 1.0).abs() <= 16.0 * U {
+        return Ok(());
+    }
+    Err(unverified(format!("the normal is not a unit vector: {normal:?}")))
+}
+
+/// The length of a vector whose squares may leave the range of doubles; NaN where a coordinate is.
+pub(super) fn length(v: &Vector) -> f64 {
+    // `amax` passes over a NaN.
+    let scale = if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
+    if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
+}
+
+pub(super) fn too_large() -> Error {
+    Error::Argument("the objects are too large or too far apart to be checked in doubles".into())
+}
+
+pub(super) fn unverified(what: String) -> Error {
+    Error::Unverified(format!("the answer does not hold: {what}"))
+}
