@@ -40,7 +40,7 @@ use testkit::hard::flight::{Table, Tally, fly, shapes};
 use testkit::hard::{Family, Sequence, families, triangles};
 use testkit::oracle::Truth;
 
-/// Vertices of the difference body that are looked for to bound a depth, when the bodies are large.
+/// Vertices of the Minkowski difference that are looked for to bound a depth, when the bodies are large.
 const DEPTH_LIMIT: usize = 150;
 
 /// The sum of the bodies' vertices up to which a depth is followed to its end.

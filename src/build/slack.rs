@@ -3,10 +3,10 @@
 //!
 //! The vertices x with n·x ≥ n·s form a connected part of the triangulated hull's graph, flat vertices included: a vertex
 //! that is not a global maximum of n·x has a neighbour with a strictly larger value (a local maximum of a linear function
-//! over a convex surface is global), and the vertices where the maximum is attained are connected. So flooding from s over all
+//! over a convex surface is global), and the vertices where the maximum is attained are connected. So a search from s over all
 //! vertices whose *computed* n·(x − s) is not certainly negative meets every vertex that matters.
 //!
-//! A flood that meets the apex of a cone looks at all its neighbours, and for all faces of the cone together that would be the
+//! A search that meets the apex of a cone looks at all its neighbours, and for all faces of the cone together that would be the
 //! square of their number. So the effort is limited, and what it does not suffice for is bounded by the planes of two triangles
 //! at an edge, which takes no search: with their exact outward normals mᵢ and a vertex a of both, mᵢ·(x − a) ≤ 0 on the whole
 //! hull, hence n·(x − a) ≤ |n − c₁m₁ − c₂m₂|·|x − a| for all cᵢ ≥ 0.
@@ -33,10 +33,10 @@ pub struct RiseBounds<'a> {
     radius: f64,
     /// Errors beyond this are worth double-double: uρ/4.
     coarse: f64,
-    /// Marks that need no clearing between floods.
+    /// Marks that need no clearing between searches.
     seen_in: Vec<u32>,
     round: u32,
-    /// A flood puts each vertex there at most once: there is room for all.
+    /// A search puts each vertex there at most once: there is room for all.
     stack: Vec<u32>,
 }
 

@@ -13,8 +13,8 @@ use crate::polyhedron::Polyhedron;
 ///
 /// Each triangle (a, b, c) of the outer hull is tried, exactly, on every vertex of the inner one that may be farthest along the
 /// triangle's normal N. Those with N·x ≥ N·v are a connected part of the inner hull's graph for any vertex v of it (a local
-/// maximum of a linear function over a convex surface is global), so from a v found by climbing it is enough to flood over all
-/// neighbours that are not *certainly* lower. If the climb ended too low the flood is larger, and that is all.
+/// maximum of a linear function over a convex surface is global), so from a v found by climbing it is enough to search all
+/// neighbours that are not *certainly* lower. If the climb ended too low the search is larger, and that is all.
 ///
 /// Time in proportion to the triangles of `outer` and the vertices of `inner` as long as neighbouring triangles have
 /// neighbouring extreme vertices, as those of a level of detail have.
@@ -57,10 +57,10 @@ struct ContainmentSearch<'a> {
     /// The vertices of the outer polyhedron and then those of the inner one.
     exact: &'a ExactPoints,
     first_inner: u32,
-    /// Marks that need no clearing between floods.
+    /// Marks that need no clearing between searches.
     seen_in: Vec<u32>,
     round: u32,
-    /// A flood puts each vertex there at most once: there is room for all.
+    /// A search puts each vertex there at most once: there is room for all.
     stack: Vec<u32>,
 }
 

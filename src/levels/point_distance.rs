@@ -6,7 +6,7 @@
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::build::assembly::build;
-use crate::polyhedron::surface_walk::{Candidate, Place, Surface, nearest_of, on_segment};
+use crate::polyhedron::surface_walk::{Candidate, Surface, SurfaceFeature, nearest_of, on_segment};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::solve::decide::{self, Decision, Wanted};
 
@@ -54,10 +54,10 @@ impl<'a> PointDistance<'a> {
             return self.answer(point, &on_segment(self.polyhedron, point, ends, NONE), &ends);
         };
         let found = surface.nearest(point, hint);
-        let corners = surface.corners(found.place);
+        let corners = surface.corners(found.feature);
         let answer = self.answer(point, &found, &corners);
-        match found.place {
-            Place::Triangle(t) if self.looks_away(t, point, answer.upper) => self.search(point, &corners),
+        match found.feature {
+            SurfaceFeature::Triangle(t) if self.looks_away(t, point, answer.upper) => self.search(point, &corners),
             _ => answer,
         }
     }

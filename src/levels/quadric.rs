@@ -191,7 +191,7 @@ impl Queue {
 
 /// A place for the vertex that replaces an edge.
 #[derive(Debug, Clone, Copy)]
-struct Place {
+struct CollapseTarget {
     key: f64,
     /// Relative to the tail.
     at: Vector,
@@ -333,22 +333,22 @@ impl Collapse {
     }
 
     /// The quadric of an edge about its tail, and where its vertex could go: to the minimum, to the middle, to an end.
-    fn places(&self, h: u32) -> (Quadric, [Place; 4]) {
+    fn places(&self, h: u32) -> (Quadric, [CollapseTarget; 4]) {
         let [tail, head] = [self.tail(h), self.head(h)].map(|v| v as usize);
         let along = self.positions[head] - self.positions[tail];
         let quadric = self.quadrics[tail].sum(&self.quadrics[head].about(&-along));
         let square = along.norm_squared();
         let flat = FLATNESS * quadric.trace() * square;
-        let place = |at: Vector| Place { key: quadric.value(&at) + flat, at };
+        let place = |at: Vector| CollapseTarget { key: quadric.value(&at) + flat, at };
         let middle = along / 2.0;
         // In a region that is flat in one direction the minimum may be anywhere along it.
         let near = |at: &Vector| (at - middle).norm_squared() <= square;
-        let best = quadric.minimum().filter(near).map_or(Place { key: f64::INFINITY, at: middle }, place);
+        let best = quadric.minimum().filter(near).map_or(CollapseTarget { key: f64::INFINITY, at: middle }, place);
         (quadric, [best, place(middle), place(Vector::zeros()), place(along)])
     }
 
     /// The cheapest place that turns no triangle over.
-    fn best_place(&self, h: u32) -> Option<Place> {
+    fn best_place(&self, h: u32) -> Option<CollapseTarget> {
         let (_, mut places) = self.places(h);
         places.sort_by(|p, q| p.key.total_cmp(&q.key));
         places.into_iter().find(|place| place.key < f64::INFINITY && self.turns_nothing_over(h, &place.at))

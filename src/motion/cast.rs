@@ -3,7 +3,7 @@
 use super::answer::{CastAnswer, CastOutcome};
 use super::config::CastConfig;
 use super::moving::{Moment, Moving, MovingPair};
-use super::sweep::{Ahead, Step, Sweep, Wanted, upper_bound};
+use super::sweep::{Ahead, FreeStep, Sweep, Wanted, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
 use crate::pair::PairCache;
@@ -65,7 +65,7 @@ fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) ->
 }
 
 /// Less than the sweep has proved, so that whoever proves it anew need not find the very axis.
-fn clearance_of(step: &Step) -> f64 {
+fn clearance_of(step: &FreeStep) -> f64 {
     const SHARE: f64 = 1.0 - 1e-9;
     (step.least - step.slack) * SHARE
 }

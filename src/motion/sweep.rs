@@ -26,7 +26,7 @@ pub(super) struct Wanted {
 
 /// A pair that was proved free from one moment to another.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Step {
+pub(super) struct FreeStep {
     pub ends: [Moment; 2],
     /// Along this direction, about of unit length …
     pub direction: Vector,
@@ -41,7 +41,7 @@ pub(super) struct Step {
 /// Why a sweep ended where it is.
 pub(super) enum Ahead {
     /// A step forward.
-    Free(Step),
+    Free(FreeStep),
     /// They are no farther apart than the margin at a later moment, or at this one.
     Contact(Moment, PairAnswer),
     /// Neither a step nor contact could be proved.
@@ -98,7 +98,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The longest step along the direction of the distance that is found.
-    fn step(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Option<Step>> {
+    fn step(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Option<FreeStep>> {
         let direction = Vector::from(near.normal);
         let mut trial = Trial::new(self.pair, here, direction, wanted, &mut self.vertices);
         if !(trial.room() > 0.0) {
@@ -187,7 +187,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// A step that is proved, whose ends and the one before may show that a callback is wrong.
-    fn took(&mut self, step: Step) -> Result<Step> {
+    fn took(&mut self, step: FreeStep) -> Result<FreeStep> {
         if let Some([before, start]) = &self.last {
             self.pair.check_bend([before, start, &step.ends[1]])?;
         }
@@ -256,10 +256,10 @@ impl<'a> Trial<'a> {
         self.gap - self.needed
     }
 
-    fn to(&mut self, there: &Moment, vertices: &mut [u32; 2]) -> Step {
+    fn to(&mut self, there: &Moment, vertices: &mut [u32; 2]) -> FreeStep {
         let gaps = [self.gap, self.pair.gap(there, &self.direction, vertices)];
         let least = least_between(gaps, self.acceleration, there.time - self.here.time);
-        Step { ends: [self.here, *there], direction: self.direction, gaps, least, slack: self.slack }
+        FreeStep { ends: [self.here, *there], direction: self.direction, gaps, least, slack: self.slack }
     }
 }
 

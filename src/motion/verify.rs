@@ -4,7 +4,7 @@ use super::answer::{CastAnswer, CastOutcome};
 use super::bound::least_between;
 use super::config::{CastConfig, shortest_step};
 use super::moving::{Moment, Moving, MovingPair};
-use super::sweep::{Ahead, Step, Sweep, Wanted, depth_at, is_contact, upper_bound};
+use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_bound};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::verify::{Bounds, verify, verify_depth};
@@ -119,7 +119,7 @@ fn prove_free(pair: &MovingPair, end: f64, margin: f64) -> Result<()> {
 }
 
 /// Proves a step: that its gaps are what it says, at poses computed anew, and that they suffice.
-fn check_step(pair: &MovingPair, step: &Step, margin: f64) -> Result<()> {
+fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
     let [start, end] = step.ends.map(|moment| moment.time);
     for (time, gap) in [(start, step.gaps[0]), (end, step.gaps[1])] {
         let moment = pair.at(time)?;

@@ -125,7 +125,7 @@ impl PairCache {
         self.pairs[..pairs.len()].copy_from_slice(pairs);
     }
 
-    // --- Features of levels -------------------------------------------------------------------------------------------------------
+    // --- Features of levels ------------------------------------------------------------------------------------------------------
 
     /// Whether the last answer came from levels of detail.
     #[inline(always)]

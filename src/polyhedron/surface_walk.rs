@@ -28,12 +28,12 @@ pub struct Candidate {
     /// The square of its distance.
     pub square: f64,
     /// What holds it.
-    pub place: Place,
+    pub feature: SurfaceFeature,
 }
 
 /// What holds a point of the surface.
 #[derive(Debug, Clone, Copy)]
-pub enum Place {
+pub enum SurfaceFeature {
     /// A vertex.
     Vertex(u32),
     /// A half-edge.
@@ -54,25 +54,27 @@ impl<'a> Surface<'a> {
         Ok(Surface { polyhedron, triangulation })
     }
 
-    /// The vertices of a place, one to three of them; the first is repeated.
-    pub fn corners(&self, place: Place) -> [u32; 3] {
-        match place {
-            Place::Vertex(v) => [v; 3],
-            Place::Edge(h) => [self.triangulation.tail(h), self.triangulation.head(h), self.triangulation.tail(h)],
-            Place::Triangle(t) => self.triangulation.triangles[t as usize],
+    /// The vertices of a feature, one to three of them; the first is repeated.
+    pub fn corners(&self, feature: SurfaceFeature) -> [u32; 3] {
+        match feature {
+            SurfaceFeature::Vertex(v) => [v; 3],
+            SurfaceFeature::Edge(h) => {
+                [self.triangulation.tail(h), self.triangulation.head(h), self.triangulation.tail(h)]
+            }
+            SurfaceFeature::Triangle(t) => self.triangulation.triangles[t as usize],
         }
     }
 
     /// Walks from a vertex, best one near by.
     ///
-    /// Every step is to a place that is strictly nearer as computed, and each triangle, edge and vertex has one nearest point as
+    /// Every step is to a feature that is strictly nearer as computed, and each triangle, edge and vertex has one nearest point as
     /// computed, so that none comes twice.
     pub fn nearest(&self, point: &Vector, hint: u32) -> Candidate {
         let surface = &self.triangulation;
         let mut best = at_vertex(self.polyhedron, point, hint);
         loop {
             let before = best.square;
-            let Place::Vertex(vertex) = best.place else { break };
+            let SurfaceFeature::Vertex(vertex) = best.feature else { break };
             for &h in surface.around(vertex) {
                 let neighbour = at_vertex(self.polyhedron, point, surface.head(h));
                 if neighbour.square < best.square {
@@ -84,17 +86,17 @@ impl<'a> Surface<'a> {
             }
         }
         loop {
-            let Candidate { square: before, place, .. } = best;
+            let Candidate { square: before, feature, .. } = best;
             let mut look = |triangle: u32| {
                 let other = self.on_triangle(point, triangle);
                 if other.square < best.square {
                     best = other;
                 }
             };
-            match place {
-                Place::Vertex(vertex) => surface.around(vertex).iter().for_each(|h| look(h / 3)),
-                Place::Edge(h) => [h, surface.twins[h as usize]].iter().for_each(|h| look(h / 3)),
-                Place::Triangle(_) => {}
+            match feature {
+                SurfaceFeature::Vertex(vertex) => surface.around(vertex).iter().for_each(|h| look(h / 3)),
+                SurfaceFeature::Edge(h) => [h, surface.twins[h as usize]].iter().for_each(|h| look(h / 3)),
+                SurfaceFeature::Triangle(_) => {}
             }
             if !(best.square < before) {
                 return best;
@@ -130,7 +132,11 @@ impl<'a> Surface<'a> {
             return None;
         }
         let place = a + along * s + aside * t;
-        Some(Candidate { point: place, square: (place - point).norm_squared(), place: Place::Triangle(triangle) })
+        Some(Candidate {
+            point: place,
+            square: (place - point).norm_squared(),
+            feature: SurfaceFeature::Triangle(triangle),
+        })
     }
 }
 
@@ -142,7 +148,7 @@ pub fn nearest_of(polyhedron: &Polyhedron, point: &Vector, vertices: &[u32]) -> 
 
 fn at_vertex(polyhedron: &Polyhedron, point: &Vector, vertex: u32) -> Candidate {
     let position = polyhedron.vertices[vertex as usize].position;
-    Candidate { point: position, square: (position - point).norm_squared(), place: Place::Vertex(vertex) }
+    Candidate { point: position, square: (position - point).norm_squared(), feature: SurfaceFeature::Vertex(vertex) }
 }
 
 /// The nearest point of the segment between two vertices, named `half_edge` unless it is an end.
@@ -165,5 +171,5 @@ pub fn on_segment(polyhedron: &Polyhedron, point: &Vector, [tail, head]: [u32; 2
         }
         end - along * t
     };
-    Candidate { point: place, square: (place - point).norm_squared(), place: Place::Edge(half_edge) }
+    Candidate { point: place, square: (place - point).norm_squared(), feature: SurfaceFeature::Edge(half_edge) }
 }

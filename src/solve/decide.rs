@@ -54,9 +54,9 @@ impl Pairs {
     }
 }
 
-/// How much work a decision took.
+/// How much effort a decision took.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-pub struct Work {
+pub struct Effort {
     /// Iterations in floating point.
     pub fallback_iterations: u32,
     /// Iterations in integers.
@@ -88,26 +88,26 @@ pub fn decide(
     in_range: bool,
     hint: &[VertexPair],
     wanted: Wanted,
-) -> (Decision, Work) {
-    let mut work = Work::default();
+) -> (Decision, Effort) {
+    let mut effort = Effort::default();
     let mut start = Pairs::new(hint);
     if in_range {
         let (proposal, iterations) = simd::dispatch_to_avx2(&mut Propose { polyhedra, poses, hint, wanted });
-        work.fallback_iterations = iterations;
+        effort.fallback_iterations = iterations;
         match proposal {
             Proposal::Separated(nearest) => {
                 let gjk::Nearest { points, direction, interval, simplex } = nearest;
                 let pairs = Pairs::new(&simplex.pairs[..simplex.count]);
-                return (Decision::Separated { points, direction, interval, pairs }, work);
+                return (Decision::Separated { points, direction, interval, pairs }, effort);
             }
             Proposal::Enclosed(Enclosure { pairs, weights }) => {
-                return (Decision::Intersecting { pairs: Pairs::new(&pairs), weights }, work);
+                return (Decision::Intersecting { pairs: Pairs::new(&pairs), weights }, effort);
             }
             Proposal::Open(pairs) => start = pairs,
         }
     }
     let answer = exact::solve(polyhedra[0], poses[0], polyhedra[1], poses[1], start.as_slice());
-    work.exact_iterations = answer.iterations;
+    effort.exact_iterations = answer.iterations;
     let pairs = Pairs::new(&answer.pairs);
     let mut weights = [0.0; 4];
     for (weight, exact) in weights.iter_mut().zip(&answer.weights) {
@@ -123,7 +123,7 @@ pub fn decide(
     } else {
         Decision::Intersecting { pairs, weights }
     };
-    (decision, work)
+    (decision, effort)
 }
 
 /// What floating point makes of a pair.

@@ -22,7 +22,7 @@ pub struct Enclosure {
 /// The faces opposite the four corners, each ordered so that the determinants of a tetrahedron around the origin have one sign.
 const FACES: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
-/// Exchanges of a corner before the search is given up: some difference bodies have no such tetrahedron, and some bodies hardly
+/// Exchanges of a corner before the search is given up: some Minkowski differences have no such tetrahedron, and some bodies hardly
 /// overlap.
 const EXCHANGE_LIMIT: u32 = 12;
 
@@ -56,7 +56,7 @@ pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, simplex: &[V
         best_exchange(frame, &corners, pair, &mut best);
         if best.1.is_none() {
             // No four vertices of an octahedron surround its centre; but the differences of other vertex pairs lie in the
-            // difference body, too.
+            // Minkowski difference, too.
             for first in [pairs[0][0], pairs[1][0], pairs[2][0], pairs[3][0], pair[0]] {
                 for second in [pairs[0][1], pairs[1][1], pairs[2][1], pairs[3][1], pair[1]] {
                     best_exchange(frame, &corners, [first, second], &mut best);

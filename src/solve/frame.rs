@@ -104,10 +104,10 @@ impl<'a, L: Lanes> Frame<'a, L> {
     /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is good for nothing unless it is `in_range`.
     #[inline(always)]
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
-        let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
+        let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
         let (mut in_range, mut skewed) = (true, [false; 2]);
         // A limit below what counts as rigid is the caller's to set.
-        if rotation_limit < RIGID_TOGETHER || !Placed::are_rigid(&placed) {
+        if rotation_limit < RIGID_TOGETHER || !PoseInLanes::are_rigid(&placed) {
             (in_range, skewed) = look_closer(poses, rotation_limit);
         }
         let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
@@ -132,20 +132,20 @@ impl<'a, L: Lanes> Frame<'a, L> {
     /// `in_range` if both poses are rigid and within range, without a closer look.
     #[inline(always)]
     pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
-        let placed = [Placed::<L>::new(poses[0]), Placed::<L>::new(poses[1])];
+        let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
         let [translation1, translation2] = [placed[0].columns[3], placed[1].columns[3]];
         let origins = Origins {
             offset: translation1.sub(translation2),
             cancelled: 0.0,
             translations: [translation1, translation2],
         };
-        Frame::assemble(polyhedra, &placed, &origins, Placed::are_rigid(&placed), [false; 2])
+        Frame::assemble(polyhedra, &placed, &origins, PoseInLanes::are_rigid(&placed), [false; 2])
     }
 
     #[inline(always)]
     fn assemble(
         polyhedra: [&'a Polyhedron; 2],
-        placed: &[Placed<L>; 2],
+        placed: &[PoseInLanes<L>; 2],
         origins: &Origins<L>,
         in_range: bool,
         skewed: [bool; 2],
@@ -237,7 +237,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
 }
 
 /// A pose in lanes, and what has to be small for it to be acceptable.
-struct Placed<L> {
+struct PoseInLanes<L> {
     rows: [L; 3],
     /// The columns of R, and T.
     columns: [L; 4],
@@ -249,13 +249,13 @@ struct Placed<L> {
     reflection: L,
 }
 
-impl<L: Lanes> Placed<L> {
+impl<L: Lanes> PoseInLanes<L> {
     #[inline(always)]
-    fn new(pose: &Pose) -> Placed<L> {
+    fn new(pose: &Pose) -> PoseInLanes<L> {
         let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
         let [a, b, c] = rows;
         let [a_next, b_next, c_next] = [a.rotate(), b.rotate(), c.rotate()];
-        Placed {
+        PoseInLanes {
             rows,
             columns: L::transpose(&rows),
             squares: c.mul_add(c, b.mul_add(b, a.mul_add(a, L::splat(-1.0)))),
@@ -267,7 +267,7 @@ impl<L: Lanes> Placed<L> {
     /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both. The
     /// squares of four entries at a time are summed, one of each kind of each pose: a NaN passes no comparison.
     #[inline(always)]
-    fn are_rigid(placed: &[Placed<L>; 2]) -> bool {
+    fn are_rigid(placed: &[PoseInLanes<L>; 2]) -> bool {
         let [first, second] = placed;
         let defect = first.squares.mul(first.squares);
         let defect = second.squares.mul_add(second.squares, defect);

@@ -1,7 +1,7 @@
 //! The fallback: Gilbert-Johnson-Keerthi on hill-climbed supports, the nearest point of a simplex by signed volumes
 //! (Gilbert, Johnson & Keerthi 1988; Montanari, Petrinic & Barbieri 2017).
 //!
-//! It works on the difference body in world axes, in plain double precision, and proposes: a separated result is accepted
+//! It works on the Minkowski difference in world axes, in plain double precision, and proposes: a separated result is accepted
 //! by the certificate, an enclosing tetrahedron by the determinant filter, anything else goes to integers.
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -14,7 +14,7 @@ use crate::solve::frame::Frame;
 use crate::solve::voronoi::climb;
 use crate::tables;
 
-/// Up to four vertices of the difference body, affinely independent up to rounding, with the convex weights of the point of
+/// Up to four vertices of the Minkowski difference, affinely independent up to rounding, with the convex weights of the point of
 /// their hull nearest to the origin.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Simplex {

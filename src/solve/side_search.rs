@@ -1,4 +1,4 @@
-//! Sides of a face with many of them, by bisection: a look at each would make marching along its rim quadratic.
+//! Sides of a face with many of them, by bisection: a look at each would make marching along its boundary quadratic.
 //!
 //! Like all of marching it proposes: rounding may lead it one side astray, and no answer rests on that.
 

@@ -194,7 +194,7 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
             if let Some(surface) = &surface
                 && !search.has_many_neighbours(shell[cell])
             {
-                let corners = surface.corners(surface.nearest(&sample, shell[cell]).place);
+                let corners = surface.corners(surface.nearest(&sample, shell[cell]).feature);
                 shell[cell] = nearest_of(polyhedron, &sample, &corners);
             }
         }

@@ -63,8 +63,8 @@ pub fn truth(a: &Polytope, pose_a: &Matrix3x4, b: &Polytope, pose_b: &Matrix3x4)
     let world = |p: &Polytope, pose| p.vertices.iter().map(|v| transform(pose, v)).collect::<Vec<_>>();
     let (world_a, world_b) = (world(a, pose_a), world(b, pose_b));
     let denominator = common_denominator(world_a.iter().chain(&world_b));
-    let a = Placed::new(a, integers(&world_a, &denominator));
-    let b = Placed::new(b, integers(&world_b, &denominator));
+    let a = PlacedPolytope::new(a, integers(&world_a, &denominator));
+    let b = PlacedPolytope::new(b, integers(&world_b, &denominator));
     let squared_distance = if intersect(&a, &b) {
         RBig::ZERO
     } else {
@@ -238,15 +238,15 @@ struct PlacedFace {
 }
 
 /// A polytope at a pose, over the query's common denominator.
-struct Placed {
+struct PlacedPolytope {
     dimension: usize,
     vertices: Vec<Integers>,
     edges: Vec<[usize; 2]>,
     faces: Vec<PlacedFace>,
 }
 
-impl Placed {
-    fn new(p: &Polytope, vertices: Vec<Integers>) -> Placed {
+impl PlacedPolytope {
+    fn new(p: &Polytope, vertices: Vec<Integers>) -> PlacedPolytope {
         let face = |corners: &Vec<usize>| {
             let n = normal(&vertices, [corners[0], corners[1], corners[2]]);
             let mut plane = Plane::through(n, &vertices[corners[0]]);
@@ -261,7 +261,7 @@ impl Placed {
             PlacedFace { plane, sides }
         };
         let faces = p.faces.iter().map(face).collect();
-        Placed { dimension: p.dimension, vertices, edges: p.edges.clone(), faces }
+        PlacedPolytope { dimension: p.dimension, vertices, edges: p.edges.clone(), faces }
     }
 
     fn segment(&self, [i, j]: [usize; 2]) -> [&Integers; 2] {
@@ -304,7 +304,7 @@ impl PlacedFace {
 /// Closed polytopes meet exactly if a vertex of one lies in the other, or two edges cross, or an edge of one crosses a face of
 /// the other: an extreme point of the intersection is the only common point of two features, whose dimensions then add up to
 /// at most three, and of which neither is parallel to the other.
-fn intersect(a: &Placed, b: &Placed) -> bool {
+fn intersect(a: &PlacedPolytope, b: &PlacedPolytope) -> bool {
     a.vertices.iter().any(|v| b.contains(v))
         || b.vertices.iter().any(|v| a.contains(v))
         || a.edges.iter().any(|&e| b.faces.iter().any(|f| f.is_crossed(a.segment(e))))
@@ -329,7 +329,7 @@ impl Fraction {
 /// The least of the squared distances of all pairs of features whose nearest points lie in both of them. Every one belongs to
 /// a point of A and one of B, and the nearest points of disjoint polytopes lie inside some such pair (a face and an edge, or
 /// two faces, only if parallel: then their borders are as near).
-fn squared_distance(a: &Placed, b: &Placed) -> Fraction {
+fn squared_distance(a: &PlacedPolytope, b: &PlacedPolytope) -> Fraction {
     let mut candidates = Vec::new();
     for (one, other) in [(a, b), (b, a)] {
         for v in &one.vertices {

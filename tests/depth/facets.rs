@@ -1,4 +1,4 @@
-//! Small bodies, whose depth all facets of the difference body tell.
+//! Small bodies, whose depth all facets of the Minkowski difference tell.
 
 use std::f64::consts::TAU;
 

@@ -1,4 +1,4 @@
-//! Depths of small pairs against exact integers by another algorithm: the least support of the difference body over a set of
+//! Depths of small pairs against exact integers by another algorithm: the least support of the Minkowski difference over a set of
 //! directions that holds the normals of all its facets.
 
 use dashu_int::IBig;
@@ -49,7 +49,7 @@ fn placed(points: &[Vector], pose: &Pose) -> Vec<Integers> {
     points.iter().map(place).collect()
 }
 
-/// A support of the difference body: height/√square.
+/// A support of the Minkowski difference: height/√square.
 struct Support {
     height: i128,
     square: i128,
@@ -93,7 +93,7 @@ fn supports(bodies: [&[Integers]; 2]) -> Vec<Support> {
         directions.extend(own.iter().enumerate().flat_map(|(i, e)| own[..i].iter().map(move |g| cross(e, g))));
     }
     directions.extend(lines[0].iter().flat_map(|e| lines[1].iter().map(move |g| cross(e, g))));
-    // Where the difference body is flat, those in its plane are what separates; where it is a line, that.
+    // Where the Minkowski difference is flat, those in its plane are what separates; where it is a line, that.
     if let Some(normal) = directions.iter().find(|d| **d != [0; 3]).copied() {
         let is_flat = directions.iter().all(|d| cross(d, &normal) == [0; 3]);
         let in_plane = lines.iter().flatten().map(|e| cross(e, &normal));
@@ -107,7 +107,7 @@ fn supports(bodies: [&[Integers]; 2]) -> Vec<Support> {
     both.map(|direction| {
         let high = bodies[0].iter().map(|p| dot(&direction, p)).max().unwrap();
         let low = bodies[1].iter().map(|p| dot(&direction, p)).min().unwrap();
-        // It saturates for directions in flat difference bodies alone, whose depth is 0.
+        // It saturates for directions in flat Minkowski differences alone, whose depth is 0.
         let square = direction.iter().fold(0_i128, |sum, x| sum.saturating_add(x.saturating_mul(*x)));
         Support { height: high - low, square }
     })

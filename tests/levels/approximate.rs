@@ -451,7 +451,7 @@ fn queries_begin_at_the_levels_that_answered_the_last() {
         };
         let coarse = PairConfig { absolute_error: 0.1, ..all };
         let afresh = PairConfig { start: Start::Cold, ..coarse };
-        let [mut warm, mut climbed] = [PairCache::default(); 2];
+        let [mut warm, mut coarsened] = [PairCache::default(); 2];
         // Steps: afresh; after the same query; after exact ones through levels, and without; and of these exact ones.
         let mut steps = [0; 6];
         for k in 0..200 {
@@ -462,11 +462,11 @@ fn queries_begin_at_the_levels_that_answered_the_last() {
             let mut answers = vec![cold, ask(pair::approximate, coarse, &pose, &mut warm)];
             for (i, levels) in [Levels::All, Levels::None].into_iter().enumerate() {
                 let exactly = PairConfig { levels, ..all };
-                ask(pair::distance, exactly, &pose, &mut climbed);
-                let exact = ask(pair::distance, exactly, &pose, &mut climbed);
+                ask(pair::distance, exactly, &pose, &mut coarsened);
+                let exact = ask(pair::distance, exactly, &pose, &mut coarsened);
                 assert_eq!(exact.statistics.levels, [0, 0]);
                 steps[4 + i] += exact.statistics.marching_steps;
-                answers.push(ask(pair::approximate, coarse, &pose, &mut climbed));
+                answers.push(ask(pair::approximate, coarse, &pose, &mut coarsened));
             }
             for (steps, answer) in steps.iter_mut().zip(&answers) {
                 *steps += answer.statistics.marching_steps;

@@ -100,12 +100,12 @@ fn a_file_uses_only_files_of_its_folder_that_stand_above_it() {
         let (_, used) = passed_on_and_used(&folder, &modules);
         let place = |module: &str| modules.iter().position(|other| other == module);
         for (from, to, file) in graph(&folder) {
-            let climbs = match (place(&from), place(&to)) {
+            let goes_up = match (place(&from), place(&to)) {
                 (Some(from), Some(to)) => from < to,
                 (Some(_), None) => used.contains(&from),
                 (None, _) => false,
             };
-            if climbs {
+            if goes_up {
                 found.push(format!("{}: `{from}` uses `{to}`, which stands below it in `{folder}`", file.display()));
             }
         }

@@ -280,8 +280,8 @@ impl HullSurface {
     }
 }
 
-/// Neighbours of vertices that a flood for a face of one triangle may look at; most look at twenty.
-const FLOOD_EFFORT: usize = 128;
+/// Neighbours of vertices that a search for a face of one triangle may look at; most look at twenty.
+const SEARCH_EFFORT: usize = 128;
 
 /// σ of each face: over the whole hull above, over all of the face's own vertices (flat ones included) below. `normals` are the
 /// triangles'.
@@ -296,20 +296,20 @@ fn face_slacks(
     let mut triangle_counts = filled(0_usize, merged.normals.len())?;
     merged.face_of.iter().for_each(|face| triangle_counts[*face as usize] += 1);
     let all = merged.normals.len() + surface.triangles.len();
-    let mut flooded: Vec<Option<f64>> = with_capacity(merged.normals.len())?;
+    let mut searched: Vec<Option<f64>> = with_capacity(merged.normals.len())?;
     for (face, (normal, count)) in merged.normals.iter().zip(&triangle_counts).enumerate() {
         // Most look at twenty neighbours, as said above; a face of many triangles looks at some of each.
         progress.steps(16 + 8 * count, face, all)?;
-        flooded.push(rises.rise(normal, start(face), FLOOD_EFFORT + 16 * count));
+        searched.push(rises.rise(normal, start(face), SEARCH_EFFORT + 16 * count));
     }
-    let mut slacks: Vec<f64> = collected(flooded.iter().map(|rise| rise.unwrap_or(f64::INFINITY)))?;
+    let mut slacks: Vec<f64> = collected(searched.iter().map(|rise| rise.unwrap_or(f64::INFINITY)))?;
     let mut falls = filled(0.0_f64, slacks.len())?;
     for (t, (triangle, &face)) in surface.triangles.iter().zip(&merged.face_of).enumerate() {
         progress.steps(4, merged.normals.len() + t, all)?;
         let face = face as usize;
         let normal = &merged.normals[face];
         falls[face] = falls[face].max(rises.fall(normal, start(face), *triangle));
-        if flooded[face].is_none() {
+        if searched[face].is_none() {
             for h in 3 * t..3 * t + 3 {
                 let beside = [t, surface.twins[h] as usize / 3].map(|t| &normals[t]);
                 slacks[face] = slacks[face].min(rises.rise_beside(normal, start(face), h as u32, beside));

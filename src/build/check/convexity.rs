@@ -379,7 +379,7 @@ impl<'a> Boundary<'a> {
             let (t, side) = (corner / 3, corner % 3);
             let (tail, head) = (triangles[t][side], triangles[t][(side + 1) % 3]);
             let sharp = if flat {
-                // A fan: its middle sides, and the first and the last spoke, are the rim.
+                // A fan: its middle sides, and the first and the last spoke, are the boundary.
                 t < triangles.len() / 2
                     && (side == 1 || (side == 0 && t == rim_spokes[0]) || (side == 2 && t == rim_spokes[1]))
             } else {

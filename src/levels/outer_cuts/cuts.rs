@@ -60,7 +60,7 @@ impl<'a> Block<'a> {
 
 /// A triangle of the dual hull: a vertex of the level.
 #[derive(Clone, Copy)]
-struct Corner {
+struct DualTriangle {
     /// The three planes that meet there, counter-clockwise from outside.
     planes: [u32; 3],
     /// `neighbours[i]` is across the edge from `planes[i]` to `planes[(i + 1) % 3]`.
@@ -86,7 +86,7 @@ pub struct Cuts<'a> {
     block: &'a Block<'a>,
     /// The half-spaces q·y ≤ 1.
     dual: Vec<Vector>,
-    corners: Vec<Corner>,
+    corners: Vec<DualTriangle>,
     /// Corners that are not removed.
     corner_count: usize,
     queue: BinaryHeap<Waiting>,
@@ -184,7 +184,7 @@ impl<'a> Cuts<'a> {
         let index = self.corners.len() as u32;
         let NearestPoint { point: nearest, upper, vertex } = self.block.distance.nearest(&position, hint);
         push_to_heap(&mut self.queue, Waiting { deviation: upper.to_bits(), corner: Reverse(index) })?;
-        push(&mut self.corners, Corner { planes, neighbours, position, nearest, vertex, removed: false })?;
+        push(&mut self.corners, DualTriangle { planes, neighbours, position, nearest, vertex, removed: false })?;
         self.corner_count += 1;
         Ok(index)
     }
@@ -195,7 +195,7 @@ impl<'a> Cuts<'a> {
             let Some(Waiting { corner: Reverse(worst), .. }) = self.queue.pop() else {
                 break;
             };
-            let Corner { position, nearest, vertex, .. } = self.corners[worst as usize];
+            let DualTriangle { position, nearest, vertex, .. } = self.corners[worst as usize];
             self.add_half_space((position - nearest).normalize(), vertex)?;
             let plane = self.dual.len() as u32 - 1;
             // Rounding may have the plane miss a corner that hardly stands off; then it stays.
@@ -226,7 +226,7 @@ impl<'a> Cuts<'a> {
         let mut done = 0;
         while let Some(&corner) = cut_off.get(done) {
             done += 1;
-            let Corner { planes, neighbours, .. } = self.corners[corner as usize];
+            let DualTriangle { planes, neighbours, .. } = self.corners[corner as usize];
             for side in 0..3 {
                 let outer = neighbours[side];
                 if self.corners[outer as usize].removed {

@@ -7,7 +7,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::facets::Facet;
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{NO_TWIN, Polytope, Start, triangle_of};
+use crate::solve::polytope::{NO_TWIN, Polytope, SearchStart, triangle_of};
 
 /// Vertices of a polytope that is kept.
 pub const MOST_VERTICES: usize = 64;
@@ -58,9 +58,9 @@ impl DepthCache {
         &self,
         frame: &Frame<L>,
         polytope: &mut Polytope<V, T>,
-    ) -> Start {
+    ) -> SearchStart {
         let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
-        let mut start = Start { triangle: None, direction: self.direction(frame), first_triangles };
+        let mut start = SearchStart { triangle: None, direction: self.direction(frame), first_triangles };
         let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
         if !(is_kept && self.are_vertices(frame.polyhedra(), vertices)) {
             return start;

@@ -20,7 +20,7 @@ use crate::solve::decide::combinations;
 use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
 use crate::solve::facets::{self, Outcome as ByFacets, Overlap};
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{self, Ending, Expansion, Polytope, Start, Wanted, Witness};
+use crate::solve::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness};
 use crate::solve::state::FeatureId;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
@@ -87,12 +87,12 @@ fn search_rescaled(
     else {
         return None;
     };
-    let Found { expansion, witness, .. } = found;
+    let FoundPolytope { expansion, witness, .. } = found;
     let upper = pair.upper_of(expansion.upper);
     if upper == f64::INFINITY && expansion.upper < upper {
         return None;
     }
-    Some(Search::Polytope(Found {
+    Some(Search::Polytope(FoundPolytope {
         expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
         witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
         ..found
@@ -128,17 +128,17 @@ enum Search {
     /// Along this direction, from body 1 to body 2, the bodies are apart.
     Apart(Vector),
     /// A polytope.
-    Polytope(Found),
+    Polytope(FoundPolytope),
 }
 
 /// What the search by a polytope found.
-struct Found {
+struct FoundPolytope {
     expansion: Expansion,
     witness: Witness,
     triangles: u32,
 }
 
-impl Found {
+impl FoundPolytope {
     /// Whether neither a direction that separates the bodies nor an interval that tells them from touching ones has been found,
     /// with room and steps to spare.
     #[inline(always)]
@@ -199,7 +199,7 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
         if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
             return Some(found);
         }
-        let start = Start { triangle: None, direction: None, ..start };
+        let start = SearchStart { triangle: None, direction: None, ..start };
         Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
     }
 }
@@ -242,16 +242,16 @@ impl<'a> DepthQuery<'a> {
         &mut self,
         frame: &Frame<L>,
         polytope: &mut Polytope<V, T>,
-        start: &Start,
+        start: &SearchStart,
         steps: u32,
-    ) -> Found {
+    ) -> FoundPolytope {
         let DepthConfig { absolute_error, relative_error, .. } = *self.config;
         let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
         let expansion = polytope::expand(frame, polytope, start, &wanted);
         if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
             *self.cache = DepthCache::default();
             let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
-            return Found { expansion, witness, triangles: 0 };
+            return FoundPolytope { expansion, witness, triangles: 0 };
         }
         let (witness, triangle) = polytope::witness(frame, polytope, &expansion);
         if expansion.is_as_kept {
@@ -259,7 +259,7 @@ impl<'a> DepthQuery<'a> {
         } else {
             self.cache.pack(frame, polytope, triangle, &expansion.direction, expansion.first_triangles);
         }
-        Found { expansion, witness, triangles: polytope.triangle_count as u32 }
+        FoundPolytope { expansion, witness, triangles: polytope.triangle_count as u32 }
     }
 }
 
@@ -267,14 +267,14 @@ impl<'a> DepthQuery<'a> {
 struct InLarge<'a, 'b, L> {
     search: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,
-    start: Start,
+    start: SearchStart,
 }
 
 impl<L: Lanes> Work for InLarge<'_, '_, L> {
-    type Output = Found;
+    type Output = FoundPolytope;
 
     #[inline(always)]
-    fn run(&mut self) -> Found {
+    fn run(&mut self) -> FoundPolytope {
         let mut polytope = Polytope::<255, 508>::EMPTY;
         self.search.search(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
     }
@@ -285,16 +285,16 @@ struct SearchAgain<'a, 'b, L> {
     search: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,
     polytope: &'a mut Polytope<MOST_VERTICES, { MOST_TRIANGLES + 4 }>,
-    first: &'a Found,
+    first: &'a FoundPolytope,
 }
 
 impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
-    type Output = Found;
+    type Output = FoundPolytope;
 
     #[inline(always)]
-    fn run(&mut self) -> Found {
+    fn run(&mut self) -> FoundPolytope {
         let Expansion { steps, supports, .. } = self.first.expansion;
-        let start = Start { triangle: None, direction: None, first_triangles: 0 };
+        let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
         self.polytope.clear();
         let left = self.search.config.step_budget - steps;
         let mut found = self.search.search(self.frame, self.polytope, &start, left);
@@ -313,7 +313,8 @@ fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]
         Some(Search::Facets(overlap)) => return fill_facet(answer, polyhedra, poses, overlap),
         Some(Search::Polytope(found)) => found,
     };
-    let Found { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } = *found;
+    let FoundPolytope { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } =
+        *found;
     answer.statistics = DepthStatistics { steps, supports, triangles, exact_iterations: 0 };
     if ending == Ending::Separated {
         return fill_separated(answer, DepthEnding::Separated, &-direction);
@@ -337,8 +338,8 @@ fn fill_facet(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Po
     fill_places(answer, polyhedra, poses, &witness.points, witness.features, &-direction);
 }
 
-fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Found) {
-    let Found { expansion: Expansion { lower, upper, direction, .. }, witness, .. } = found;
+fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &FoundPolytope) {
+    let FoundPolytope { expansion: Expansion { lower, upper, direction, .. }, witness, .. } = found;
     answer.outcome = Outcome::Intersecting;
     (answer.lower, answer.upper) = (*lower, *upper);
     answer.depth = clamp(witness.depth, *lower, *upper);
@@ -349,7 +350,7 @@ fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses
 /// Decides in integers, with what the search has found.
 #[cold]
 #[inline(never)]
-fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Found>) {
+fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&FoundPolytope>) {
     let hint = found.map_or(&[][..], |found| &found.witness.pairs[..found.witness.count]);
     let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
     answer.ending = DepthEnding::Integers;
@@ -388,8 +389,8 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
 
 /// Whether the polytope's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is
 /// thin beside bodies of very different sizes may be anything.
-fn has_witness(found: &Found, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
-    let Found { expansion: Expansion { upper, direction, .. }, witness, triangles } = found;
+fn has_witness(found: &FoundPolytope, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+    let FoundPolytope { expansion: Expansion { upper, direction, .. }, witness, triangles } = found;
     let points = combinations(polyhedra, &witness.pairs[..witness.count], &witness.weights);
     let [world1, world2] = contact::placed_points(polyhedra, poses, &points).world.map(Vector::from);
     let along = Vector::from(contact::normalised(direction)) * clamp(witness.depth, 0.0, *upper);
@@ -509,7 +510,7 @@ impl Kernel for Proof<'_> {
                 cache.unpack(&frame, &mut polytope);
             }
             ProofFrom::Search(lower) => {
-                let start = Start { triangle: None, direction: None, first_triangles: 0 };
+                let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
                 let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
                 polytope::expand(&frame, &mut polytope, &start, &wanted);
             }

@@ -105,8 +105,9 @@ impl PairQuery<'_> {
     #[inline(never)]
     pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
-        let (decision, work) = decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), self.wanted());
-        let decide::Work { fallback_iterations, exact_iterations } = work;
+        let (decision, effort) =
+            decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), self.wanted());
+        let decide::Effort { fallback_iterations, exact_iterations } = effort;
         self.answer.statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };
         self.answer.decided_by = if exact_iterations > 0 { DecidedBy::Integers } else { DecidedBy::Fallback };

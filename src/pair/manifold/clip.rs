@@ -10,7 +10,7 @@ use crate::base::math::Vector;
 
 /// A corner of the common part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Corner {
+pub enum CommonCorner {
     /// A corner of one outline over the inside of the other.
     Vertex {
         /// 0 or 1: whose corner.
@@ -28,7 +28,7 @@ pub enum Corner {
 /// A corner of the common part, and where it is.
 #[derive(Debug, Clone, Copy)]
 pub struct Spot {
-    pub corner: Corner,
+    pub corner: CommonCorner,
     /// On either outline; of a vertex its own, twice.
     pub spots: [Vector; 2],
     /// By how much the gap may be off, where sides cross at a small angle.
@@ -59,7 +59,7 @@ pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: im
         let is_end = !chain.has_begun || chain.segments == 0;
         let other = &chains[1 - body];
         if (side == 0 || !is_end) && is_between(other, &chain.to, precision) {
-            let corner = Corner::Vertex { body, corner: chain.corner };
+            let corner = CommonCorner::Vertex { body, corner: chain.corner };
             recent.report(Spot { corner, spots: [chain.to; 2], error: 0.0 }, &mut visit);
         }
         pending[body][side] = chains[body][side].advance();
@@ -129,7 +129,7 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     // Where along the segments they cross is off by the rounding over how fast they part.
     let off = (2.0 * precision.rounding / (before - after).abs()).min(1.0);
     let gaps = [begin[0].z - begin[1].z, end[0].z - end[1].z];
-    let corner = Corner::Crossing { sides: [first.side(), second.side()] };
+    let corner = CommonCorner::Crossing { sides: [first.side(), second.side()] };
     Some(Spot { corner, spots, error: off * (gaps[0] - gaps[1]).abs() })
 }
 
@@ -150,9 +150,9 @@ impl Recent<'_> {
 
     fn rank(&self, spot: &Spot) -> usize {
         match spot.corner {
-            Corner::Vertex { body, .. } if body == self.precision.reference => 0,
-            Corner::Vertex { .. } => 1,
-            Corner::Crossing { .. } => 2,
+            CommonCorner::Vertex { body, .. } if body == self.precision.reference => 0,
+            CommonCorner::Vertex { .. } => 1,
+            CommonCorner::Crossing { .. } => 2,
         }
     }
 

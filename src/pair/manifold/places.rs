@@ -1,7 +1,7 @@
 //! The points of a manifold: where outlines have corners in common, seen along the normal, and what is said of them.
 
 use super::answer::ManifoldPoint;
-use super::clip::{Corner, Precision, Spot, common_part};
+use super::clip::{CommonCorner, Precision, Spot, common_part};
 use super::id::id_of;
 use super::outline::Outline;
 use crate::base::math::{Pose, Vector};
@@ -26,23 +26,24 @@ pub struct View<'a> {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
     /// A corner of what both patches cover.
-    Corner(Corner),
+    Corner(CommonCorner),
     /// The pair of witness points.
     Witness,
 }
 
 /// A point, with the heights of both patches there.
 #[derive(Debug, Clone, Copy)]
-pub struct Place {
+pub struct CommonPoint {
     pub origin: Origin,
     pub spots: [Vector; 2],
     /// By how much the gap may be off.
     pub error: f64,
 }
 
-impl Place {
+impl CommonPoint {
     /// Fills what holds no place yet.
-    pub const NOWHERE: Place = Place { origin: Origin::Witness, spots: [Vector::new(0.0, 0.0, 0.0); 2], error: 0.0 };
+    pub const NOWHERE: CommonPoint =
+        CommonPoint { origin: Origin::Witness, spots: [Vector::new(0.0, 0.0, 0.0); 2], error: 0.0 };
 
     pub fn gap(&self) -> f64 {
         self.spots[0].z - self.spots[1].z
@@ -52,8 +53,8 @@ impl Place {
     pub fn key(&self) -> u32 {
         match self.origin {
             Origin::Witness => 1,
-            Origin::Corner(Corner::Vertex { body, corner }) => 2 + body as u32 + ((corner as u32) << 2),
-            Origin::Corner(Corner::Crossing { sides }) => {
+            Origin::Corner(CommonCorner::Vertex { body, corner }) => 2 + body as u32 + ((corner as u32) << 2),
+            Origin::Corner(CommonCorner::Crossing { sides }) => {
                 let [first, second] = sides.map(|side| side as u32);
                 (first << 2 ^ second.rotate_right(14)) & !3 | 1 << 31 | 1
             }
@@ -64,7 +65,7 @@ impl Place {
 impl View<'_> {
     /// Calls `visit` with each point whose gap is at most the margin, and last, if others are there and none is as deep, with the
     /// witness points: patches most parallel to the normal need not hold them. How many it were.
-    pub fn visit(&self, mut visit: impl FnMut(&Place)) -> usize {
+    pub fn visit(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
         let (mut count, mut is_deep) = (0, false);
         common_part(&self.outlines, &self.precision, |spot| {
             if let Some(place) = self.place(spot)
@@ -77,33 +78,33 @@ impl View<'_> {
         });
         if count > 0 && !is_deep {
             let error = 0.5 * (self.witness.gap_upper - self.witness.gap_lower);
-            visit(&Place { origin: Origin::Witness, spots: self.witness_spots, error });
+            visit(&CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error });
             count += 1;
         }
         count
     }
 
-    fn place(&self, spot: &Spot) -> Option<Place> {
+    fn place(&self, spot: &Spot) -> Option<CommonPoint> {
         let rounding = self.precision.rounding;
         let mut spots = spot.spots;
         let error = match spot.corner {
-            Corner::Vertex { body, .. } => {
+            CommonCorner::Vertex { body, .. } => {
                 let (height, error) = self.outlines[1 - body].height_at(spots[0].x, spots[0].y, rounding)?;
                 spots[1 - body].z = height;
                 error + self.outlines[body].slack() + rounding
             }
-            Corner::Crossing { .. } => {
+            CommonCorner::Crossing { .. } => {
                 let [first, second] = self.outlines.each_ref().map(Outline::slack);
                 spot.error + first + second + 2.0 * rounding
             }
         };
-        error.is_finite().then_some(Place { origin: Origin::Corner(spot.corner), spots, error })
+        error.is_finite().then_some(CommonPoint { origin: Origin::Corner(spot.corner), spots, error })
     }
 
-    pub fn point(&self, place: &Place) -> ManifoldPoint {
+    pub fn point(&self, place: &CommonPoint) -> ManifoldPoint {
         let Origin::Corner(corner) = place.origin else { return *self.witness };
         let centred = [0, 1].map(|i| match corner {
-            Corner::Vertex { body, corner } if body == i => {
+            CommonCorner::Vertex { body, corner } if body == i => {
                 let vertex = self.outlines[i].vertex(corner);
                 self.polyhedra[i].vertices[vertex as usize].position
             }
@@ -127,14 +128,16 @@ impl View<'_> {
     }
 
     /// What holds the point on a body: its own vertex, its side, or its patch.
-    fn feature(&self, corner: Corner, body: usize, point: &Vector) -> Feature {
+    fn feature(&self, corner: CommonCorner, body: usize, point: &Vector) -> Feature {
         let (outline, polyhedron) = (&self.outlines[body], self.polyhedra[body]);
         match corner {
-            Corner::Vertex { body: own, corner } if own == body => {
+            CommonCorner::Vertex { body: own, corner } if own == body => {
                 label(polyhedron, FeatureId::Vertex(outline.vertex(corner)), point)
             }
-            Corner::Crossing { sides } => Feature { kind: FeatureKind::Edge, ids: outline.side_labels(sides[body]) },
-            Corner::Vertex { .. } => match outline.patch {
+            CommonCorner::Crossing { sides } => {
+                Feature { kind: FeatureKind::Edge, ids: outline.side_labels(sides[body]) }
+            }
+            CommonCorner::Vertex { .. } => match outline.patch {
                 Some(patch) => Feature { kind: FeatureKind::Face, ids: [patch.label(polyhedron), 0] },
                 None => Feature { kind: FeatureKind::Edge, ids: outline.side_labels(0) },
             },

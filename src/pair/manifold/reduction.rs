@@ -2,7 +2,7 @@
 //! while they are about as good.
 
 use super::answer::FOUR;
-use super::places::Place;
+use super::places::CommonPoint;
 use crate::base::math::Vector;
 
 /// By how much less deep than the deepest the deepest of before may be, relative to the size of the pair: a contact at rest rocks.
@@ -20,7 +20,7 @@ const DIRECTIONS: usize = 16;
 
 /// Places of which some stay.
 pub struct Reduction {
-    places: [Place; ROOM],
+    places: [CommonPoint; ROOM],
     count: usize,
     /// The keys of those that stayed the last time, in order; 0 for none.
     kept: [u32; FOUR],
@@ -30,10 +30,10 @@ pub struct Reduction {
 
 impl Reduction {
     pub fn new(kept: [u32; FOUR], size: f64) -> Reduction {
-        Reduction { places: [Place::NOWHERE; ROOM], count: 0, kept, size }
+        Reduction { places: [CommonPoint::NOWHERE; ROOM], count: 0, kept, size }
     }
 
-    pub fn add(&mut self, place: &Place) {
+    pub fn add(&mut self, place: &CommonPoint) {
         if self.count == ROOM {
             self.thin_out();
         }
@@ -59,7 +59,7 @@ impl Reduction {
     }
 
     /// Those that stay, and their keys.
-    pub fn chosen(&self) -> ([Option<Place>; FOUR], [u32; FOUR]) {
+    pub fn chosen(&self) -> ([Option<CommonPoint>; FOUR], [u32; FOUR]) {
         let places = &self.places[..self.count];
         if self.count <= FOUR {
             let chosen = std::array::from_fn(|i| places.get(i).copied());
@@ -67,8 +67,9 @@ impl Reduction {
         }
         let best = self.best();
         let before = self.kept.map(|key| places.iter().find(|place| key != 0 && place.key() == key).copied());
-        let deepest =
-            |chosen: &[Option<Place>; FOUR]| chosen.iter().flatten().map(Place::gap).fold(f64::INFINITY, f64::min);
+        let deepest = |chosen: &[Option<CommonPoint>; FOUR]| {
+            chosen.iter().flatten().map(CommonPoint::gap).fold(f64::INFINITY, f64::min)
+        };
         let is_as_good = keys_of(&before) == self.kept
             && deepest(&before) <= deepest(&best) + AS_DEEP * self.size
             && area(&before) >= AS_LARGE * area(&best);
@@ -76,12 +77,12 @@ impl Reduction {
         (chosen, keys_of(&chosen))
     }
 
-    fn best(&self) -> [Option<Place>; FOUR] {
+    fn best(&self) -> [Option<CommonPoint>; FOUR] {
         let places = &self.places[..self.count];
         let first = &places[most(places, |place| -place.gap())];
         let second = &places[most(places, |place| apart(first, place).norm_squared())];
         let line = apart(first, second);
-        let side = |place: &Place| line.perp(&apart(first, place));
+        let side = |place: &CommonPoint| line.perp(&apart(first, place));
         let extreme = |sign: f64| {
             let place = &places[most(places, |place| sign * side(place))];
             (sign * side(place) > place.error * line.norm()).then_some(*place)
@@ -93,13 +94,13 @@ impl Reduction {
 type Across = nalgebra::Vector2<f64>;
 
 /// From one place to another, across the normal.
-fn apart(from: &Place, to: &Place) -> Across {
+fn apart(from: &CommonPoint, to: &CommonPoint) -> Across {
     let difference: Vector = to.spots[0] - from.spots[0];
     difference.xy()
 }
 
 /// The place with the most of something; the first of equals.
-fn most(places: &[Place], measure: impl Fn(&Place) -> f64) -> usize {
+fn most(places: &[CommonPoint], measure: impl Fn(&CommonPoint) -> f64) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (at, place) in places.iter().enumerate() {
         let value = measure(place);
@@ -110,13 +111,13 @@ fn most(places: &[Place], measure: impl Fn(&Place) -> f64) -> usize {
     best.0
 }
 
-fn keys_of(chosen: &[Option<Place>; FOUR]) -> [u32; FOUR] {
+fn keys_of(chosen: &[Option<CommonPoint>; FOUR]) -> [u32; FOUR] {
     chosen.map(|place| place.map_or(0, |place| place.key()))
 }
 
 /// Twice the area of a quadrilateral whose first two places are one diagonal; one that is missing is where the first is.
-fn area(chosen: &[Option<Place>; FOUR]) -> f64 {
+fn area(chosen: &[Option<CommonPoint>; FOUR]) -> f64 {
     let Some(first) = &chosen[0] else { return 0.0 };
-    let arm = |place: &Option<Place>| place.map_or(Across::zeros(), |place| apart(first, &place));
+    let arm = |place: &Option<CommonPoint>| place.map_or(Across::zeros(), |place| apart(first, &place));
     arm(&chosen[1]).perp(&(arm(&chosen[3]) - arm(&chosen[2]))).abs()
 }

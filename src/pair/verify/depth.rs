@@ -35,8 +35,8 @@ use std::cmp::Ordering;
 /// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
-/// If that fails for small bodies it looks at all facets of the difference body, which takes time in proportion to triangles times
-/// vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the
+/// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to
+/// triangles times vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the
 /// answer may hold.
 ///
 /// # Errors
@@ -278,8 +278,8 @@ impl<'a> Facts<'a> {
         self.exact.distance_of_hull(triangle).is_some_and(|distance| distance.compare(radius).is_ge())
     }
 
-    /// How a ray from the origin crosses a triangle: 1 from behind, −1 from before, 0 not at all; `None` if it meets its rim, or
-    /// the plane of it passes through the origin.
+    /// How a ray from the origin crosses a triangle: 1 from behind, −1 from before, 0 not at all; `None` if it meets its
+    /// boundary, or the plane of it passes through the origin.
     fn crossing(&self, triangle: &Triangle, ray: &Vector) -> Option<i32> {
         let corners = triangle.map(|pair| self.position(pair));
         let [a, b, c] = &corners;

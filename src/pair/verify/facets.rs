@@ -1,4 +1,4 @@
-//! A lower bound of the depth of small bodies by all facets of their difference body, in double-double arithmetic. It knows
+//! A lower bound of the depth of small bodies by all facets of their Minkowski difference, in double-double arithmetic. It knows
 //! nothing of the search by facets: it walks the triangles of the exact hulls, whose normals are nodes and whose edges are arcs of
 //! the exact normal fans (`solve/facets/` has the lemma; of exact fans nothing is lost).
 //!

@@ -50,8 +50,8 @@ use witness::{Witness, distance_between};
 /// | both points | `lower` − a ≤ their distance ≤ `upper` + a; of a contact their distance is at most a |
 /// | `feature1`, `feature2` | the object has it; of a separated answer the point is on it up to a + 64uρ + `upper` − `lower` |
 ///
-/// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them. The
-/// status and the statistics tell of the search, and are not checked; of a contact's normal no more is checked than its length.
+/// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
+/// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
 /// [`DecidedBy::InscribedSpheres`] excuses an intersection from a proof: integers decide it anew.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.

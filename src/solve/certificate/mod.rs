@@ -80,8 +80,8 @@ impl<L: Lanes> Minimum<L> {
         self.gap_with(frame, self.support_excess, self.point_error)
     }
 
-    /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the rim of a cone, skewed
-    /// rotations.
+    /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the boundary of a cone,
+    /// skewed rotations.
     #[inline(always)]
     fn gap_closely(&self, frame: &Frame<L>, state: State) -> Gap {
         let towards = [
@@ -376,7 +376,7 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let rounding = face_rounding(magnitude, height);
     let support_excess = c * (record.slack + rounding)
         + (polyhedron.radius + magnitude) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
-    // On the rim of the face nothing is proved about the point; the fallback finds another.
+    // On the boundary of the face nothing is proved about the point; the fallback finds another.
     let is_inside = is_inside_sides(polyhedron, record, Portable::from_vector(point));
     let point_error = if is_inside { record.slack + rounding } else { f64::INFINITY };
     Defect { support_excess, point_error }

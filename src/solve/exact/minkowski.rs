@@ -5,8 +5,8 @@ use super::simplex::{DifferenceVertex, Simplex, VertexPair, nearest_of_hull};
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 
-/// The Minkowski difference: all differences (point of A) − (point of B). It holds the origin exactly when A and B have a common point, and
-/// its point nearest to the origin is the shortest vector from B to A.
+/// The Minkowski difference: all differences (point of A) − (point of B). It holds the origin exactly when A and B have a common
+/// point, and its point nearest to the origin is the shortest vector from B to A.
 pub(super) struct MinkowskiDifference<'a> {
     pub(super) a: Body<'a>,
     pub(super) b: Body<'a>,

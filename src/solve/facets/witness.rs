@@ -20,7 +20,7 @@ const MISS: f64 = 64.0 * U;
 
 /// A point of a body: in its centred coordinates and in the world.
 #[derive(Clone, Copy)]
-struct Place {
+struct WitnessPoint {
     own: Vector,
     world: Vector,
     feature: FeatureId,
@@ -52,7 +52,7 @@ pub fn find<L: Lanes, const C: usize, const F: usize>(
 
 /// The points of two edges that are over each other.
 #[inline(always)]
-fn on_edges<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, edges: [u32; 2]) -> [Place; 2] {
+fn on_edges<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, edges: [u32; 2]) -> [WitnessPoint; 2] {
     let [body1, body2] = &search.frame.bodies;
     let [edge1, edge2] = edges;
     let (fan_edge1, fan_edge2) = (&search.fans[0].edges[edge1 as usize], &search.fans[1].edges[edge2 as usize]);
@@ -67,7 +67,7 @@ fn on_edges<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, 
     let place = |polyhedron: &Polyhedron, edge: u32, t: f64, tail: &Vector, along: &Vector, own: &Vector| {
         let record = &polyhedron.edges[edge as usize];
         let t = clamp(t, 0.0, record.length);
-        Place { own: record.tail_position + own * t, world: tail + along * t, feature: FeatureId::Edge(edge) }
+        WitnessPoint { own: record.tail_position + own * t, world: tail + along * t, feature: FeatureId::Edge(edge) }
     };
     let (s, t) = ((along_g * eg - along_e * gg) / square, (along_g * ee - along_e * eg) / square);
     [
@@ -93,7 +93,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
 
     /// A point on the face, and one of the other body below it: of one corner, of an edge, or of a face that is parallel.
     #[inline(always)]
-    fn places(&self) -> Option<[Place; 2]> {
+    fn places(&self) -> Option<[WitnessPoint; 2]> {
         let Side { search, body, outward, .. } = self;
         let other = 1 - body;
         let corners = &search.fans[other].corners;
@@ -113,9 +113,9 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         point + self.outward * self.overlap
     }
 
-    fn at_corner(&self, body: usize, corner: usize) -> Place {
+    fn at_corner(&self, body: usize, corner: usize) -> WitnessPoint {
         let vertex = self.search.fans[body].corners[corner];
-        Place {
+        WitnessPoint {
             own: self.polyhedron(body).vertices[vertex as usize].position,
             world: self.search.placed[body].point(corner),
             feature: FeatureId::Vertex(vertex),
@@ -123,7 +123,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The middle of the longest part of an edge between two deepest corners that is below the face.
-    fn over_edge(&self, deepest: u64) -> Option<[Place; 2]> {
+    fn over_edge(&self, deepest: u64) -> Option<[WitnessPoint; 2]> {
         let Side { search, body, .. } = self;
         let other = 1 - body;
         let mut best = (-SLIGHTLY, None);
@@ -139,7 +139,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         }
         let (index, ends, t) = best.1?;
         let record = &self.polyhedron(other).edges[index];
-        let place = Place {
+        let place = WitnessPoint {
             own: record.tail_position + search.fans[other].edges[index].direction * (t * record.length),
             world: ends[0] + (ends[1] - ends[0]) * t,
             feature: FeatureId::Edge(index as u32),
@@ -168,7 +168,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The middle of the face's corners, where all of it is over a face of the other body.
-    fn over_face(&self) -> Option<[Place; 2]> {
+    fn over_face(&self) -> Option<[WitnessPoint; 2]> {
         let Side { search, body, outward, .. } = self;
         let other = 1 - body;
         let against = |face: &usize| search.placed[other].normal(*face).dot(outward);
@@ -181,12 +181,12 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
             let place = self.at_corner(*body, polygon.place(side));
             (own, world) = (own + place.own * share, world + place.world * share);
         }
-        let place = Place { own, world, feature: FeatureId::Face(self.face) };
+        let place = WitnessPoint { own, world, feature: FeatureId::Face(self.face) };
         Some([place, self.on_face(other, below as u32, &(world - outward * self.overlap))?])
     }
 
     /// The point of a face nearest to one over it, about: in the triangle of a fan around its first corner.
-    fn on_face(&self, body: usize, face: u32, point: &Vector) -> Option<Place> {
+    fn on_face(&self, body: usize, face: u32, point: &Vector) -> Option<WitnessPoint> {
         let polygon = Polygon::of(self.search, body, face);
         let normal = self.search.placed[body].normal(face as usize);
         let first = polygon.corner(0);
@@ -204,7 +204,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
             let place = self.at_corner(body, polygon.place(corner));
             (own, world) = (own + place.own * weight, world + place.world * weight);
         }
-        if area > 0.0 { Some(Place { own, world, feature: FeatureId::Face(face) }) } else { None }
+        if area > 0.0 { Some(WitnessPoint { own, world, feature: FeatureId::Face(face) }) } else { None }
     }
 }
 

@@ -60,7 +60,7 @@ pub(super) const WIDE_FACE: u32 = 8;
 /// Edges of a descent; what is longer is gone down in several.
 const LONGEST_DESCENT: usize = 64;
 
-/// A vertex of a body over a wide face of the other body goes down the steepest edges, and not over the rim.
+/// A vertex of a body over a wide face of the other body goes down the steepest edges, and not over the boundary.
 // The bodies are copied: a reference to the frame would have it put into memory in every query (5 % of a coherent one).
 pub(super) struct Descent<'a, L> {
     /// The vertex's body.

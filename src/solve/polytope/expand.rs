@@ -43,7 +43,7 @@ pub struct Wanted {
 
 /// Where a search begins.
 #[derive(Debug, Clone, Copy)]
-pub struct Start {
+pub struct SearchStart {
     /// The triangle of the polytope whose normal was the direction of least overlap, if there is a polytope.
     pub triangle: Option<usize>,
     /// A direction of small overlap, where no polytope is known.
@@ -76,7 +76,7 @@ pub struct Expansion {
     pub lower: f64,
     /// Along `direction` the bodies overlap by at most this; negative: they are so far apart at least.
     pub upper: f64,
-    /// The unit vector, from the inside of the difference body to the boundary, along which the bodies overlap least.
+    /// The unit vector, from the inside of the Minkowski difference to the boundary, along which the bodies overlap least.
     pub direction: Vector,
     /// The vertices that reach farthest along it.
     pub farthest: VertexPair,
@@ -95,7 +95,7 @@ pub struct Expansion {
 pub fn expand<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    start: &Start,
+    start: &SearchStart,
     wanted: &Wanted,
 ) -> Expansion {
     let rounding = Rounding::of(frame);
@@ -156,7 +156,7 @@ struct Expander<'a, L> {
 }
 
 /// What a step came to.
-enum Step {
+enum Advance {
     /// Go on.
     On,
     /// Nothing can be done about the nearest triangle.
@@ -170,7 +170,7 @@ impl<L: Lanes> Expander<'_, L> {
     fn run<const V: usize, const T: usize>(
         &mut self,
         polytope: &mut Polytope<V, T>,
-        start: &Start,
+        start: &SearchStart,
         most_steps: u32,
     ) -> Ending {
         let mut is_warm = self.takes_over(polytope, start);
@@ -219,7 +219,11 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Whether the polytope of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
     #[inline(always)]
-    fn takes_over<const V: usize, const T: usize>(&mut self, polytope: &mut Polytope<V, T>, start: &Start) -> bool {
+    fn takes_over<const V: usize, const T: usize>(
+        &mut self,
+        polytope: &mut Polytope<V, T>,
+        start: &SearchStart,
+    ) -> bool {
         let count = polytope.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
         let least = evaluate::<L, V, T>(polytope, &self.rounding, &self.demand.centre, 0, count);
@@ -296,9 +300,9 @@ impl<L: Lanes> Expander<'_, L> {
             }
             self.steps += 1;
             match self.step(polytope, triangle, is_warm, &mut straightened) {
-                Step::On => {}
-                Step::Separated => return Ending::Separated,
-                Step::Stuck => return Ending::Stuck,
+                Advance::On => {}
+                Advance::Separated => return Ending::Separated,
+                Advance::Stuck => return Ending::Stuck,
             }
         }
     }
@@ -312,7 +316,7 @@ impl<L: Lanes> Expander<'_, L> {
         triangle: usize,
         is_warm: bool,
         straightened: &mut Option<usize>,
-    ) -> Step {
+    ) -> Advance {
         if polytope.distances[triangle] > NO_PLANE {
             let normal = polytope.normal(triangle);
             let height = |corner: &u8| normal.dot(&polytope.position(*corner));
@@ -323,24 +327,24 @@ impl<L: Lanes> Expander<'_, L> {
             let from = (!is_coarse).then_some(polytope.pairs[usize::from(highest)]);
             let found = self.ask(&normal, from);
             if self.best.upper < 0.0 {
-                return Step::Separated;
+                return Advance::Separated;
             }
             if polytope.distances[triangle] >= self.target() {
-                return Step::On;
+                return Advance::On;
             }
             if found.value - highest_value > self.rounding.plane && self.insert(polytope, triangle, &found) {
                 *straightened = None;
-                return Step::On;
+                return Advance::On;
             }
             if *straightened != Some(triangle) {
                 *straightened = Some(triangle);
                 if straighten(self.frame, polytope, &self.rounding, triangle) {
-                    return Step::On;
+                    return Advance::On;
                 }
             }
         }
         let direction = (self.best.upper < f64::INFINITY).then_some(&self.best.direction);
-        if sharpen(polytope, &self.rounding, triangle, direction) { Step::On } else { Step::Stuck }
+        if sharpen(polytope, &self.rounding, triangle, direction) { Advance::On } else { Advance::Stuck }
     }
 
     /// Inserts a support vertex beyond a triangle; a vertex that the polytope has already by a flip, or by taking a corner of the
@@ -361,7 +365,7 @@ impl<L: Lanes> Expander<'_, L> {
         self.demand.grows = true;
         let mut region = polytope.begin_region();
         polytope.add_to_region(&mut region, triangle);
-        if !polytope.flood(&mut region, apex, &self.rounding) {
+        if !polytope.find_visible(&mut region, apex, &self.rounding) {
             return false;
         }
         if replace::<L, V, T>(polytope, region, apex, &self.rounding, &self.demand) {

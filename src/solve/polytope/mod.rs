@@ -1,4 +1,4 @@
-//! How deep two bodies are in each other, by a closed polytope of triangles inside their difference body around the origin.
+//! How deep two bodies are in each other, by a closed polytope of triangles inside their Minkowski difference around the origin.
 //!
 //! C = {x − y: x in body 1, y in body 2}. Of intersecting bodies the origin lies in C, and the least translation that parts them is
 //! as long as the origin is far from the boundary of C.
@@ -28,7 +28,7 @@ mod witness;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
-pub use expand::{Ending, Expansion, Start, Wanted, expand};
+pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
 pub use storage::{NO_TWIN, Polytope, triangle_of};
 pub use witness::{Witness, witness};
 

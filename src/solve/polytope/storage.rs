@@ -40,15 +40,15 @@ pub struct Polytope<const V: usize, const T: usize> {
     /// The triangles of the region.
     pub(super) region: [u16; T],
     /// The edges around the region.
-    pub(super) rim: [RimEdge; T],
+    pub(super) horizon: [HorizonEdge; T],
 }
 
-/// An edge of the region's rim, with the triangle that is to stand on it.
+/// An edge of the region's horizon, with the triangle that is to stand on it.
 #[derive(Debug, Clone, Copy)]
-pub struct RimEdge {
+pub struct HorizonEdge {
     pub tail: u8,
     pub head: u8,
-    /// Whether the next edge of the rim begins another loop.
+    /// Whether the next edge of the horizon begins another loop.
     pub ends_loop: bool,
     /// The half-edge outside the region.
     pub outer: HalfEdge,
@@ -97,7 +97,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
             certain: [0; T],
             marks: [0; T],
             region: [0; T],
-            rim: [RimEdge { tail: 0, head: 0, ends_loop: false, outer: 0, triangle: 0 }; T],
+            horizon: [HorizonEdge { tail: 0, head: 0, ends_loop: false, outer: 0, triangle: 0 }; T],
         }
     };
 

@@ -1,4 +1,4 @@
-//! Support vertices of the difference body, and the upper bound that they prove.
+//! Support vertices of the Minkowski difference, and the upper bound that they prove.
 
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -10,7 +10,7 @@ use crate::solve::frame::Frame;
 use crate::solve::voronoi::{Corner, Rule, STRICT, VertexTest, test_vertex};
 use crate::tables;
 
-/// A support vertex of the difference body.
+/// A support vertex of the Minkowski difference.
 #[derive(Debug, Clone, Copy)]
 pub struct Support {
     /// The vertices whose difference it is.
@@ -28,8 +28,8 @@ pub struct Support {
 /// Vertices that a body of so few are all looked at.
 const FEW: usize = 24;
 
-/// The support of the difference body along a direction of unit length as computed, climbed to from a pair of vertices or else from
-/// where the look-up tables say.
+/// The support of the Minkowski difference along a direction of unit length as computed, climbed to from a pair of vertices or else
+/// from where the look-up tables say.
 #[inline(always)]
 pub fn support<L: Lanes>(
     frame: &Frame<L>,

@@ -1,8 +1,8 @@
-//! The one way in which a polytope changes: a region of triangles gives way to the cone from a vertex over its rim.
+//! The one way in which a polytope changes: a region of triangles gives way to the cone from a vertex over its horizon.
 
 use super::Rounding;
 use super::planes::evaluate;
-use super::storage::{HalfEdge, NO_PLANE, NO_TRIANGLE, Polytope, RimEdge, half_edge, next, triangle_of};
+use super::storage::{HalfEdge, HorizonEdge, NO_PLANE, NO_TRIANGLE, Polytope, half_edge, next, triangle_of};
 use crate::base::math::Vector;
 use crate::base::simd::{Lanes, Work};
 use std::marker::PhantomData;
@@ -49,9 +49,9 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         region.size += 1;
     }
 
-    /// Floods a region from its first triangle over all that look towards a vertex by more than rounding; whether it stayed small.
+    /// Finds a region from its first triangle on: the facets visible from a vertex, by more than rounding. Whether it stayed small.
     #[inline(always)]
-    pub fn flood(&mut self, region: &mut Region, apex: u8, rounding: &Rounding) -> bool {
+    pub fn find_visible(&mut self, region: &mut Region, apex: u8, rounding: &Rounding) -> bool {
         let target = self.position(apex);
         let mut done = 0;
         while done < region.size {
@@ -76,7 +76,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
 
     /// Walks the loops of edges around the region and lays out a new triangle on each.
     #[inline(always)]
-    fn walk_rim(&mut self, region: &Region, apex: u8, is_known: bool) -> Rim {
+    fn walk_horizon(&mut self, region: &Region, apex: u8, is_known: bool) -> Horizon {
         let (mut edges, mut triangles) = (0, 0);
         for place in 0..region.size {
             self.marks[usize::from(self.region[place])] &= IN_REGION;
@@ -96,42 +96,42 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
                     if tail != apex && head != apex {
                         // A vertex of the polytope must not come to be on both sides of an edge.
                         if is_known && self.corners_of(triangle_of(outer)).contains(&apex) {
-                            return Rim::Grow(triangle_of(outer));
+                            return Horizon::Grow(triangle_of(outer));
                         }
                         let new = self.triangle_count + triangles;
                         if new >= Self::TRIANGLE_ROOM {
-                            return Rim::Refused;
+                            return Horizon::Refused;
                         }
                         self.corners[new] = [tail, head, apex, 0];
                         triangle = new as u16;
                         triangles += 1;
                     }
                     if edges == T {
-                        return Rim::Refused;
+                        return Horizon::Refused;
                     }
-                    self.rim[edges] = RimEdge { tail, head, ends_loop: false, outer, triangle };
+                    self.horizon[edges] = HorizonEdge { tail, head, ends_loop: false, outer, triangle };
                     edges += 1;
                     match self.following(at, region.size) {
                         Some(following) if following == begin => break,
                         Some(following) => at = following,
-                        None => return Rim::Refused,
+                        None => return Horizon::Refused,
                     }
                 }
                 // The apex once on a loop: twice, and the cone would be pinched.
                 if edges - first_edge < 3 || apexes > 1 {
-                    return Rim::Refused;
+                    return Horizon::Refused;
                 }
-                self.rim[edges - 1].ends_loop = true;
+                self.horizon[edges - 1].ends_loop = true;
             }
         }
-        if triangles == 0 { Rim::Refused } else { Rim::Closed { edges, triangles } }
+        if triangles == 0 { Horizon::Refused } else { Horizon::Closed { edges, triangles } }
     }
 
     fn is_walked(&self, at: HalfEdge) -> bool {
         self.marks[triangle_of(at)] >> (at & 3) & 1 != 0
     }
 
-    /// The half-edge that follows on the rim: turning around its head within the region, which has at most three half-edges a
+    /// The half-edge that follows on the horizon: turning around its head within the region, which has at most three half-edges a
     /// triangle there.
     #[inline(always)]
     fn following(&self, at: HalfEdge, region_size: usize) -> Option<HalfEdge> {
@@ -155,7 +155,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         if side > 0.0 && least.distance + rounding.plane > demand.least {
             return Verdict::AsDemanded;
         }
-        for edge in self.rim[..edges].iter().filter(|edge| edge.triangle != NO_TRIANGLE) {
+        for edge in self.horizon[..edges].iter().filter(|edge| edge.triangle != NO_TRIANGLE) {
             let triangle = usize::from(edge.triangle);
             let corner = self.position(self.corners[triangle][2]);
             let height = || self.normal(triangle).dot(&(corner - demand.centre));
@@ -180,9 +180,10 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         }
         let mut first = 0;
         while first < edges {
-            let length = 1 + self.rim[first..edges].iter().position(|edge| edge.ends_loop).unwrap_or(edges - first - 1);
+            let length =
+                1 + self.horizon[first..edges].iter().position(|edge| edge.ends_loop).unwrap_or(edges - first - 1);
             for i in 0..length {
-                let edge = self.rim[first + i];
+                let edge = self.horizon[first + i];
                 if edge.triangle == NO_TRIANGLE {
                     continue;
                 }
@@ -190,8 +191,8 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
                     self.uses[usize::from(corner)] += 1;
                 }
                 let triangle = usize::from(edge.triangle);
-                let after = self.rim[first + if i + 1 == length { 0 } else { i + 1 }];
-                let before = self.rim[first + if i == 0 { length - 1 } else { i - 1 }];
+                let after = self.horizon[first + if i + 1 == length { 0 } else { i + 1 }];
+                let before = self.horizon[first + if i == 0 { length - 1 } else { i - 1 }];
                 self.join(half_edge(triangle, 0), edge.outer);
                 // An edge that ends at the apex is the side of the cone itself.
                 let onward = if after.triangle == NO_TRIANGLE { after.outer } else { 4 * after.triangle + 2 };
@@ -237,8 +238,8 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
     }
 }
 
-/// Puts the cone from a vertex over the region's rim in the place of the region. Unless all new triangles are as demanded nothing
-/// is changed, but for the vertex itself, and the answer is no.
+/// Puts the cone from a vertex over the region's horizon in the place of the region. Unless all new triangles are as demanded, the
+/// answer is no, and only the vertex has been added.
 #[inline(always)]
 pub fn replace<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
@@ -268,8 +269,8 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
         let Replacement { polytope, region, apex, rounding, demand, .. } = self;
         let is_known = polytope.uses[usize::from(*apex)] > 0;
         loop {
-            let verdict = match polytope.walk_rim(region, *apex, is_known) {
-                Rim::Closed { edges, triangles } => match polytope.judge::<L>(edges, triangles, rounding, demand) {
+            let verdict = match polytope.walk_horizon(region, *apex, is_known) {
+                Horizon::Closed { edges, triangles } => match polytope.judge::<L>(edges, triangles, rounding, demand) {
                     Verdict::AsDemanded => {
                         polytope.link(region, edges, triangles, *apex);
                         return true;
@@ -278,8 +279,8 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
                     Verdict::Grow(triangle) if region.size <= LARGEST_GROWN => Verdict::Grow(triangle),
                     Verdict::Grow(_) | Verdict::Refused => Verdict::Refused,
                 },
-                Rim::Grow(triangle) => Verdict::Grow(triangle),
-                Rim::Refused => Verdict::Refused,
+                Horizon::Grow(triangle) => Verdict::Grow(triangle),
+                Horizon::Refused => Verdict::Refused,
             };
             // What is left has to be a surface, and the region is to fit in its list.
             match verdict {
@@ -301,12 +302,12 @@ pub struct Region {
 }
 
 /// What a walk around a region came to.
-enum Rim {
+enum Horizon {
     /// So many edges, and new triangles on them.
     Closed { edges: usize, triangles: usize },
     /// A triangle is to be taken into the region.
     Grow(usize),
-    /// No rim for a cone.
+    /// No horizon for a cone.
     Refused,
 }
 

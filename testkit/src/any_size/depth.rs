@@ -1,5 +1,5 @@
 //! How deep two intersecting convex hulls are in each other, in integers: the least translation that leaves their interiors
-//! disjoint is the distance of the origin from the surface of the difference body M = A − B. A polytope of vertices of M is
+//! disjoint is the distance of the origin from the surface of the Minkowski difference M = A − B. A polytope of vertices of M is
 //! grown at its facet nearest to the origin until that facet lies on the surface of M (the expanding polytope algorithm, G. van
 //! den Bergen, Proximity Queries and Penetration Depth Computation on 3D Game Objects, GDC 2001). The facets prove that the
 //! depth is not less, the supporting plane that it is not more.
@@ -11,7 +11,7 @@ use dashu_int::ops::BitTest;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use super::integers::{Placed, Point, cross, difference, dot, is_zero, negative};
+use super::integers::{IntegerPair, Point, cross, difference, dot, is_zero, negative};
 use super::nearest::affine_minimiser;
 
 /// The depth, or where it lies when the polytope was not grown to the end.
@@ -25,7 +25,7 @@ pub struct Depth {
     pub points: Option<[[RBig; 3]; 2]>,
 }
 
-/// A vertex of the difference body.
+/// A vertex of the Minkowski difference.
 struct Vertex {
     pair: [usize; 2],
     position: Point,
@@ -41,9 +41,9 @@ struct Facet {
 }
 
 /// The depth of two hulls that intersect, in units of the placed vertices; `limit` vertices at most are looked for.
-pub fn depth(placed: &Placed, limit: usize) -> Depth {
+pub fn depth(placed: &IntegerPair, limit: usize) -> Depth {
     let Some(mut vertices) = tetrahedron(placed) else {
-        // Nothing to move out of: the difference body has no interior.
+        // Nothing to move out of: the Minkowski difference has no interior.
         return Depth {
             lower_square: RBig::ZERO,
             upper_square: RBig::ZERO,
@@ -81,7 +81,7 @@ pub fn depth(placed: &Placed, limit: usize) -> Depth {
 }
 
 /// The answer, given a facet on the surface that is as near to the origin as any.
-fn finished(placed: &Placed, vertices: &[Vertex], facets: &[Facet], nearest: usize) -> Depth {
+fn finished(placed: &IntegerPair, vertices: &[Vertex], facets: &[Facet], nearest: usize) -> Depth {
     let Facet { offset, normal, .. } = &facets[nearest];
     let square = square_over(offset, normal);
     // The origin's projection lies in one of the triangles of the same plane.
@@ -163,14 +163,14 @@ fn closer(f: &Facet, g: &Facet) -> Ordering {
     signed(f, g).cmp(&signed(g, f))
 }
 
-/// The vertex of the difference body farthest along a direction.
-fn support(placed: &Placed, direction: &Point) -> Vertex {
+/// The vertex of the Minkowski difference farthest along a direction.
+fn support(placed: &IntegerPair, direction: &Point) -> Vertex {
     let pair = [placed.a.farthest(direction), placed.b.farthest(&negative(direction))];
     Vertex { pair, position: difference(&placed.a.vertex(pair[0]), &placed.b.vertex(pair[1])) }
 }
 
-/// Four vertices of the difference body that are not in a plane, if there are such, the last below the plane of the others.
-fn tetrahedron(placed: &Placed) -> Option<Vec<Vertex>> {
+/// Four vertices of the Minkowski difference that are not in a plane, if there are such, the last below the plane of the others.
+fn tetrahedron(placed: &IntegerPair) -> Option<Vec<Vertex>> {
     let axes = [0, 1, 2].map(|k| [0, 1, 2].map(|i| if i == k { IBig::ONE } else { IBig::ZERO }));
     let first = support(placed, &axes[0]);
     // The farthest from the first point along ±directions that span what is still open; `None` when nothing sticks out.

@@ -7,7 +7,7 @@ use dashu_int::{IBig, UBig};
 pub type Point = [IBig; 3];
 
 /// Two bodies at their poses.
-pub struct Placed<'a> {
+pub struct IntegerPair<'a> {
     pub a: Body<'a>,
     pub b: Body<'a>,
     /// The unit of every coordinate is 2^exponent.
@@ -25,7 +25,7 @@ pub struct Body<'a> {
 }
 
 /// R·v + T of the vertices of two bodies; `pose` is the row-major 3x4 `[R|T]` of A and then of B.
-pub fn place<'a>(a: &'a [[f64; 3]], b: &'a [[f64; 3]], pose: &'a [f64; 24]) -> Placed<'a> {
+pub fn place<'a>(a: &'a [[f64; 3]], b: &'a [[f64; 3]], pose: &'a [f64; 24]) -> IntegerPair<'a> {
     let (pose_a, pose_b) = pose.split_at(12);
     let exponent = lowest_exponent(a, pose_a).min(lowest_exponent(b, pose_b));
     let body = |points: &'a [[f64; 3]], pose: &'a [f64]| {
@@ -33,7 +33,7 @@ pub fn place<'a>(a: &'a [[f64; 3]], b: &'a [[f64; 3]], pose: &'a [f64; 24]) -> P
         let largest = points.iter().flatten().map(|x| x.abs()).fold(0.0, f64::max);
         Body { points, pose, exponent, reach: rotation * largest }
     };
-    Placed { a: body(a, pose_a), b: body(b, pose_b), exponent }
+    IntegerPair { a: body(a, pose_a), b: body(b, pose_b), exponent }
 }
 
 impl Body<'_> {

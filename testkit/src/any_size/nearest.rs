@@ -1,11 +1,11 @@
 //! Nearest points of two convex hulls: P. Wolfe, Finding the nearest point in a polytope, Math. Programming 11 (1976), on the
-//! difference body, in integers and rationals. In exact arithmetic it ends after finitely many steps, at a point that is proved
-//! by a look at every vertex: x is nearest to the origin when x·w ≥ x·x for all vertices w of the difference body.
+//! Minkowski difference, in integers and rationals. In exact arithmetic it ends after finitely many steps, at a point that is
+//! proved by a look at every vertex: x is nearest to the origin when x·w ≥ x·x for all vertices w of the Minkowski difference.
 
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use super::integers::{Body, Placed, Point, difference, dot, negative};
+use super::integers::{Body, IntegerPair, Point, difference, dot, negative};
 
 /// The nearest points of two hulls.
 pub struct Nearest {
@@ -17,8 +17,8 @@ pub struct Nearest {
 }
 
 /// In units of the placed vertices.
-pub fn nearest(placed: &Placed) -> Nearest {
-    let Placed { a, b, .. } = placed;
+pub fn nearest(placed: &IntegerPair) -> Nearest {
+    let IntegerPair { a, b, .. } = placed;
     // Wolfe's corral: affinely independent points, and x, the point nearest to the origin of their affine hull, inside
     // their convex hull.
     let mut pairs = vec![[0, 0]];
@@ -61,7 +61,7 @@ pub fn nearest(placed: &Placed) -> Nearest {
 
 impl Nearest {
     /// The square of the distance in the world's unit, not that of the placed vertices.
-    pub fn world_square(&self, placed: &Placed) -> RBig {
+    pub fn world_square(&self, placed: &IntegerPair) -> RBig {
         let unit = RBig::from(IBig::ONE << placed.exponent.unsigned_abs() as usize);
         if placed.exponent < 0 { &self.square / (&unit * &unit) } else { &self.square * (&unit * &unit) }
     }
