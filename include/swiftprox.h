@@ -120,8 +120,8 @@ typedef enum swiftprox_status SWIFTPROX_INT32 {
   /** An argument is out of range, not finite or unknown: the message names it. */
   SWIFTPROX_ERROR_INVALID_ARGUMENT = 2,
   /**
-   * A struct_size is none: the struct was not initialised by its _init macro. Or the struct comes from a newer header and sets
-   * what this library does not know.
+   * A struct_size is unknown: the struct was not initialised by its _init macro. Or the struct comes from a newer header and
+   * sets what this library does not know.
    */
   SWIFTPROX_ERROR_STRUCT_SIZE = 3,
   /** A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive. */
@@ -512,7 +512,7 @@ typedef enum swiftprox_outcome SWIFTPROX_INT32 {
   SWIFTPROX_OUTCOME_SEPARATED = 1,
   /**
    * The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
-   * `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features are not said.
+   * `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features stay unset.
    */
   SWIFTPROX_OUTCOME_BEYOND = 2,
   /** The closed objects have a common point (touching included). */
@@ -613,7 +613,7 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_feature feature2;
   /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
   uint32_t proof[4][2];
-  /** How many entries of `proof` are used: 1 to 4 when intersecting, but for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES, else 0. */
+  /** How many entries of `proof` are used: 1 to 4 when intersecting, except for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES, else 0. */
   uint32_t proof_count;
   /** What the query did. */
   struct swiftprox_statistics statistics;
@@ -664,7 +664,7 @@ void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
 
 /**
  * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
- * distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair farther
+ * distance is 0 and the proof is given; points, normal and features stay unset (see swiftprox_pair_contact). Of a pair farther
  * apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
  * SWIFTPROX_FEATURE_KIND_NONE.
  *
@@ -718,7 +718,7 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
  * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
  * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
- * goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that
+ * goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
  * comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
  */
 SWIFTPROX_NODISCARD
@@ -1257,7 +1257,7 @@ swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
                                           const struct swiftprox_clearance_config *config,
                                           struct swiftprox_clearance *answer);
 
-/** How a cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+/** How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so. */
 const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome);
 
 /** @} */

@@ -284,7 +284,7 @@ pub unsafe extern "C" fn swiftprox_cast_verify(
     })
 }
 
-/// How a cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+/// How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_cast_outcome_string(outcome: CastOutcomeNumber) -> *const c_char {
     use crate::base::enumerator::Enumerator;

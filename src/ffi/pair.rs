@@ -80,7 +80,7 @@ pub unsafe extern "C" fn swiftprox_pair_config_init_sized(config: *mut CPairConf
 }
 
 /// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
-/// distance is 0 and the proof is given; points, normal and features are not said (see swiftprox_pair_contact). Of a pair farther
+/// distance is 0 and the proof is given; points, normal and features stay unset (see swiftprox_pair_contact). Of a pair farther
 /// apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
 /// SWIFTPROX_FEATURE_KIND_NONE.
 ///
@@ -143,7 +143,7 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
 /// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
 /// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
 /// unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
-/// goes on from there, unless config->tuning->start says that it begin anew. Points and features are not said of an answer that
+/// goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
 /// comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(

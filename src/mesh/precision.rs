@@ -92,7 +92,7 @@ mod tests {
     fn floats_have_the_last_place_of_their_type() {
         let floats = [1000.1_f32 + 1.0 / 3.0, 1.0 / 3.0, -0.7].map(f64::from);
         assert_eq!(unit_of(floats), 2.0_f64.powi(9 - 23));
-        // Text that was read into floats: 0.123 is none exactly.
+        // Text that was read into floats: 0.123 is not one exactly.
         assert!(is_about(unit_of([0.123_f32, 0.5, 0.25].map(f64::from)), 1e-3));
     }
 

@@ -34,7 +34,7 @@ pub(super) fn shortest_step(range: [f64; 2]) -> f64 {
     (SHORTEST_STEP * range[0].abs().max(range[1].abs())).max(f64::MIN_POSITIVE)
 }
 
-/// Refuses a range of times that is none.
+/// Refuses a range of times that is empty or not finite.
 ///
 /// # Errors
 /// [`Error::Argument`], naming the end.

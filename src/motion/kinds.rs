@@ -81,7 +81,7 @@ impl Motion<'_> {
         }
     }
 
-    /// Refuses a motion that is none.
+    /// Refuses a motion with a number out of its range.
     ///
     /// # Errors
     /// [`Error::Pose`], [`Error::Argument`].

@@ -37,7 +37,7 @@ pub(super) struct Moment {
 
 impl<'a> MovingPair<'a> {
     /// # Errors
-    /// [`Error::Pose`], [`Error::Argument`] for a motion that is none.
+    /// [`Error::Pose`], [`Error::Argument`] for a motion with a number out of its range.
     pub fn new(bodies: [Moving<'a>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
         let prepare = |body: &Moving| {
             body.motion.check()?;

@@ -10,7 +10,7 @@ pub enum Outcome {
     /// The objects are disjoint, `0 < lower ≤ distance ≤ upper`; `lower` is 0 only for a distance below the smallest double.
     Separated = 1,
     /// The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
-    /// `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features are not said.
+    /// `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features stay unset.
     Beyond = 2,
     /// The closed objects have a common point (touching included).
     Intersecting = 3,
@@ -116,7 +116,7 @@ pub struct PairAnswer {
     pub feature2: Feature,
     /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used: 1 to 4 when intersecting, but for [`DecidedBy::InscribedSpheres`], else 0.
+    /// How many entries of `proof` are used: 1 to 4 when intersecting, except for [`DecidedBy::InscribedSpheres`], else 0.
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,

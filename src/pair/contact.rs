@@ -57,7 +57,7 @@ pub fn fill_separated<L: Lanes>(
     answer.feature2 = label(body2.polyhedron, features[1], &points[1].to_vector());
 }
 
-/// As [`fill_separated`] without a frame, for any magnitudes, and but for the normal.
+/// As [`fill_separated`] without a frame, for any magnitudes, and except the normal.
 pub fn fill_placed(
     answer: &mut PairAnswer,
     polyhedra: [&Polyhedron; 2],
@@ -182,7 +182,7 @@ fn feature_of_vertices(
     if let Some(face) = face_beside(polyhedron, vertices, point) {
         return FeatureId::Face(face);
     }
-    // The faces around the vertices hold the point, but for vertices inside a merged face and slivers that rounding shuffles.
+    // The faces around the vertices hold the point, except for vertices inside a merged face and slivers that rounding shuffles.
     // The face that holds a convex combination holds all its vertices, so those with many faces around them can be left out.
     let has_few = |v: &&u32| polyhedron.neighbour_capacity(**v) <= MOST_NEIGHBOURS;
     let around = vertices.iter().filter(has_few).flat_map(|&v| faces_at(polyhedron, v));

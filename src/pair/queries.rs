@@ -12,8 +12,8 @@ use crate::base::simd::environment::{self, with_default};
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
-/// Of an intersecting pair the distance and its interval are 0, `proof` holds the vertex pairs; points, normal and features are
-/// not said (see [`contact()`]). Of a pair beyond `config.distance_tolerance` only `lower` is said.
+/// Of an intersecting pair the distance and its interval are 0, `proof` holds the vertex pairs; points, normal and features stay
+/// unset (see [`contact()`]). Of a pair beyond `config.distance_tolerance` only `lower` is set.
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
@@ -57,8 +57,8 @@ pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, 
 /// distance.
 ///
 /// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and
-/// features are not said of an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only
-/// `lower` is said.
+/// features stay unset in an answer that comes from levels of detail. Of a pair beyond `config.distance_tolerance` only
+/// `lower` is set.
 ///
 /// # Errors
 /// As [`distance`]; [`Error::Argument`](crate::base::error::Error::Argument) for an error tolerance that is NaN or negative and a

@@ -50,8 +50,8 @@ pub struct FaceBlock {
 pub struct FanEdge {
     /// Unit vector from the first corner to the second, right to 4u in each component.
     pub direction: Vector,
-    /// An upper bound of |n·R·`direction`|, but for the rounding of `direction`, over all unit vectors n of the placed arc: those
-    /// with Rᵀn in the cone of both normals, for any accepted R.
+    /// An upper bound of |n·R·`direction`|, apart from the rounding of `direction`, over all unit vectors n of the placed arc:
+    /// those with Rᵀn in the cone of both normals, for any accepted R.
     pub lean: f64,
     /// The faces beside it, left and right.
     pub faces: [u8; 2],

@@ -111,7 +111,7 @@ pub struct ReplayAnswer<'a> {
     /// As of the query itself; of one about events the pairs of pieces that are near.
     pub answer: SceneAnswer<'a>,
     /// Whether it says what the recorded one does: the same pairs are listed, with the same outcomes, and the sums of lower ends
-    /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, but for
+    /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, except for
     /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
     pub check: Result<()>,
     /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with
@@ -257,7 +257,7 @@ impl Replay {
 
     // --- Doing -------------------------------------------------------------------------------------------------------------------
 
-    /// Does what was done in the step that was read, but for its query.
+    /// Does what was done in the step that was read, except its query.
     ///
     /// # Errors
     /// [`Error::File`] for a recording that the scene refuses: it is another scene, or a damaged recording. It cannot be gone on

@@ -218,8 +218,7 @@ impl Shape {
         let Some((mut ordered, numbers)) = mesh.in_order(order, &mut of_body.part(0.02, 0.05))? else {
             return match options.input {
                 InputPolicy::Strict | InputPolicy::Flat | InputPolicy::NearlyConvex => {
-                    check_as_given(&mesh, &mut of_body)
-                        .and(Err(Error::Bug("faces that are none passed the check".into())))
+                    check_as_given(&mesh, &mut of_body).and(Err(Error::Bug("degenerate faces passed the check".into())))
                 }
                 InputPolicy::Hull => {
                     let noise = options.noise(&given.vertices, None)?;

@@ -68,7 +68,7 @@ impl<'a> Corner<'a> {
 /// the second order.
 pub const STRICT: f64 = 16.0 * UNIT_ROUNDOFF;
 
-/// Tests all neighbours of a vertex in direction g (towards the other body), whose length is at most `length`, but for the few per
+/// Tests all neighbours of a vertex in direction g (towards the other body), whose length is at most `length`, except the few per
 /// cent that a skewed R makes of it: the margins have as much to spare several times over.
 #[inline(always)]
 pub fn test_vertex<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, tolerance: f64) -> VertexTest {

@@ -44,7 +44,7 @@ struct FileMesh {
     }
 };
 
-/* A word of a file as a whole number; false if it is none. */
+/* A word of a file as a whole number; false if it is not one. */
 inline bool parse_int(const std::string& word, int& value)
 {
     std::istringstream stream(word);

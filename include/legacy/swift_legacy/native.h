@@ -183,7 +183,7 @@ inline double next_below(double x)
 /* Whether pairs at exactly the tolerance count: in SWIFT 1.x they do, in SWIFT++ they do not. */
 enum Bound { BOUND_INCLUDED, BOUND_EXCLUDED };
 
-/* As swiftprox takes it. Negative ones are 0, SWIFT_INFINITY is none. */
+/* As swiftprox takes it. Negative ones are 0, SWIFT_INFINITY stands for no tolerance. */
 inline double native_tolerance(SWIFT_Real tolerance, Bound bound)
 {
     if (tolerance >= SWIFT_INFINITY) {

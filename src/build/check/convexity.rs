@@ -209,7 +209,7 @@ pub(super) struct Side {
 }
 
 /// The side of a closed surface across which a face rises most steeply out of the plane of the other, the first of equals; `None`
-/// if none does but for rounding.
+/// if none does, rounding apart.
 pub(super) fn most_inward(
     mesh: &PolygonMesh,
     sides: impl Iterator<Item = Side>,

@@ -31,7 +31,7 @@ use outline::outline;
 const SLAB: f64 = 5.0;
 
 /// A triangle of less altitude, in units of the noise, says nothing of its plane: a corner's error turns it by 15°. Corners of an
-/// outline that are nearer to the line through their neighbours are none.
+/// outline that are nearer to the line through their neighbours do not count.
 const THIN: f64 = 4.0;
 
 /// How far a point is off that is off by 1 along each axis: √3, rounded up.

@@ -53,7 +53,7 @@ pub fn coplanar_regions(triangles: &Triangles, bound: f64, progress: &mut Progre
     Ok((regions.region_of, regions.normals))
 }
 
-/// Regions that a triangle may be in before it gets one and that were none; after that it is left out of the regions of others.
+/// Regions that a triangle may be in before it gets one and that were given up; after that it is left out of the regions of others.
 /// Where they creep around a smooth needle they take in half of it each time.
 const MOST_FAILURES: u8 = 8;
 
@@ -257,7 +257,7 @@ mod tests {
         (taken, regions.failures)
     }
 
-    /// Around a smooth needle regions creep and are none: a triangle is in [`MOST_FAILURES`] of them, then left alone.
+    /// Around a smooth needle regions creep and are given up: a triangle is in [`MOST_FAILURES`] of them, then left alone.
     #[test]
     fn growing_takes_each_triangle_a_bounded_number_of_times() {
         let mut left_alone = 0;

@@ -13,7 +13,8 @@ pub struct Rescaled {
     unit: f64,
 }
 
-/// The exponent of the largest and smallest radius that the search takes as it is: beyond, cross products of short edges are none.
+/// The exponent of the largest and smallest radius that the search takes as it is: beyond, cross products
+/// may underflow or overflow.
 const MOST_EXPONENT: i32 = 100;
 
 /// Whether the search takes a pair as it is.

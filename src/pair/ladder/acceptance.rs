@@ -42,7 +42,7 @@ impl<L: Lanes> Certify<L> for AtFirst<'_, '_, '_> {
 }
 
 impl Acceptance<'_, '_> {
-    /// Answer, but for the statistics, and cache from a minimum.
+    /// Answer, except the statistics, and cache from a minimum.
     #[inline(always)]
     fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
         let pair = &mut *self.pair;

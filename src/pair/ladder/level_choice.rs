@@ -116,7 +116,7 @@ impl<'a> PairQuery<'a> {
         Ok(may_answer(self.shapes(), error))
     }
 
-    /// Makes the automatic levels that are missing, but for no query that is refused.
+    /// Makes the automatic levels that are missing, unless the query is refused.
     fn make_missing_levels(&self) -> Result<()> {
         if self.shapes().iter().any(|shape| shape.lacks_levels()) {
             self.check_poses()?;

@@ -50,7 +50,7 @@ pub(super) enum Leg {
 }
 
 impl Leg {
-    /// With so many steps of a budget left; `u32::MAX` is none. A trial may go on for longer than a budget.
+    /// With so many steps of a budget left; `u32::MAX` stands for no budget. A trial may go on for longer than a budget.
     pub(super) fn of(left: u32, is_trial: bool) -> Leg {
         match left {
             u32::MAX if is_trial => Leg::Trial,

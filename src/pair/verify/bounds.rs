@@ -16,7 +16,7 @@ const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
 pub struct Bounds<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
-    /// A length in units of the pair is this times as large, a power of two. Thus lengths and coordinates are exact but for
+    /// A length in units of the pair is this times as large, a power of two. Thus lengths and coordinates are exact except for
     /// underflow, of less than the least double each, where 2⁻⁷⁴ and more are the size: of subnormal lengths not more is left.
     unit: f64,
     /// From the centred origin of body 2 to that of body 1, in the world.

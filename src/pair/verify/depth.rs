@@ -36,8 +36,8 @@ use std::cmp::Ordering;
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
 /// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to
-/// triangles times vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not proved, and the
-/// answer may hold.
+/// triangles times vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not
+/// proved, and the answer may hold.
 ///
 /// # Errors
 /// As of [`super::verify`].

@@ -36,7 +36,7 @@ use witness::{Witness, distance_between};
 /// `lower` ≤ `distance` ≤ `upper` holds for every outcome. `upper` is +∞ and `distance` is `lower` for [`Outcome::Beyond`]; all
 /// three are 0 for [`Outcome::Intersecting`].
 ///
-/// Every number that is said is finite, but for an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], of separated
+/// Every number that is set is finite, except an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], of separated
 /// objects of which no points are said, and of objects farther apart than the largest double.
 ///
 /// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂|). There ρ is a body's radius
@@ -172,7 +172,7 @@ fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairA
     near.sort_unstable();
     near.dedup();
     Proof {
-        // A gap of 0 is none.
+        // A gap of 0 separates nothing.
         lower: answer.lower > 0.0 && bounds.prove_lower(&gap, &normal, answer.lower),
         upper: nothing.upper || bounds.prove_upper(&points, answer.upper),
         near,
@@ -274,7 +274,7 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
     Ok(())
 }
 
-/// The vertices of overlapping balls are none: integers decide anew.
+/// Overlapping balls leave no vertex pairs as a proof: integers decide anew.
 fn verify_without_proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));

@@ -42,7 +42,7 @@ const POINTS: [&str; 4] =
 
 /// Refuses an answer with a number that is not finite. Three things may be: the upper end of an interval, and of a distance above
 /// all doubles the estimate, too; a coordinate in the world beyond them, which the comparison with its local point then judges; and
-/// what is not said, which is NaN: the normal as a whole, the points with the features as a whole.
+/// what stays unset, which is NaN: the normal as a whole, the points with the features as a whole.
 pub fn check_numbers(numbers: &Numbers) -> Result<()> {
     let Numbers { interval, points, normal, .. } = numbers;
     let [lower, best, upper] = *interval;

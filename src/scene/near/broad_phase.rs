@@ -43,7 +43,7 @@ pub(crate) struct BroadPhase {
 enum Listing {
     /// Whatever it held before: the next update makes it and the trees anew.
     OutOfDate,
-    /// The pairs of boxes that overlap, but for pieces that have escaped since.
+    /// The pairs of boxes that overlap, except those of pieces that have escaped since.
     Overlaps,
     /// The pairs that the program gave last. The trees are out of date.
     Given,
@@ -282,7 +282,7 @@ impl BroadPhase {
         moving.for_each_pair_with(fixed, &proxies.boxes, scratch, found)
     }
 
-    /// Moving pieces meet each other in the grid, but for large ones, and fixed ones in their tree.
+    /// Moving pieces meet each other in the grid, except large ones, and fixed ones in their tree.
     fn find_by_grid(&mut self, proxies: &Proxies, workers: &Workers) -> Result<()> {
         if !self.grid.large.is_empty() {
             self.fit_tree(false, proxies)?;

@@ -174,7 +174,7 @@ impl Grid {
     }
 }
 
-/// The longest side; in double precision, where differences of single ones are exact but for very unlike magnitudes.
+/// The longest side; in double precision, where differences of single ones are exact except for very unlike magnitudes.
 fn side(bounds: &Aabb) -> f64 {
     (0..3).map(|k| f64::from(bounds.upper[k]) - f64::from(bounds.lower[k])).fold(0.0, f64::max)
 }

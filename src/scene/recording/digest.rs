@@ -38,7 +38,7 @@ impl Sum {
 }
 
 impl Digest {
-    /// `number` names objects as the recording does, any other way for what is none.
+    /// `number` names objects as the recording does, any other way for what is no object.
     pub fn of(answer: &SceneAnswer, number: impl Fn(ObjectId) -> u32) -> Digest {
         let results = answer.found.map_or(answer.pairs, std::slice::from_ref);
         let (mut listed, mut bits) = (Sum(EMPTY_CHECKSUM), Sum(EMPTY_CHECKSUM));

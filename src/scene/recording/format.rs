@@ -157,7 +157,8 @@ impl Record<'_> {
     /// A record from its content.
     ///
     /// # Errors
-    /// [`Error::File`](crate::base::error::Error::File) for what is none, [`Error::Memory`](crate::base::error::Error::Memory).
+    /// [`Error::File`](crate::base::error::Error::File) for what is no recording,
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn read(kind: Kind, from: &mut Reader) -> Result<Record<'static>> {
         let record = match kind {
             Kind::End => Record::End,
@@ -253,7 +254,7 @@ fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
     }
 }
 
-/// The change of a kind of record; other kinds are none.
+/// The change of a kind of record; other kinds stand for no change.
 fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>> {
     Ok(match kind {
         Kind::Object => Change::Object {
@@ -364,7 +365,7 @@ impl Reader<'_> {
     fn choice<T: Enumerator>(&mut self) -> Result<T> {
         let number = self.number()?;
         let found = i32::try_from(number).ok().and_then(T::from_number);
-        found.map_or_else(|| self.damaged("a choice that is none"), Ok)
+        found.map_or_else(|| self.damaged("an unknown choice"), Ok)
     }
 
     fn pose(&mut self) -> Result<Pose> {

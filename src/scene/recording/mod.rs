@@ -184,7 +184,7 @@ impl Rename<Themselves, Numbers> for Numbering<'_> {
     fn filter(&mut self, _: &PairFilter) {}
 }
 
-/// What there is when a recording begins, but for decisions.
+/// What there is when a recording begins, except decisions.
 fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
     let (rotation_limit, objects) = (world.rotation_limit, &world.objects);
     recorder.write(&Record::Scene { rotation_limit, is_whole: objects.created() == 0 })?;

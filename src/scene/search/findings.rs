@@ -156,7 +156,7 @@ impl Findings {
         }
     }
 
-    /// Adds those of another part behind, but for the results, which go to its [room](Findings::rooms); gives how many are listed
+    /// Adds those of another part behind, except the results, which go to its [room](Findings::rooms); gives how many are listed
     /// before them.
     ///
     /// # Errors

@@ -94,7 +94,7 @@ impl SceneStatistics {
         } += 1;
     }
 
-    /// What a part of a query did, but for the queries themselves and the error, which are no sums over parts.
+    /// What a part of a query did, except the queries themselves and the error, which are no sums over parts.
     pub(crate) fn add(&mut self, part: &SceneStatistics) {
         self.pairs += part.pairs;
         self.marched += part.marched;

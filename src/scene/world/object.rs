@@ -35,7 +35,7 @@ impl ObjectId {
         ObjectId { bits: upper << SLOT_BITS | slot as u64 }
     }
 
-    /// The id as a number, for C or for storage beside the caller's data. Opaque but for this: zero is null.
+    /// The id as a number, for C or for storage beside the caller's data. Opaque, except that zero is null.
     pub fn to_bits(self) -> u64 {
         self.bits
     }

@@ -91,7 +91,7 @@ impl<'a> Object<'a> {
         self.entry.arrangement.as_ref().map_or(&[], |arrangement| &arrangement.piece_poses)
     }
 
-    /// What it was made of, but for the pieces.
+    /// What it was made of, except the pieces.
     pub(crate) fn options(&self) -> ObjectOptions {
         let Label { fixed, user_data, groups, mask, .. } = *self.label();
         ObjectOptions { pose: *self.pose(), fixed, user_data, groups, mask }
@@ -117,7 +117,7 @@ impl<'a> Object<'a> {
         self.label().user_data
     }
 
-    /// That of its first piece: but for the piece's number all are alike.
+    /// That of its first piece: all are alike, except in the piece's number.
     fn label(&self) -> &'a Label {
         &self.proxies.labels[self.entry.first_proxy as usize]
     }

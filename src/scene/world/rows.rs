@@ -45,7 +45,7 @@ pub(crate) struct Motion {
     pub limit: f64,
     /// The number of passes over the pairs before the last move.
     pub moved: u64,
-    /// How far it goes in a step, smoothed, but for jumps; 0 before the first. What brings it to where it gets its first box is
+    /// How far it goes in a step, smoothed, jumps left out; 0 before the first. What brings it to where it gets its first box is
     /// no step.
     rate: f32,
     /// No entry of RᵀR − I is above [`RIGID`].

@@ -19,7 +19,8 @@ pub enum Facet {
 /// facets differ by less.
 pub(super) const TIE: f64 = 12.0 * U;
 
-/// What rounding does to S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are alike but for Δ.
+/// What rounding does to S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are
+/// alike except for Δ.
 ///
 /// | | ρ₁ | ρ₂ | \|Δ\| |
 /// |---|--:|--:|--:|

@@ -158,9 +158,9 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let distance = distance_squared.sqrt();
     let inverse = reciprocal_length(square);
     let projection = direction.dot(difference) * inverse;
-    // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals but for a part along the edge:
-    // of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of a
-    // feature miss each other by.
+    // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals, except for a part along the
+    // edge: of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of
+    // a feature miss each other by.
     let is_plain = frame.rigid & (inside == 0b1111);
     let misfit = UNIT_ROUNDOFF * (29.0 + 10.5 * leaning.abs() * inverse);
     let support_excess = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };

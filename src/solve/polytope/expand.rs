@@ -37,7 +37,7 @@ pub struct Wanted {
     pub relative: f64,
     /// How many steps it may take.
     pub steps: u32,
-    /// What the lower end is to come to, if it can: 0 but for a search for a proof.
+    /// What the lower end is to come to, if it can: 0 except in a search for a proof.
     pub lower: f64,
 }
 
