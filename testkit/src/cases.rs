@@ -4,6 +4,7 @@ pub use crate::random::Random;
 use swiftprox::base::double_double::{wide_dot, widen};
 use swiftprox::math::{Matrix, Pose, Vector};
 
+use crate::models;
 use crate::oracle::{Matrix3x4, Polytope, Truth, truth};
 
 /// Two point sets, each standing for its convex hull, at their poses.
@@ -68,8 +69,7 @@ fn translated(t: Vector) -> Pose {
 
 /// The eight corners of a box about the origin.
 fn box_points(half: Vector) -> Vec<Vector> {
-    let sign = |k: usize, bit: usize| if k >> bit & 1 == 0 { -1.0 } else { 1.0 };
-    (0..8).map(|k| half.component_mul(&Vector::new(sign(k, 0), sign(k, 1), sign(k, 2)))).collect()
+    models::cuboid(half.into()).expect("a box").vertices
 }
 
 /// A distance that is nothing, tiny or small, of either sign.

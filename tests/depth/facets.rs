@@ -1,23 +1,19 @@
 //! Small bodies, whose depth all facets of the Minkowski difference tell.
 
-use std::f64::consts::TAU;
-
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
 
+use testkit::models;
 use testkit::random::rotation;
 use testkit::shapes::{cuboid, hull};
 
 use crate::{Random, query};
 
-fn prism(sides: usize, half_height: f64, turn: &Matrix) -> Shape {
-    let corner = |k: usize, z: f64| {
-        let angle = TAU * k as f64 / sides as f64;
-        turn * Vector::new(angle.cos(), angle.sin(), z)
-    };
-    hull(&(0..sides).flat_map(|k| [corner(k, -half_height), corner(k, half_height)]).collect::<Vec<_>>())
+fn prism(sides: u32, half_height: f64, turn: &Matrix) -> Shape {
+    let points = models::prism(sides, half_height).unwrap().vertices;
+    hull(&points.iter().map(|p| turn * p).collect::<Vec<_>>())
 }
 
 /// Boxes, a wedge, prisms and hulls, some turned so that rounding leaves their faces uneven.

@@ -10,11 +10,6 @@ pub fn cuboid(size: [f64; 3]) -> Vec<Vector> {
 
 /// A prism over a regular n-gon: first the bottom, then the top.
 pub fn prism(n: usize, height: f64) -> Vec<Vector> {
-    let ring = |z: f64| {
-        (0..n).map(move |i| {
-            let (sine, cosine) = (std::f64::consts::TAU * i as f64 / n as f64).sin_cos();
-            Vector::new(cosine, sine, z)
-        })
-    };
-    ring(0.0).chain(ring(height)).collect()
+    let mesh = models::prism(n as u32, 0.5 * height).unwrap();
+    mesh.vertices.iter().map(|corner| corner + Vector::z() * (0.5 * height)).collect()
 }
