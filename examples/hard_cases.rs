@@ -34,7 +34,7 @@ use swiftprox::pair::Outcome;
 use testkit::PosePair;
 use testkit::any_size::decimal::{direction, root_enclosure, rounded};
 use testkit::any_size::depth::depth;
-use testkit::any_size::integers::{Placed, place};
+use testkit::any_size::integers::{IntegerPair, place};
 use testkit::any_size::nearest::nearest;
 use testkit::hard::flight::{Table, Tally, fly, shapes};
 use testkit::hard::{Family, Sequence, families, triangles};
@@ -172,7 +172,7 @@ fn truths(sequence: &Sequence) -> Vec<(String, Truth)> {
     found.into_inner().expect("no panic").into_values().collect()
 }
 
-fn truth(placed: &Placed) -> (String, Truth) {
+fn truth(placed: &IntegerPair) -> (String, Truth) {
     let e = placed.exponent;
     let written = |point: &[RBig; 3]| point.each_ref().map(|x| rounded(x, e)).join(" ");
     let found = nearest(placed);

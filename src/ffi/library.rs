@@ -5,7 +5,8 @@ use std::ffi::{CStr, c_char, c_void};
 use super::enumerators::{DecidedByNumber, FeatureKindNumber, OutcomeNumber, StatusNumber};
 use super::failure::{Failure, StatusCode};
 use super::guard::{LAST_ERROR, guard};
-use super::log::{LogCallback, set_log};
+pub use super::log::LogCallback;
+use super::log::set_log;
 use crate::base::enumerator::Enumerator;
 use crate::pair::{DecidedBy, FeatureKind, Outcome};
 
