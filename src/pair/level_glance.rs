@@ -2,7 +2,7 @@
 //! nearest, and they say enough. Straight through to the answer that the search among the levels comes to, to the last bit.
 
 use super::descent::{self, Leveled, Place, TRIAL_STEPS};
-use super::levels::{are_worth_it, may_answer, most_error};
+use super::levels::{are_worth_it, may_answer};
 use super::query::{PairQuery, Query};
 use super::{DecidedBy, Levels};
 use crate::base::simd::{self, Kernel, Lanes};
@@ -13,11 +13,10 @@ impl PairQuery<'_> {
     pub(super) fn last_levels_answer(&mut self) -> bool {
         let &mut PairQuery { query, bodies: [first, second], ref cache, config, .. } = self;
         let shapes = [first.shape, second.shape];
-        // Bounding spheres go first where there is a tolerance, and a limit below rounding asks for a closer look at the poses.
+        // A limit below rounding asks for a closer look at the poses.
         let is_common_case = (query == Query::Approximate)
             & cache.holds_place()
             & (cache.spent_before() == 0)
-            & (config.distance_tolerance >= f64::INFINITY)
             & (config.step_budget >= TRIAL_STEPS)
             & config.admits_rounding()
             & config.start.asks_cache();
@@ -56,7 +55,7 @@ impl Kernel for LastLevels<'_, '_> {
             return false;
         }
         self.pair.fill_found(&found, DecidedBy::Tolerance, steps);
-        let most = most_error(config, found.lower);
+        let most = self.pair.near_enough(found.lower);
         let stays = bodies.stays(found.place, found.lower, most);
         let next = if stays { found.place } else { climbed(&bodies, &found.place, found.lower, most) };
         self.pair.cache.remember_place(next, 0);

@@ -31,6 +31,7 @@ pub use config::{Levels, PairConfig, Start};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub use descent::Refinement;
 use ladder::climb;
+pub(crate) use levels::least_error;
 pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 pub use placed::Placed;
