@@ -1993,8 +1993,8 @@ swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene)
 /**
  * Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
  * which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
- * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1,448 single pieces
- * make. 0: none but near pairs.
+ * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
+ * single pieces make. 0: none but near pairs.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  */

@@ -2,8 +2,8 @@
 //!
 //! Error buys time only where levels of detail may answer, which takes bodies of many vertices and an error as large as their
 //! levels stand off. Pairs whose levels need least come first, as many as the budget suffices for; all others are asked for
-//! exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever becomes of the pairs, those that
-//! take shares are no more than were counted: all of them together stay within the budget.
+//! exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever becomes of the pairs, those
+//! that take shares are no more than were counted: all of them together stay within the budget.
 
 use crate::base::error::Result;
 use crate::base::memory::push;
