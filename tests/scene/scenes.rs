@@ -665,7 +665,7 @@ fn a_budget_holds_while_objects_move() {
 
 /// Large bodies within a tolerance and beyond it: approximate answers take no more steps than exact ones, with an error or a
 /// budget, and at rest none. With a finite tolerance the search used to begin at the coarsest levels each time, and a budget asked
-/// two questions by turns, neither of which was answered again. (Cut-off: five to ten times the steps of exact answers at 0.1° to 1°.)
+/// two questions by turns, neither of which was answered again. (Cut-off: five to ten times the steps of exact answers at 0.1°.)
 #[test]
 fn approximate_distances_within_a_tolerance_cost_no_more_than_exact_ones() {
     let shape = ellipsoid(&mut Random::new(0xa99), 30_100, [1.0, 0.8, 0.6], Vector::zeros());
