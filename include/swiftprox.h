@@ -1672,9 +1672,10 @@ typedef struct swiftprox_scene_query {
   /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to, in
-   * equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-   * Which pairs are listed is found out first, which takes a query of its own. Default: infinity.
+   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
+   * whatever the two errors say, beside what exact answers take. Pairs that levels of detail may answer with a share of it take
+   * one, all the same; others are answered as by exact queries, and so are all where the scene does not keep all pairs
+   * (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**
@@ -1988,6 +1989,18 @@ swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *sc
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
+
+/**
+ * Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
+ * which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
+ * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
+ * single pieces make. 0: none but near pairs.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *scene,
+                                                     uint64_t limit);
 
 /**
  * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no

@@ -81,6 +81,8 @@ int player_open(struct player *player, const struct player_options *options)
     *player = (struct player){.options = options, .is_recording = player_finds_recording(options->path)};
     swiftprox_scene_query_init(&player->query);
     player->query.distance_tolerance = options->tolerance;
+    player->query.absolute_error = options->error;
+    player->query.error_budget = options->budget;
     player->query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
     if (player->is_recording) {
         return GOOD;

@@ -17,6 +17,8 @@ struct player_options {
     const char *path;
     scene_query *query; /* null: what the recording asks, of text distances */
     double tolerance;   /* SWIFTPROX_DEFAULT_TOLERANCE: the query's own */
+    double error;       /* of each answer or depth */
+    double budget;      /* of all answers to a query together */
     swiftprox_input input;
     uint32_t workers;
     bool verify; /* an answer that is not the recorded one is a failure */

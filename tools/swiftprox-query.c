@@ -36,7 +36,9 @@ static const char HELP[] =
     "                        no witness points\n"
     "  --query depth         how deep the objects are in each other: lower and upper are those of the depth\n"
     "  --query cast          whether the objects meet between two poses of each, and when: see below\n"
-    "  --tolerance T         of casts: how wide the interval of a first contact may be (default: 1e-9 of the motion)\n"
+    "  --tolerance T         objects farther apart need not be told how far: upper is then inf, and what is left but\n"
+    "                        lower says nothing (default: infinite; not for depth). Of casts: how wide the interval\n"
+    "                        of a first contact may be (default: 1e-9 of the motion)\n"
     "  --margin M            of casts: free means farther apart than that (default: 0)\n"
     "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
     "                        as possible); queries contact, approximate and depth\n"
@@ -123,7 +125,7 @@ static bool fits_the_query(const struct command_line *line, const char *query)
     } MEANINGS[] = {{"--error", "contact approximate depth"},
                     {"--levels", "contact distance intersection approximate"},
                     {"--start", "contact distance intersection approximate"},
-                    {"--tolerance", "cast"},
+                    {"--tolerance", "contact distance intersection approximate cast"},
                     {"--margin", "cast"}};
     for (size_t i = 0; i < sizeof MEANINGS / sizeof *MEANINGS; i++) {
         if (command_line_has(line, MEANINGS[i].option) && !strstr(MEANINGS[i].queries, query)) {
@@ -149,7 +151,7 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
                                                       SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                       SWIFTPROX_HIERARCHY_OUTER_CUTS};
     int query = 0, input = 0, start = 0, levels = 0;
-    *arguments = (struct arguments){.count = SIZE_MAX, .tolerance = 1e-9};
+    *arguments = (struct arguments){.count = SIZE_MAX, .tolerance = INFINITY};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
@@ -174,6 +176,9 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     *status = BAD_INPUT;
     arguments->query = QUERY_FUNCTIONS[query];
     arguments->cast = strcmp(QUERIES[query], "cast") == 0;
+    if (arguments->cast && !command_line_has(&line, "--tolerance")) {
+        arguments->tolerance = 1e-9;
+    }
     arguments->input = INPUT_VALUES[input];
     arguments->start = START_VALUES[start];
     arguments->hierarchy = HIERARCHIES[levels];
@@ -508,6 +513,7 @@ static int run(const struct arguments *arguments)
     swiftprox_pair_config_init(&job.config);
     job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
+    job.config.distance_tolerance = arguments->tolerance;
     swiftprox_depth_config_init(&job.depth_config);
     job.depth_config.absolute_error = arguments->error;
     swiftprox_cast_config_init(&job.cast_config);

@@ -12,8 +12,9 @@
 #include "program.h"
 #include "progress.h"
 
-static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact] [--tolerance T]\n"
-                            "                        [--input strict|flat|hull] [--workers K] [--verify] [--bench PASSES]\n";
+static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
+                            "                        [--error E] [--budget B] [--input strict|flat|hull] [--workers K] [--verify]\n"
+                            "                        [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
@@ -29,9 +30,14 @@ static const char HELP[] =
     "  --query intersection  list the pairs that intersect\n"
     "  --query distance      list the pairs within the tolerance (the default of text), with their distances\n"
     "  --query contact       the same with depths and contact manifolds, too\n"
+    "  --query approximate   the same as distance, with intervals as wide as --error or --budget let them be\n"
     "                        (default of a recording: the queries that were made)\n"
     "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance; of a\n"
     "                        recording: as it was)\n"
+    "  --error E             how wide the interval of an approximate distance or of a depth may be (default: as narrow\n"
+    "                        as possible); queries approximate and contact\n"
+    "  --budget B            how wide the intervals of all pairs of a step together may be, whatever --error says;\n"
+    "                        query approximate (default: infinite)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull          take the convex hull of the vertices\n"
@@ -76,6 +82,11 @@ static bool fits(const struct command_line *line, const struct arguments *argume
     const char *problem = NULL;
     if (command_line_has(line, "--tolerance") && player->query == swiftprox_scene_query_intersection) {
         problem = "--tolerance has no meaning for --query intersection";
+    } else if (command_line_has(line, "--error") && player->query != swiftprox_scene_query_approximate_distance &&
+               player->query != swiftprox_scene_query_contacts) {
+        problem = "--error has a meaning for --query approximate and --query contact alone";
+    } else if (command_line_has(line, "--budget") && player->query != swiftprox_scene_query_approximate_distance) {
+        problem = "--budget has a meaning for --query approximate alone";
     } else if (player->verify && arguments->passes) {
         problem = "--verify has no meaning beside --bench, which times the queries alone";
     } else if (command_line_has(line, "--input") && player_finds_recording(player->path)) {
@@ -90,15 +101,18 @@ static bool fits(const struct command_line *line, const struct arguments *argume
 /* False if the program is to end with `*status`. */
 static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
-    static const char *const QUERIES[] = {"intersection", "distance", "contact", NULL};
+    static const char *const QUERIES[] = {"intersection", "distance", "contact", "approximate", NULL};
     static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_exact_distance,
-                                                   swiftprox_scene_query_contacts};
+                                                   swiftprox_scene_query_contacts,
+                                                   swiftprox_scene_query_approximate_distance};
     int query = -1, input = 0;
     size_t workers = 0;
-    *arguments = (struct arguments){.player.tolerance = SWIFTPROX_DEFAULT_TOLERANCE};
+    *arguments = (struct arguments){.player = {.tolerance = SWIFTPROX_DEFAULT_TOLERANCE, .budget = INFINITY}};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
         {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->player.tolerance},
+        {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->player.error},
+        {.name = "--budget", .kind = OPTION_AMOUNT, .value = &arguments->player.budget},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
         {.name = "--workers", .kind = OPTION_COUNT, .most = 1024, .value = &workers},
         {.name = "--verify", .kind = OPTION_FLAG, .value = &arguments->player.verify},

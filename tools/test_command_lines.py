@@ -17,11 +17,12 @@ BOX = os.path.join(MODELS, "box.off")
 # Operands that are enough, and options with a value that each takes.
 OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "demo": (BOX, BOX), "tower": (MODELS,),
             "scene": (MODELS,)}
-OPTIONS = {"swiftprox-query": ("--query", "--error", "--start", "--levels", "--input", "--count", "--bench"),
-           "swiftprox-replay": ("--query", "--tolerance", "--input", "--workers", "--bench"),
+OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
+           "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench"),
            "demo": ("--orbit", "--svg"), "tower": ("--svg",), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
-NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--orbit": ("-1", "0", "x", "1e6"),
+NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
+           "--orbit": ("-1", "0", "x", "1e6"),
            "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many")}
 
 
@@ -95,6 +96,12 @@ class CommandLines(unittest.TestCase):
         for option, value in (("--start", "cold"), ("--levels", "dk")):
             self.refused("swiftprox-query", option + " has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
                          option, value)
+        self.refused("swiftprox-query", "--tolerance has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
+                     "--tolerance", "1")
+        for query in ((), ("--query", "distance"), ("--query", "intersection")):
+            self.refused("swiftprox-replay", "--error has a meaning for --query approximate", recording, "--error", "1", *query)
+        for query in ((), ("--query", "distance"), ("--query", "contact")):
+            self.refused("swiftprox-replay", "--budget has a meaning for --query approximate", recording, "--budget", "1", *query)
         self.refused("swiftprox-replay", "--input has no meaning for a recording", recording, "--input", "strict")
         self.refused("swiftprox-replay", "--tolerance has no meaning for --query intersection", recording, "--tolerance", "1",
                      "--query", "intersection")

@@ -53,6 +53,15 @@ class Query(unittest.TestCase):
             self.assertGreaterEqual(int(row[14]), 0)
         return rows
 
+    def test_the_tolerance_of_pairs(self):
+        """The boxes are 0.4 and 3.4 apart; of those beyond the tolerance a lower bound is told, and that it is beyond."""
+        poses = "".join(HERE + " " + pose(x, 0, 0) + "\n" for x in (2, 5))
+        for query in ("contact", "distance", "intersection", "approximate"):
+            near, far = self.answers(poses, "--query", query, "--tolerance", "1")
+            self.assertTrue(float(near[11]) <= 0.4 and float(near[12]) <= 1, near)
+            self.assertTrue(1 < float(far[11]) <= 3.4 and far[12] == "inf" and far[2] == "nan", far)
+            self.assertEqual(self.answers(poses, "--query", query, "--tolerance", "inf"), self.answers(poses, "--query", query))
+
     def test_casts_tell_when_objects_first_touch(self):
         lines = [" ".join((HERE, pose(4, 0, 0), HERE, pose(x, y, 0))) for x, y in (("0", "0"), ("5", "0"), ("-4", "4"))]
         motions = self.file("motions", "\n".join(lines) + "\n")

@@ -22,6 +22,26 @@ def at(number, x, y=0, z=0):
     return f"{number} 1 0 0 {x} 0 1 0 {y} 0 0 1 {z}\n"
 
 
+def ball_of(rings, around):
+    """A ball in OFF with so many points on each ring, and two poles."""
+    points, faces = [(0.0, 0.0, 1.0)], []
+    for ring in range(1, rings + 1):
+        polar = math.pi * ring / (rings + 1)
+        for i in range(around):
+            turn = 2 * math.pi * i / around
+            points.append((math.sin(polar) * math.cos(turn), math.sin(polar) * math.sin(turn), math.cos(polar)))
+    points.append((0.0, 0.0, -1.0))
+    for i in range(around):
+        after = (i + 1) % around
+        faces.append((0, 1 + i, 1 + after))
+        faces.append((len(points) - 1, len(points) - 1 - around + after, len(points) - 1 - around + i))
+        for above in range(1, 1 + (rings - 1) * around, around):
+            below = above + around
+            faces += [(above + i, below + i, below + after), (above + i, below + after, above + after)]
+    return (f"OFF\n{len(points)} {len(faces)} 0\n" + "".join("%.17g %.17g %.17g\n" % point for point in points) +
+            "".join("3 %d %d %d\n" % face for face in faces))
+
+
 def forged(recording):
     """The recording with another number of pairs in its first answer, and checksums that are right (src/scene/recording/mod.rs)."""
     total, out, place = 0xCBF29CE484222325, bytearray(), 12
@@ -107,6 +127,30 @@ class Replay(unittest.TestCase):
         self.assertEqual([row[4] for row in rows[:2]], ["0", "0"])
         distances = self.play(scene, "--query", "distance", "--tolerance", "0.2")
         self.assertTrue(all(row[7] == "nan" for row in distances))
+
+    def test_approximate_distances(self):
+        """Levels answer of a body of many vertices: intervals within the error, and all of a step within the budget."""
+        ball = self.file(ball_of(200, 200), "ball.off")
+        scene = HEAD + f"shape ball {ball}\n" + "object ball\n" * 4
+        scene += "".join("step\n" + "".join(at(i, 2.5 * i + 0.01 * step) for i in range(4)) for step in range(3))
+        exact = self.play(scene)
+
+        def widths(*options):
+            rows = self.play(scene, "--query", "approximate", "--verify", *options)
+            self.assertEqual([row[:4] for row in rows], [row[:4] for row in exact])
+            for row, near in zip(rows, exact):
+                self.assertTrue(float(row[5]) <= float(near[6]) and float(near[5]) <= float(row[6]), (row, near))
+            return [float(row[6]) - float(row[5]) for row in rows]
+
+        self.assertLess(max(widths()), 1e-12)
+        wide = widths("--error", "0.1")
+        self.assertTrue(1e-6 < max(wide) <= 0.1, wide)
+        shared = widths("--budget", "0.3")
+        for step in range(3):
+            self.assertTrue(1e-6 < sum(shared[6 * step:6 * step + 6]) <= 0.3, shared)
+        self.assertLess(max(widths("--budget", "0", "--error", "0.1")), 1e-12)
+        # Of contacts the error is that of depths.
+        self.assertEqual(len(self.play(BOXES + "step\n" + at(1, 1.5) + at(2, 9), "--query", "contact", "--error", "0.1")), 1)
 
     def test_the_verdict_alone(self):
         rows = self.play(BOXES + "step\n" + at(1, 0.5) + at(2, 9), "--query", "intersection", "--verify")

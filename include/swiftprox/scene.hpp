@@ -290,6 +290,10 @@ class SceneView
         });
     }
     Result<void> try_reset_statistics() { return detail::status(swiftprox_scene_reset_statistics(scene_)); }
+    Result<void> try_set_kept_pair_limit(std::uint64_t limit)
+    {
+        return detail::status(swiftprox_scene_set_kept_pair_limit(scene_, limit));
+    }
     Result<void> try_shrink() { return detail::status(swiftprox_scene_shrink(scene_)); }
     Result<void> try_activate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
     {
@@ -390,6 +394,7 @@ class SceneView
     swiftprox_scene_events query_events(double distance = 0) { return take(try_query_events(distance)); }
     swiftprox_scene_statistics statistics() const { return take(try_statistics()); }
     void reset_statistics() { take(try_reset_statistics()); }
+    void set_kept_pair_limit(std::uint64_t limit) { take(try_set_kept_pair_limit(limit)); }
     void shrink() { take(try_shrink()); }
     void activate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_activate_pair(id1, id2)); }
     void deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_deactivate_pair(id1, id2)); }

@@ -98,6 +98,7 @@ impl Pose {
     }
 
     /// The largest entry of |RᵀR − I| as computed (its own rounding error is at most 4u for an accepted R), or NaN.
+    #[inline(always)]
     pub fn rotation_defect(&self) -> f64 {
         let [a, b, c] = &self.rows;
         let dot = |i: usize, j: usize| a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
@@ -115,6 +116,7 @@ impl Pose {
     }
 
     /// The same, and what [`Pose::rotation_defect`] says.
+    #[inline]
     pub fn checked_defect(&self, limit: f64) -> Result<f64> {
         let defect = self.rotation_defect();
         // Of what is not finite 0·x is a NaN.

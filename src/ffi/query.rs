@@ -4,9 +4,11 @@ use super::enumerators::{ContactDetailNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
 use super::guard::guard;
 use super::pointers::output;
-use super::scene::{SceneHandle, change, look};
-use super::structs::{Versioned, init_struct, read_struct};
+use super::scene::{SceneHandle, change, change_guarded, look};
+use super::structs::{Versioned, init_struct, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
+use std::mem::MaybeUninit;
+
 use crate::pair::ManifoldPoint;
 use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
@@ -29,9 +31,10 @@ pub struct CSceneQuery {
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to, in
-    /// equal shares, whatever the two errors say; a pair whose share is less than that is answered as narrowly as by exact queries.
-    /// Which pairs are listed is found out first, which takes a query of its own. Default: infinity.
+    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
+    /// whatever the two errors say, beside what exact answers take. Pairs that levels of detail may answer with a share of it take
+    /// one, all the same; others are answered as by exact queries, and so are all where the scene does not keep all pairs
+    /// (swiftprox_scene_set_kept_pair_limit). Default: infinity.
     pub error_budget: f64,
     /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
@@ -278,17 +281,13 @@ pub(super) unsafe fn ask(
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
-    let mut said = CSceneAnswer::EMPTY;
-    // Before the scene does anything.
     // SAFETY: by the caller.
-    let refused = guard(|| unsafe { output(answer, "answer", said) });
-    if refused != StatusCode::Ok {
-        return refused;
-    }
-    // SAFETY: by the caller.
-    let status = unsafe {
-        change(scene, |scene| {
-            let query = read_struct(query, CSceneQuery::DEFAULT)?;
+    guard(|| unsafe {
+        // Before the scene does anything.
+        output(answer, "answer", CSceneAnswer::EMPTY)?;
+        change_guarded(scene, |scene| {
+            let (mut older, defaults) = (MaybeUninit::uninit(), CSceneQuery::DEFAULT);
+            let query = if query.is_null() { &defaults } else { view_struct(query, &defaults, &mut older)? };
             let PairTuning { start, levels, refinement } = read_pair_tuning(query.tuning)?;
             let is_default = query.distance_tolerance == DEFAULT_TOLERANCE;
             let query = SceneQuery {
@@ -304,15 +303,11 @@ pub(super) unsafe fn ask(
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
                 margin: query.margin,
             };
-            said = CSceneAnswer::new(&run(scene, &query)?);
+            let said = CSceneAnswer::new(&run(scene, &query)?);
+            answer.write(said);
             Ok(())
         })
-    };
-    // SAFETY: by the caller.
-    match guard(|| unsafe { output(answer, "answer", said) }) {
-        StatusCode::Ok => status,
-        failure => failure,
-    }
+    })
 }
 
 #[cfg(test)]

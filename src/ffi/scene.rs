@@ -188,6 +188,23 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
     })
 }
 
+/// Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
+/// which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
+/// near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
+/// single pieces make. 0: none but near pairs.
+///
+/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_set_kept_pair_limit(scene: *mut SceneHandle, limit: u64) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        change(scene, |scene| {
+            scene.set_kept_pair_limit(limit);
+            Ok(())
+        })
+    }
+}
+
 /// Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
 /// more. What the others remember stays. The next query takes anew what it needs.
 ///
@@ -345,20 +362,32 @@ pub(super) unsafe fn look<T>(scene: *const SceneHandle, body: impl FnOnce(&Scene
 ///
 /// # Safety
 /// `scene` meets the header's pointer rules.
+#[inline(always)]
 pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scene) -> Checked<()>) -> StatusCode {
-    guard(|| {
-        // SAFETY: by the caller.
-        let mut changing = Changing::enter(unsafe { input(scene, "scene") }?)?;
-        let content = changing.content();
-        if content.poisoned {
-            return Err(poisoned());
-        }
-        content.poisoned = true;
-        let result = body(&mut content.scene);
-        content.poisoned = false;
-        content.tell_of_recording();
-        result
-    })
+    // SAFETY: by the caller.
+    guard(|| unsafe { change_guarded(scene, body) })
+}
+
+/// The same, inside the guard.
+///
+/// # Safety
+/// As of [`change`].
+#[inline(always)]
+pub(super) unsafe fn change_guarded(
+    scene: *mut SceneHandle,
+    body: impl FnOnce(&mut Scene) -> Checked<()>,
+) -> Checked<()> {
+    // SAFETY: by the caller.
+    let mut changing = Changing::enter(unsafe { input(scene, "scene") }?)?;
+    let content = changing.content();
+    if content.poisoned {
+        return Err(poisoned());
+    }
+    content.poisoned = true;
+    let result = body(&mut content.scene);
+    content.poisoned = false;
+    content.tell_of_recording();
+    result
 }
 
 impl Content {

@@ -20,6 +20,7 @@ pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
+pub(crate) use ladder::least_error;
 pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 pub use placed::Placed;

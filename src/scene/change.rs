@@ -71,6 +71,7 @@ pub(crate) enum Change<'a, N: Names> {
     Filter(Option<N::Filter>),
     FilterAgain,
     Pairs(Option<Cow<'a, [[N::Object; 2]]>>),
+    KeptPairLimit(u64),
     Shrink,
 }
 
@@ -119,6 +120,7 @@ impl<From: Names> Change<'_, From> {
                 let renamed = pairs.as_ref().map(|pairs| all(pairs, |pair| both(pair, names)));
                 Change::Pairs(renamed.transpose()?)
             }
+            Change::KeptPairLimit(limit) => Change::KeptPairLimit(*limit),
             Change::Shrink => Change::Shrink,
         })
     }

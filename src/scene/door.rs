@@ -67,7 +67,7 @@ impl Scene {
     ///
     /// # Errors
     /// As the method of the same name; nothing has changed then.
-    #[inline]
+    #[inline(always)]
     pub(super) fn change(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
         // An object that the change removes has its number until then.
         let note = self.recording.prepare(&change, &self.world.objects);
@@ -76,7 +76,7 @@ impl Scene {
         Ok(added)
     }
 
-    #[inline]
+    #[inline(always)]
     fn apply(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
         let Scene { world, near, search, workers, .. } = self;
         match change {
@@ -135,6 +135,7 @@ impl Scene {
                 world.set_given(pairs.as_deref())?;
                 near.begin_anew();
             }
+            Change::KeptPairLimit(limit) => world.kept_pair_limit = limit,
             Change::Shrink => self.shrink_all()?,
         }
         Ok(None)
@@ -163,6 +164,9 @@ impl Scene {
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
         let Scene { world, near, search, recording, workers } = self;
+        if !recording.is_on() {
+            return search.ask(&mut Ground { world, near, workers }, subject, kind, query);
+        }
         recording.question(subject, kind, query, &world.objects);
         world.watch_filter(recording.is_on());
         let answer = search.ask(&mut Ground { world, near, workers }, subject, kind, query);

@@ -3,7 +3,7 @@
 use super::query::PairQuery;
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::levels::hierarchy::{HierarchyKind, Level};
+use crate::levels::hierarchy::HierarchyKind;
 use crate::pair::config::{Accuracy, Levels, Query};
 use crate::pair::levels::{Descent, LevelBounds, LevelState, Leveled, TRIAL_STEPS};
 use crate::polyhedron::Polyhedron;
@@ -13,8 +13,13 @@ use crate::shape::Shape;
 #[inline(always)]
 fn may_answer(shapes: [&Shape; 2], error: f64) -> bool {
     let [levels1, levels2] = shapes.map(|shape| &shape.hierarchy().levels);
-    let finest = |levels: &[Level]| levels.first().map_or(0.0, |level| level.deviation);
-    !(levels1.is_empty() & levels2.is_empty()) && finest(levels1) + finest(levels2) < error
+    !(levels1.is_empty() & levels2.is_empty()) && finest_deviation(shapes[0]) + finest_deviation(shapes[1]) < error
+}
+
+/// How far the finest level of those that are made stands off; 0 where there is none.
+#[inline(always)]
+fn finest_deviation(shape: &Shape) -> f64 {
+    shape.hierarchy().levels.first().map_or(0.0, |level| level.deviation)
 }
 
 /// Bodies of fewer vertices, both together, are not worth levels in every motion. Measured at 20,004 (at an error of 1 % of the
@@ -44,14 +49,38 @@ fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
     if gap > 0.0 { gap } else { 0.0 }
 }
 
-/// Whether automatic levels, made or not, are asked for an answer to within an error. The finest level of an ellipsoid of n
-/// vertices stands off by some 20/n of its radius (docs/levels.md); bodies four times as smooth are given the benefit of the
-/// doubt.
+/// Whether automatic levels, made or not, are asked for an answer to within an error.
 #[inline(always)]
 fn are_worth_it(shapes: [&Shape; 2], error: f64) -> bool {
-    let standing_off = |shape: &Shape| 5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64;
-    let are_automatic = shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic);
-    !are_automatic || error >= standing_off(shapes[0]) + standing_off(shapes[1])
+    !are_automatic(shapes) || error >= standing_off(shapes[0]) + standing_off(shapes[1])
+}
+
+#[inline(always)]
+fn are_automatic(shapes: [&Shape; 2]) -> bool {
+    shapes.iter().any(|shape| shape.hierarchy().kind == HierarchyKind::Automatic)
+}
+
+/// How far automatic levels stand off, about. The finest level of an ellipsoid of n vertices does so by some 20/n of its radius
+/// (docs/levels.md); bodies four times as smooth are given the benefit of the doubt.
+#[inline(always)]
+fn standing_off(shape: &Shape) -> f64 {
+    5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64
+}
+
+/// From which error on levels may answer an approximate query about two bodies; infinite where they never do.
+pub(crate) fn least_error(shapes: [&Shape; 2], levels: Levels) -> f64 {
+    let vertices = shapes.iter().map(|shape| shape.polyhedron().vertices.len()).sum::<usize>();
+    let may_be_asked = match levels {
+        Levels::None => false,
+        Levels::All => true,
+        Levels::Automatic => vertices >= MANY_VERTICES,
+    };
+    let has_levels = |shape: &&Shape| shape.lacks_levels() || !shape.hierarchy().levels.is_empty();
+    if !may_be_asked || !shapes.iter().any(has_levels) {
+        return f64::INFINITY;
+    }
+    let of_levels = shapes.map(finest_deviation).iter().sum::<f64>().next_up();
+    if are_automatic(shapes) { of_levels.max(shapes.map(standing_off).iter().sum()) } else { of_levels }
 }
 
 impl<'a> PairQuery<'a> {
@@ -142,11 +171,10 @@ impl<'a> PairQuery<'a> {
     pub(super) fn may_ask_last_levels(&self) -> bool {
         let &PairQuery { query, bodies: [first, second], ref cache, config, .. } = self;
         let shapes = [first.shape, second.shape];
-        // Bounding spheres go first where there is a tolerance, and a limit below rounding asks for a closer look at the poses.
+        // A limit below rounding asks for a closer look at the poses.
         let is_common_case = (query == Query::Approximate)
             & cache.holds_level_state()
             & (cache.spent_before() == 0)
-            & (config.distance_tolerance >= f64::INFINITY)
             & (config.step_budget >= TRIAL_STEPS)
             & self.admits_rounding()
             & self.asks_cache();
@@ -181,10 +209,14 @@ impl<'a> PairQuery<'a> {
 
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
     pub(super) fn near_enough(&self, gap: f64) -> f64 {
-        if self.config.distance_tolerance < f64::INFINITY || self.query != Query::Approximate {
+        // Who asks for all levels begins at the coarsest where there is a tolerance, as Ehmann & Lin do.
+        let asks_coarsest = (self.config.levels == Levels::All) & (self.config.distance_tolerance < f64::INFINITY);
+        if asks_coarsest | (self.query != Query::Approximate) {
             return f64::INFINITY;
         }
-        self.most_error(gap)
+        // The whole interval is to be on the bodies' own side of the tolerance.
+        let tolerance = self.config.distance_tolerance;
+        if gap > tolerance { gap - tolerance } else { self.most_error(gap).min(tolerance - gap) }
     }
 
     /// The same before anything is known but the bounding spheres.

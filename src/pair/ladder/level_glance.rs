@@ -36,7 +36,7 @@ impl Kernel for LastLevels<'_, '_> {
             return false;
         }
         pair.fill_found(&found, DecidedBy::Tolerance, steps);
-        let most = pair.most_error(found.lower);
+        let most = pair.near_enough(found.lower);
         let stays = bodies.stays(found.at, found.lower, most);
         let next = if stays { found.at } else { coarsened(&bodies, &found.at, found.lower, most) };
         pair.cache.remember_level_state(next, 0);

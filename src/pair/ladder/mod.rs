@@ -16,6 +16,7 @@ use crate::pair::start::policy::StartFrom;
 use crate::pair::start::{Guess, start_pair};
 use crate::solve::decide::Pairs;
 use decision::Hint;
+pub(crate) use level_choice::least_error;
 use level_search::Searched;
 use query::Attempt;
 pub(super) use query::{Glances, PairQuery};

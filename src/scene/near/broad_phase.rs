@@ -166,7 +166,24 @@ impl BroadPhase {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
+    #[inline]
     pub fn update(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
+        if self.is_up_to_date(world, tolerance) { Ok(()) } else { self.catch_up(world, tolerance, workers) }
+    }
+
+    /// Whether boxes overlap as they did before.
+    fn is_up_to_date(&self, world: &World, tolerance: f64) -> bool {
+        let proxies = &world.proxies;
+        (self.news == News::None)
+            & (self.listing == Listing::Overlaps)
+            & self.tolerance.is(tolerance)
+            & proxies.escaped.is_empty()
+            & !proxies.misses_escaped
+            & world.given.is_none()
+    }
+
+    #[inline(never)]
+    fn catch_up(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
         self.tell_news(world);
         if world.given.is_some() {
             self.list_given(world)?;

@@ -22,6 +22,8 @@ pub(crate) struct NearPair {
     /// Where its memory is.
     pub cache: u32,
     pub testing: Testing,
+    /// Of an error budget, as it was dealt out last.
+    pub takes_share: bool,
 }
 
 /// What the last pass of one kind over the list found of a pair.
@@ -45,7 +47,7 @@ pub(crate) const UNLISTED: u32 = u32::MAX;
 
 impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
-        NearPair { proxies, apart_until: f64::NEG_INFINITY, cache: 0, testing: Testing::Active }
+        NearPair { proxies, apart_until: f64::NEG_INFINITY, cache: 0, testing: Testing::Active, takes_share: false }
     }
 }
 

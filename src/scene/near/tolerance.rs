@@ -21,6 +21,11 @@ impl ListTolerance {
         self.value
     }
 
+    /// Whether there is nothing to follow.
+    pub fn is(&self, tolerance: f64) -> bool {
+        (self.value == tolerance) & (self.smaller == 0)
+    }
+
     /// Makes room for a query's; whether all boxes are to be fitted anew.
     pub fn follow(&mut self, tolerance: f64) -> bool {
         if tolerance >= self.value {

@@ -49,6 +49,7 @@ pub(crate) enum Kind {
     Decisions = 21,
     Answer = 22,
     Failed = 23,
+    KeptPairLimit = 24,
 }
 
 enumerator!(Kind {
@@ -75,7 +76,8 @@ enumerator!(Kind {
     Question,
     Decisions,
     Answer,
-    Failed
+    Failed,
+    KeptPairLimit
 });
 
 /// A filter's word on a pair of objects.
@@ -197,6 +199,7 @@ fn kind_of(change: &Change<Numbers>) -> Kind {
         Change::Filter(..) => Kind::Filter,
         Change::FilterAgain => Kind::FilterAgain,
         Change::Pairs(..) => Kind::Pairs,
+        Change::KeptPairLimit(..) => Kind::KeptPairLimit,
         Change::Shrink => Kind::Shrink,
     }
 }
@@ -245,6 +248,7 @@ fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
         Change::AllActive(flag) => to.flag(*flag),
         Change::Filter(filter) => to.flag(filter.is_some()),
         Change::FilterAgain | Change::Shrink => Ok(()),
+        Change::KeptPairLimit(limit) => to.raw(limit.to_le_bytes()),
         Change::Pairs(pairs) => {
             to.flag(pairs.is_some())?;
             let pairs = pairs.as_deref().unwrap_or_default();
@@ -285,6 +289,7 @@ fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>
             let (is_some, pairs) = (from.flag()?, from.list(8, Reader::pair)?);
             Change::Pairs(is_some.then_some(pairs.into()))
         }
+        Kind::KeptPairLimit => Change::KeptPairLimit(u64::from_le_bytes(from.raw()?)),
         Kind::Shrink => Change::Shrink,
         _ => return from.damaged("it is no change"),
     })

@@ -31,7 +31,7 @@ use crate::pair::Query;
 use crate::scene::change::{Change, Numbers, Rename, Themselves};
 use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::activation::Word;
-use crate::scene::world::content::World;
+use crate::scene::world::content::{DEFAULT_KEPT_PAIRS, World};
 use crate::scene::world::object::{ObjectId, ObjectTable};
 use crate::scene::world::testing::{Decided, PairFilter};
 use crate::shape::Shape;
@@ -192,6 +192,9 @@ fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
         let change = change.renamed(&mut Numbering { recorder, objects })?;
         recorder.write(&Record::Change(change))
     };
+    if world.kept_pair_limit != DEFAULT_KEPT_PAIRS {
+        write(Change::KeptPairLimit(world.kept_pair_limit))?;
+    }
     for object in world.view().iter() {
         write(Change::Object { pieces: object.pieces().into(), options: object.options() })?;
         for (piece, pose) in (0..).zip(object.piece_poses()) {

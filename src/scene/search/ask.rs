@@ -3,10 +3,10 @@
 
 use std::sync::{Arc, Mutex};
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::{collected, filled};
-use crate::base::simd::environment::with_default;
+use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
 use crate::pair::Query;
 use crate::scene::near::broad_phase::BroadPhase;
@@ -19,6 +19,7 @@ use crate::scene::search::narrow_phase::{Own, Pass};
 use crate::scene::search::parts::{PartFindings, run_in_parts};
 use crate::scene::search::query::{SceneAnswer, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::request::Request;
+use crate::scene::search::shares::{Need, deal};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::content::World;
 use crate::scene::world::object::{ObjectId, ObjectTable};
@@ -45,6 +46,8 @@ pub(crate) struct Search {
     before: Before,
     /// What each part of a pass found.
     parts: Vec<PartFindings>,
+    /// Who needs how much of an error budget.
+    needs: Vec<Need>,
     events: Events,
     pub statistics: SceneStatistics,
 }
@@ -81,14 +84,16 @@ impl Search {
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
-        let counted = self.statistics;
+        if !is_default() {
+            return with_default(move || self.ask(ground, subject, kind, query));
+        }
         self.latest = number_of(subject, kind);
-        let found = with_default(|| match *subject {
-            Subject::AllPairs | Subject::Events => self.ask_all(ground, &Request::new(kind, query)?),
-            Subject::Object(id) => self.ask_object(ground, id, &Request::new(kind, query)?),
+        let found = Request::new(kind, query).and_then(|request| match *subject {
+            Subject::AllPairs | Subject::Events => self.ask_all(ground, &request),
+            Subject::Object(id) => self.ask_object(ground, id, &request),
             Subject::Placed(shape, pose) => {
                 pose.check(ground.world.rotation_limit)?;
-                self.ask_placed(ground, shape, &pose, &Request::new(kind, query)?)
+                self.ask_placed(ground, shape, &pose, &request)
             }
         });
         self.stopped = matches!(found, Ok(true));
@@ -96,12 +101,12 @@ impl Search {
         if let Err(error) = found {
             findings.clear();
             *last = None;
-            self.statistics = counted;
             return Err(error);
         }
         if self.stopped {
             findings.contacts.keep_last();
         }
+        self.statistics.add(&findings.statistics);
         self.statistics.queries += 1;
         if kind != Query::Intersection {
             self.statistics.error_spent += findings.error_spent();
@@ -145,32 +150,57 @@ impl Search {
     /// True if the query stopped at an intersecting pair, the last result.
     fn ask_all(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
         let Some(budget) = request.error_budget else { return self.pass_over_all(ground, request) };
-        // Who shares the budget is found out first: the listed pairs, whatever else is near.
-        let counted = self.statistics;
-        let verdicts = request.with_error(f64::INFINITY, request.config.relative_error);
-        if self.pass_over_all(ground, &verdicts)? {
-            return Ok(true);
+        if !ground.world.keeps_list(request.tolerance) {
+            // Which pairs may take shares is known of near pairs alone.
+            return self.pass_over_all(ground, &request.with_share(None));
         }
-        self.statistics = counted;
-        let share = budget / self.findings().results().len().max(1) as f64;
-        self.pass_over_all(ground, &request.with_error(share, 0.0))
+        self.bring_up_to_date(ground, request.tolerance)?;
+        let share = self.share(ground, request, budget)?;
+        self.pass_over_all(ground, &request.with_share(Some(share)))
+    }
+
+    /// What each pair may take that has a share of a budget: while nothing moves, what it was.
+    fn share(&mut self, ground: &mut Ground, request: &Request, budget: f64) -> Result<f64> {
+        let (proxies, list) = (&ground.world.proxies, &mut ground.near.list);
+        let last = &mut self.kept[self.latest].last;
+        if let Some((asked, pass)) = last
+            && asked.error_budget == request.error_budget
+            && asked.tolerance == request.tolerance
+            && let Some(share) = asked.share
+            && !proxies.motions.iter().any(|motion| motion.moved >= *pass)
+        {
+            return Ok(share);
+        }
+        let dealt = deal(request, budget, proxies, &mut list.pairs, &list.marks[self.latest], &mut self.needs)?;
+        if !dealt.is_for_all {
+            *last = None;
+        }
+        Ok(dealt.share)
     }
 
     /// One pass over the list, or where everything is near over all pairs.
     fn pass_over_all(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
         ground.world.passes += 1;
         if ground.world.keeps_list(request.tolerance) {
-            ground.near.update(ground.world, request.tolerance, ground.workers)?;
-            return self.pass_over_list(ground, request);
+            match self.bring_up_to_date(ground, request.tolerance) {
+                Ok(()) => return self.pass_over_list(ground, request),
+                // A list of all pairs saves time; without one they are gone through all the same.
+                Err(Error::Memory(_)) if request.tolerance == f64::INFINITY && ground.world.given.is_none() => {}
+                Err(error) => return Err(error),
+            }
         }
         let Kept { findings, last } = &mut self.kept[self.latest];
         *last = None;
         findings.begin(None);
         let (proxies, mut rules, _) = ground.world.parts();
         let pass = Pass::new(request, proxies, None);
-        let stopped = run_over_all(&pass, &mut rules, &mut ground.near.list, findings)?;
-        self.statistics.add(&findings.statistics);
-        Ok(stopped)
+        run_over_all(&pass, &mut rules, &mut ground.near.list, findings)
+    }
+
+    /// The list, and the marks of passes of this kind.
+    fn bring_up_to_date(&self, ground: &mut Ground, tolerance: f64) -> Result<()> {
+        ground.near.update(ground.world, tolerance, ground.workers)?;
+        ground.near.list.make_marks(self.latest)
     }
 
     /// The same over the list. Where the last pass of the kind asked the same, it gives the answers of what rests again.
@@ -182,7 +212,6 @@ impl Search {
             _ => false,
         };
         findings.begin(gives_again.then_some(&mut self.before));
-        list.make_marks(kind)?;
         if request.details.is_some() {
             list.contacts.make_room(list.caches.len())?;
         }
@@ -203,7 +232,6 @@ impl Search {
                 list.forget_depths(kind);
             }
         }
-        self.statistics.add(&findings.statistics);
         Ok(stopped)
     }
 
@@ -260,8 +288,6 @@ impl Search {
         let findings = &mut self.kept[self.latest].findings;
         findings.begin(None);
         let mut marks = filled(Mark::NONE, pairs.len())?;
-        let stopped = Pass::new(request, &world.proxies, None).run(pairs, &mut marks, &mut memory, findings)?;
-        self.statistics.add(&findings.statistics);
-        Ok(stopped)
+        Pass::new(request, &world.proxies, None).run(pairs, &mut marks, &mut memory, findings)
     }
 }

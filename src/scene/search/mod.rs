@@ -3,6 +3,7 @@
 //! | verb | what | where |
 //! |---|---|---|
 //! | ask | the question is checked, and the list of near pairs brought up to date | `request.rs`, `ask.rs` |
+//! | share | an error budget is dealt out to pairs that levels may answer | `shares.rs` |
 //! | look | what rows of numbers settle of each pair | `narrow_phase.rs` |
 //! | decide | the pair layer answers for what is left | `narrow_phase.rs`, `contacts.rs` |
 //! | list | answers are put in order, new ones between those given again | `findings.rs` |
@@ -14,6 +15,7 @@ pub(crate) mod request;
 mod findings;
 mod narrow_phase;
 mod parts;
+mod shares;
 mod gathering;
 mod all_pairs;
 pub(crate) mod events;

@@ -16,7 +16,7 @@ use crate::base::error::Result;
 use crate::base::locks::unlocked;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
-use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, Reference};
+use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, Reference};
 use crate::scene::near::contact_memory::ContactMemory;
 use crate::scene::near::near_pairs::{Mark, NearPair, UNLISTED};
 use crate::scene::search::contacts::Details;
@@ -37,6 +37,9 @@ const TEST_AHEAD: usize = 3;
 /// So many looks ahead it is asked for spheres and odometers.
 const LOOK_AHEAD: usize = 16;
 
+/// So few pairs are tested one by one, without asking for memory ahead: they are in the cache.
+const FEW: usize = LOOK_AHEAD;
+
 /// The answer of balls that overlap.
 const INSCRIBED: PairAnswer = PairAnswer {
     outcome: Outcome::Intersecting,
@@ -51,6 +54,8 @@ const INSCRIBED: PairAnswer = PairAnswer {
 pub(crate) struct Pass<'a> {
     request: &'a Request,
     solver: Solver,
+    /// What pairs with a share of an error budget are asked.
+    of_share: Option<PairConfig>,
     /// Of the request, which every look needs.
     is_verdict: bool,
     tolerance: f64,
@@ -148,7 +153,7 @@ impl Left {
 impl<'a> Pass<'a> {
     pub fn new(request: &'a Request, proxies: &'a Proxies, before: Option<&'a Before>) -> Pass<'a> {
         let (solver, is_verdict, tolerance) = (request.solver(), request.is_verdict(), request.tolerance);
-        Pass { request, solver, is_verdict, tolerance, proxies, before }
+        Pass { request, solver, of_share: request.of_share(), is_verdict, tolerance, proxies, before }
     }
 
     /// Looks at pairs in order and adds the listed ones to `findings`; true if it stopped at an intersecting one, the last listed.
@@ -162,6 +167,9 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
+        if pairs.len() <= FEW {
+            return self.run_few(pairs, marks, caches, findings);
+        }
         let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
         for (pairs, marks) in pairs.chunks_mut(BLOCK).zip(marks.chunks_mut(BLOCK)) {
             self.look_at_all(pairs, marks, &mut left, &mut findings.statistics);
@@ -171,15 +179,7 @@ impl<'a> Pass<'a> {
                 if let Some((ahead, look)) = left.get(next + TEST_AHEAD) {
                     self.prefetch(look, &pairs[ahead], caches);
                 }
-                let (pair, mark) = (&mut pairs[at], &mut marks[at]);
-                let stops = match look {
-                    Look::Settled => false,
-                    Look::Again => self.list_again(mark, findings)?,
-                    Look::Intersects | Look::Test => {
-                        self.decide(look, pair, mark, caches, findings)? && self.list(pair, mark, caches, findings)?
-                    }
-                };
-                if stops {
+                if self.follow(look, &mut pairs[at], &mut marks[at], caches, findings)? {
                     return Ok(true);
                 }
                 next += 1;
@@ -188,31 +188,71 @@ impl<'a> Pass<'a> {
         Ok(false)
     }
 
+    fn run_few<C: Caches + ?Sized>(
+        &self,
+        pairs: &mut [NearPair],
+        marks: &mut [Mark],
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
+        make_room(&mut findings.slots, findings.written + pairs.len())?;
+        for (pair, mark) in pairs.iter_mut().zip(marks) {
+            let look = self.look_again(pair, mark, &mut findings.statistics);
+            if self.follow(look, pair, mark, caches, findings)? {
+                return Ok(true);
+            }
+        }
+        Ok(false)
+    }
+
+    /// Does what a look says; true if the query is to stop at this pair.
+    #[inline(always)]
+    fn follow<C: Caches + ?Sized>(
+        &self,
+        look: Look,
+        pair: &mut NearPair,
+        mark: &mut Mark,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
+        match look {
+            Look::Settled => Ok(false),
+            Look::Again => self.list_again(mark, findings),
+            Look::Intersects | Look::Test => {
+                Ok(self.decide(look, pair, mark, caches, findings)? && self.list(pair, mark, caches, findings)?)
+            }
+        }
+    }
+
     /// Looks at a block.
     #[inline(always)]
     fn look_at_all(&self, pairs: &[NearPair], marks: &mut [Mark], left: &mut Left, statistics: &mut SceneStatistics) {
         left.count = 0;
-        let mut unlisted = 0;
         for k in 0..pairs.len().min(marks.len()) {
             if let (Some(pair), Some(mark)) = (pairs.get(k + LOOK_AHEAD), marks.get(k + LOOK_AHEAD))
                 && !self.is_unmoved(pair, mark)
             {
                 self.prefetch_rows(pair);
             }
-            let (pair, mark) = (&pairs[k], &mut marks[k]);
-            if self.is_unmoved(pair, mark) {
-                let is_listed = mark.result != UNLISTED;
-                left.add_if(is_listed, k, Look::Again);
-                unlisted += u64::from(!is_listed);
-                continue;
-            }
-            mark.is_answered = pair.testing == Testing::Active;
-            match if mark.is_answered { self.look(pair, statistics) } else { Look::Settled } {
-                Look::Settled => mark.result = UNLISTED,
-                look => left.add_if(true, k, look),
-            }
+            let look = self.look_again(&pairs[k], &mut marks[k], statistics);
+            left.add_if(!matches!(look, Look::Settled), k, look);
         }
-        statistics.count_unmoved(unlisted, 0);
+    }
+
+    /// Looks at a pair, at what the pass before said of it first.
+    #[inline(always)]
+    fn look_again(&self, pair: &NearPair, mark: &mut Mark, statistics: &mut SceneStatistics) -> Look {
+        if self.is_unmoved(pair, mark) {
+            let is_listed = mark.result != UNLISTED;
+            statistics.count_unmoved(u64::from(!is_listed), 0);
+            return if is_listed { Look::Again } else { Look::Settled };
+        }
+        mark.is_answered = pair.testing == Testing::Active;
+        let look = if mark.is_answered { self.look(pair, statistics) } else { Look::Settled };
+        if let Look::Settled = look {
+            mark.result = UNLISTED;
+        }
+        look
     }
 
     /// Whether neither piece has moved since the same query before.
@@ -338,7 +378,11 @@ impl<'a> Pass<'a> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
-        (self.solver)([placed(a), placed(b)], cache, &self.request.config, answer)?;
+        let config = match &self.of_share {
+            Some(of_share) if pair.takes_share => of_share,
+            _ => &self.request.config,
+        };
+        (self.solver)([placed(a), placed(b)], cache, config, answer)?;
         pair.apart_until = self.apart_until(answer, a, b);
         // What a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {

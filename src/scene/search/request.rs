@@ -2,11 +2,21 @@
 
 use crate::base::error::{Result, check_range};
 use crate::pair::{self, PairAnswer, PairCache, PairConfig, Placed, Query};
+#[cfg(doc)]
+use crate::scene::near::near_pairs::NearPair;
 use crate::scene::search::contacts::Details;
 use crate::scene::search::query::SceneQuery;
 
 /// One of the pair queries of [`pair`](crate::pair).
 pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+
+/// Refuses a query of which a member is out of range.
+#[cold]
+fn check(query: &SceneQuery) -> Result<()> {
+    check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
+    pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
+    check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)
+}
 
 /// What is asked of each pair, and of all together.
 #[derive(Debug, Clone, Copy)]
@@ -17,8 +27,10 @@ pub(crate) struct Request {
     pub tolerance: f64,
     /// Stop behind the first intersecting pair.
     pub early_exit: bool,
-    /// What all listed pairs share, if they do.
+    /// What `upper − lower` of all listed pairs together may come to, if that is asked for.
     pub error_budget: Option<f64>,
+    /// Of that budget what each pair may take that [has a share](NearPair::takes_share); the others are asked for exact distances.
+    pub share: Option<f64>,
     /// What is asked of listed pairs beside their answers.
     pub details: Option<Details>,
 }
@@ -26,10 +38,17 @@ pub(crate) struct Request {
 impl Request {
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument) for a member of the query that is out of range.
+    #[inline]
     pub fn new(kind: Query, query: &SceneQuery) -> Result<Request> {
-        check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
-        pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
-        check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)?;
+        // NaNs pass no comparison.
+        let is_sound = (query.distance_tolerance >= 0.0)
+            & (query.absolute_error >= 0.0)
+            & (query.relative_error >= 0.0)
+            & (query.step_budget > 0)
+            & (query.error_budget >= 0.0);
+        if !is_sound {
+            check(query)?;
+        }
         // A verdict is asked for whatever the distance, and lists what intersects.
         let (reach, tolerance) = match kind {
             Query::Intersection => (f64::INFINITY, 0.0),
@@ -54,18 +73,26 @@ impl Request {
             tolerance,
             early_exit: query.early_exit,
             error_budget: is_shared.then_some(query.error_budget),
+            share: None,
             details: if kind == Query::Contact { Details::new(query)? } else { None },
         })
     }
 
-    /// The same with another error of each pair.
-    pub fn with_error(&self, absolute_error: f64, relative_error: f64) -> Request {
-        Request { config: PairConfig { absolute_error, relative_error, ..self.config }, ..*self }
+    /// The same where pairs have shares of the error budget.
+    pub fn with_share(&self, share: Option<f64>) -> Request {
+        Request { config: PairConfig { absolute_error: 0.0, relative_error: 0.0, ..self.config }, share, ..*self }
+    }
+
+    /// What pairs are asked that have a share.
+    pub fn of_share(&self) -> Option<PairConfig> {
+        self.share.map(|share| PairConfig { absolute_error: share, ..self.config })
     }
 
     /// Whether pairs are asked the same.
     pub fn is_same(&self, other: &Request) -> bool {
-        (self.kind, self.config, self.details) == (other.kind, other.config, other.details)
+        (self.kind, self.share) == (other.kind, other.share)
+            && self.config == other.config
+            && self.details == other.details
     }
 
     /// Whether the verdict alone is asked for, and only intersecting pairs are listed.

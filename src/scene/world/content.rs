@@ -14,8 +14,8 @@ use crate::scene::world::rows::Label;
 use crate::scene::world::testing::{Decided, PairFilter, Rules};
 use crate::shape::Shape;
 
-/// Without a tolerance all pairs are near: so many are kept with what they remember, of more none is.
-const MOST_KEPT: usize = 1 << 14;
+/// Without a tolerance all pairs are near: so many are kept with what they remember, unless the program says otherwise.
+pub(crate) const DEFAULT_KEPT_PAIRS: u64 = 1 << 20;
 
 /// Objects, where they are, and what was said on the testing of their pairs.
 #[derive(Debug)]
@@ -30,6 +30,8 @@ pub(crate) struct World {
     pub rotation_limit: f64,
     /// How many times queries have looked at pairs: what moves is stamped with it.
     pub passes: u64,
+    /// Of more pairs of pieces than this not all are kept.
+    pub kept_pair_limit: u64,
 }
 
 impl World {
@@ -42,6 +44,7 @@ impl World {
             given: None,
             rotation_limit,
             passes: 0,
+            kept_pair_limit: DEFAULT_KEPT_PAIRS,
         }
     }
 
@@ -212,7 +215,8 @@ impl World {
 
     /// Whether all pairs may be kept.
     pub fn is_small(&self) -> bool {
-        let count = self.proxies.len() - self.proxies.gone;
-        count * count.saturating_sub(1) / 2 <= MOST_KEPT
+        // At most 2³¹: the product fits.
+        let count = (self.proxies.len() - self.proxies.gone) as u64;
+        count * count.saturating_sub(1) / 2 <= self.kept_pair_limit
     }
 }

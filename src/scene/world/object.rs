@@ -256,6 +256,7 @@ impl ObjectTable {
     }
 
     /// As [`ObjectTable::get`], for changing it.
+    #[inline(always)]
     pub(crate) fn get_mut(&mut self, id: ObjectId) -> Result<&mut Entry> {
         // The shared borrow ends before the exclusive one begins; a match on the exclusive one would hold it too long.
         self.get(id)?;

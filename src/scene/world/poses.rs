@@ -5,7 +5,7 @@ use std::ops::Range;
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::{filled, with_capacity};
-use crate::base::simd::environment::with_default;
+use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
 use crate::scene::world::content::World;
 use crate::scene::world::object::{Arrangement, Entry, ObjectId, ObjectTable, composed};
@@ -18,13 +18,13 @@ impl World {
     /// # Errors
     /// See [`Scene::set_pose`](crate::scene::Scene::set_pose).
     pub fn set_pose(&mut self, id: ObjectId, pose: &Pose) -> Result<()> {
+        if !is_default() {
+            return with_default(move || self.set_pose(id, pose));
+        }
         let object = self.objects.get_mut(id)?;
-        let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
-        with_default(|| {
-            let defect = check(object, pose, limit)?;
-            put(object, pose, defect, proxies, passes);
-            Ok(())
-        })
+        let defect = check(object, pose, self.rotation_limit)?;
+        put(object, pose, defect, &mut self.proxies, self.passes);
+        Ok(())
     }
 
     /// Moves objects, each to its pose.
@@ -192,6 +192,7 @@ impl<'a> Batch<'a> {
 }
 
 /// Refuses a pose that is not accepted, also of one of the pieces, for which the rotation of both is rounded; gives its defect.
+#[inline(always)]
 fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
     let defect = pose.checked_defect(limit)?;
     if let Some(arrangement) = &object.arrangement {
@@ -204,12 +205,14 @@ fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
 }
 
 /// Puts all pieces of an object elsewhere. `defect` is that of the pose.
+#[inline(always)]
 fn put(object: &mut Entry, pose: &Pose, defect: f64, proxies: &mut Proxies, passes: u64) {
     object.stand_at(pose);
     for_each_piece(object, pose, defect, |proxy, pose, defect| proxies.place(proxy, pose, defect, passes));
 }
 
 /// Calls `place` with each piece of an object that goes to a pose, with the piece's own, and with the defect of that.
+#[inline(always)]
 fn for_each_piece(object: &Entry, pose: &Pose, defect: f64, mut place: impl FnMut(usize, &Pose, f64)) {
     match &object.arrangement {
         None => object.proxies().for_each(|proxy| place(proxy, pose, defect)),

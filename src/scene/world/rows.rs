@@ -136,6 +136,7 @@ impl<'a> Rows<'a> {
 
     /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs. True if
     /// it has just left its box.
+    #[inline]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) -> bool {
         let at = proxy - self.first;
         let old = self.poses[at];
@@ -203,6 +204,7 @@ impl<'a> Rows<'a> {
 ///
 /// With d the largest entry of |RᵀR − I|, the singular values of R are in [√(1 − 3d), √(1 + 3d)], which is within 2d of 1 for
 /// d ≤ 1e-2; d as computed is off by at most 4u.
+#[inline]
 pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool) {
     let polyhedron = shape.polyhedron();
     let stretch = 2.0 * (defect + 8.0 * U);

@@ -1,0 +1,30 @@
+#!/usr/bin/env python3
+"""Counts the instructions of scenes beside those of the pairs in them:  ratios.py VALGRIND PROGRAM
+
+PROGRAM is ratios.c. What instructions.py says of counts holds here, too.
+"""
+import sys
+
+from instructions import count, has_avx2
+
+# Case, what it is held against, and how many times as much it may cost.
+RATIOS = (("scene", "pair", 3.2), ("all pairs, kept", "all pairs", 0.9))
+
+
+def main():
+    if len(sys.argv) != 3:
+        sys.exit(__doc__)
+    if not has_avx2():
+        print("no AVX2: nothing is counted")
+        return
+    found = count(*sys.argv[1:])
+    are_too_dear = False
+    for case, other, most in RATIOS:
+        ratio = found[case] / found[other]
+        are_too_dear |= ratio > most
+        print(f"{case}: {ratio:.2f} times {other}, at most {most}")
+    sys.exit(are_too_dear)
+
+
+if __name__ == "__main__":
+    main()
