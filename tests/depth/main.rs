@@ -9,6 +9,7 @@ mod bodies;
 mod caches;
 mod crafted;
 mod facets;
+mod flat_faces;
 mod forgery;
 mod magnitudes;
 mod streams;

@@ -11,7 +11,7 @@ use swiftprox::polyhedron::FacePart;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use testkit::random::{Random, rotation};
-use testkit::shapes::{cuboid, hull};
+use testkit::shapes::{cuboid, hull, lattice_box};
 
 /// What becomes of coordinates.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -63,14 +63,6 @@ fn prism(sides: usize, radius: f64, half_height: f64) -> Vec<Vector> {
         Vector::new(radius * angle.cos(), radius * angle.sin(), height)
     };
     (0..2 * sides).map(corner).collect()
-}
-
-/// Points on the surface of a box, so many along each edge.
-fn lattice_box(half: [f64; 3], along: usize) -> Vec<Vector> {
-    let coordinate = |k: usize, i: usize| half[k] * (2.0 * i as f64 / (along - 1) as f64 - 1.0);
-    let all = (0..along * along * along).map(|n| [n % along, n / along % along, n / along / along]);
-    let is_outside = |place: &[usize; 3]| place.iter().any(|i| *i == 0 || *i == along - 1);
-    all.filter(is_outside).map(|[i, j, k]| Vector::new(coordinate(0, i), coordinate(1, j), coordinate(2, k))).collect()
 }
 
 /// A body whose lower and upper faces are known.

@@ -56,7 +56,7 @@ pub fn support<L: Lanes>(
 #[inline(always)]
 fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
     if polyhedron.vertices.len() <= FEW {
-        return farthest_of_few(polyhedron, towards);
+        return farthest_of_all(polyhedron, &towards.to_vector());
     }
     let mut vertex = start.unwrap_or_else(|| tables::farthest(polyhedron, &towards.to_vector()).unwrap_or(0));
     // Each step leads up for sure, so that no vertex comes twice.
@@ -72,7 +72,18 @@ fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -
             },
         }
     }
-    (vertex, certificate::of_vertex(polyhedron, vertex, &towards.to_vector()))
+    farthest_of_many(polyhedron, &towards.to_vector(), vertex)
+}
+
+/// Of a vertex that ties with very many how much farther the body may reach, if the planes around it tell; or the farthest of all
+/// vertices. The planes of a merged face tell. Of a face that noise has left in triangles they do not: its vertices may tie while
+/// it is at the other side of the body.
+#[cold]
+#[inline(never)]
+fn farthest_of_many(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> (u32, f64) {
+    let excess = certificate::of_vertex(polyhedron, vertex, towards);
+    // False for a NaN.
+    if excess <= WIDE * polyhedron.radius { (vertex, excess) } else { farthest_of_all(polyhedron, towards) }
 }
 
 /// An upper bound of |RᵀU|.
@@ -84,21 +95,30 @@ const CLEARLY: f64 = STRICT * LENGTH;
 /// Vertices of a plateau that are looked at.
 const LARGEST_PLATEAU: usize = 32;
 
+/// An excess over the radius beyond which all vertices are looked at: half of how wide an interval is promised to be over the sum
+/// of both radii.
+const WIDE: f64 = 90.0 * U;
+
 /// What is around a vertex that ties with neighbours of it.
 enum Plateau {
     /// The highest of those that it ties with, and how much higher the body may be.
     Highest(u32, f64),
-    /// From one of them this one is clearly up.
+    /// A vertex that is higher for sure.
     Up(u32),
     /// Too many.
     Large,
 }
 
-/// All vertices that one ties with, and that these tie with, and so on. From a vertex that is not farthest an edge leads up, be it
-/// by less than rounding shows: so if no edge leads clearly up, a farthest vertex is among them.
+/// All vertices that one ties with, and that these tie with or see above them, and so on. From a vertex that is not farthest an
+/// edge leads up, be it by less than rounding shows: so if none of them is clearly higher, a farthest vertex is among them.
+///
+/// An edge that leads clearly up from one of them need not end higher than the first is: long edges on the way there may have led
+/// down, each by less than rounding shows. Heights decide, or the climb would go round in circles.
 #[cold]
 #[inline(never)]
 fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
+    let height = |v: u32| towards.dot(&polyhedron.vertices[v as usize].position);
+    let clearly_higher = height(vertex) + HEIGHTS * polyhedron.radius;
     let (mut tied, mut count, mut done) = ([vertex; LARGEST_PLATEAU], 1, 0);
     let (rough, clear) = (towards.map(|d| d as f32).into(), clear_slope(LENGTH));
     while done < count {
@@ -109,11 +129,10 @@ fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
                 if slope < -clear || tied[..count].contains(&head) {
                     continue;
                 }
-                let slope = polyhedron.direction_to(from, head).dot(towards);
-                if slope > CLEARLY {
+                if height(head) > clearly_higher {
                     return Plateau::Up(head);
                 }
-                if slope >= -CLEARLY {
+                if polyhedron.direction_to(from, head).dot(towards) >= -CLEARLY {
                     if count == LARGEST_PLATEAU {
                         return Plateau::Large;
                     }
@@ -123,7 +142,6 @@ fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
             }
         }
     }
-    let height = |v: u32| towards.dot(&polyhedron.vertices[v as usize].position);
     let highest = tied[..count].iter().fold(vertex, |a, b| if height(*b) > height(a) { *b } else { a });
     Plateau::Highest(highest, HEIGHTS * polyhedron.radius)
 }
@@ -131,10 +149,9 @@ fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
 /// By how much the order of two heights, over the radius, may be wrong: each errs by 3u·|g|, and g by 6.2u.
 const HEIGHTS: f64 = 20.0 * U;
 
-/// Of few vertices, all are looked at.
+/// The farthest of all vertices.
 #[inline(always)]
-fn farthest_of_few<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) {
-    let towards = towards.to_vector();
+fn farthest_of_all(polyhedron: &Polyhedron, towards: &Vector) -> (u32, f64) {
     let (mut best, mut highest, mut second) = (0, f64::NEG_INFINITY, f64::NEG_INFINITY);
     for (index, vertex) in (0..).zip(&polyhedron.vertices) {
         let height = towards.dot(&vertex.position);
