@@ -73,7 +73,7 @@ fn violation<T>(message: String) -> Result<T> {
 }
 
 /// For every point the first one with exactly the same coordinates; 0.0 equals -0.0.
-fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
+pub(crate) fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
     // Equal points are in one cell of the curve; there are few in one nearly always.
     let mut first: Vec<u32> = collected(0..points.len() as u32)?;
     for_each_cell(points, progress, |cell| {
@@ -87,7 +87,7 @@ fn first_of_equal(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
-fn check_indices(mesh: &PolygonMesh) -> Result<()> {
+pub(crate) fn check_indices(mesh: &PolygonMesh) -> Result<()> {
     let count = mesh.vertices.len();
     if count == 0 || mesh.face_count() == 0 {
         return violation(format!("the mesh has no {}", if count == 0 { "vertices" } else { "faces" }));
