@@ -10,6 +10,7 @@
 # make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
 #                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
+# make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
 # make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
@@ -44,7 +45,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -136,6 +137,12 @@ stability:
 	-@scripts/require.sh $(PEERS)
 	scripts/stability.sh $(STABILITY).csv $(STABILITY)-cost.csv
 	$(STABILITY_PAGE)
+
+legacy-bench:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	-@scripts/require.sh valgrind=valgrind
+	$(MAKE) build TESTING=ON
+	python3 benches/legacy.py $(BUILD)/c_tests
 
 crowds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)

@@ -107,6 +107,41 @@ static void tolerances(void)
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", swiftprox_mesh_estimate_tolerance(text, SIZE_MAX / 8, &tolerance));
 }
 
+static swiftprox_status decompose(size_t faces, double tolerance, swiftprox_decomposition *found)
+{
+    return swiftprox_mesh_decompose(CORNERS, 4, FACES, NULL, faces, tolerance, NULL, NULL, found);
+}
+
+/* What is no surface, no room and no tolerance; the counts are 0 then, and the arrays as they were. */
+static void decompositions(void)
+{
+    const uint32_t twice[6] = {0, 1, 2, 0, 1, 3}, same[6] = {0, 0, 1, 2, 2, 2}, beyond[3] = {0, 1, 4};
+    uint32_t corners[12], faces[4], pieces[4];
+    swiftprox_decomposition found = {corners, faces, pieces, 4, 7, 7};
+    swiftprox_decomposition none = {NULL, NULL, NULL, 4, 7, 7};
+    CHECK_OK(decompose(4, 0, &found));
+    CHECK(found.triangle_count == 4 && found.piece_count == 1 && pieces[3] == 0);
+    corners[0] = 77;
+    found.capacity = 3;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "has room for 3, 4 are needed", decompose(4, 0, &found));
+    CHECK(corners[0] == 77 && found.triangle_count == 0 && found.piece_count == 0);
+    found.capacity = 4;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", decompose(4, NAN, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", decompose(4, -1, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "no faces", decompose(0, 0, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "face_count", decompose(SIZE_MAX / 8, 0, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "decomposition", decompose(4, 0, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "decomposition->corners", decompose(4, 0, &none));
+    CHECK(none.triangle_count == 0);
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "same direction",
+                swiftprox_mesh_decompose(CORNERS, 4, twice, NULL, 2, 0, NULL, NULL, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "no face of the mesh has an area",
+                swiftprox_mesh_decompose(CORNERS, 4, same, NULL, 2, 0, NULL, NULL, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 0", swiftprox_mesh_decompose(CORNERS, 4, beyond, NULL, 1, 0, NULL, NULL, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
+                swiftprox_mesh_decompose(NULL, 4, FACES, NULL, 4, 0, NULL, NULL, &found));
+}
+
 static void shape_options(void)
 {
     swiftprox_shape_options options;
@@ -481,6 +516,7 @@ int main(int argc, char **argv)
     words();
     meshes();
     tolerances();
+    decompositions();
     shape_options();
     files(argc > 1 ? argv[1] : ".");
     pairs();

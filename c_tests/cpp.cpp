@@ -183,6 +183,14 @@ static void motions()
     CHECK(std::strlen(swiftprox::to_string(hit.value.outcome)) > 0);
     const std::array<double, 6> written{0.125, 0.25, 0.5, 1.123, 2.25, 3.5};
     CHECK(swiftprox::try_estimate_tolerance(written).value > 1e-9);
+    // A tetrahedron is one piece, an open one three.
+    const std::array<double, 12> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
+    const std::array<std::uint32_t, 12> faces{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
+    const auto whole = swiftprox::try_decompose(corners, faces);
+    CHECK(whole && whole.value.piece_count == 1 && whole.value.corners.size() == 12 && whole.value.faces[3] < 4);
+    const auto open = swiftprox::try_decompose(corners, swiftprox::Range<const std::uint32_t>(faces.data(), 9));
+    CHECK(open && open.value.piece_count == 3 && open.value.pieces[2] == 2);
+    CHECK(!swiftprox::try_decompose(corners, faces, {}, -1));
 }
 
 static void scenes(const std::string &folder)

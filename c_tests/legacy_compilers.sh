@@ -18,7 +18,7 @@ for test in "$source"/c_tests/legacy_*.cpp; do
     name=$(basename "$test" .cpp)
     more=''
     case $name in
-    legacy_cost | legacy_units_other) continue ;;
+    legacy_cost | legacy_bench | legacy_units_other) continue ;;
     legacy_units) more=$source/c_tests/legacy_units_other.cpp ;;
     legacy_macros) more=-DSWIFT_LEGACY_VERSION=2 ;;
     esac

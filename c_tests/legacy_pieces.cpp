@@ -277,11 +277,6 @@ void refused_decompositions(const Folder& folder)
     other = good;
     other.replace(header, 8, 8, static_cast<char>(-1));
     refuse(scene, messages, folder.write("nan.dcp", other), "vertex 0 is not finite");
-    /* What is not convex is told where to go. */
-    BoxMesh box(1, 1, 1);
-    box.vertices[0] = box.vertices[1] = box.vertices[2] = static_cast<SWIFT_Real>(0.5);
-    const std::string said = refuse(scene, messages, folder.write("dented.tri", box_file(box, false)), "outside of its plane");
-    CHECK(said.find("decomposition file (Convex_Decomposition)") != std::string::npos);
     CHECK(!scene.Add_General_Object(NULL, id) && messages.has("Error: Invalid filename given to read file"));
     CHECK(id == 44);
     CHECK(scene.Add_General_Object(folder.write("good.dcp", good).c_str(), id) && id == 0);

@@ -212,8 +212,17 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    * of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
    * last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
    */
-  SWIFTPROX_INPUT_NEARLY_CONVEX = 3
+  SWIFTPROX_INPUT_NEARLY_CONVEX = 3,
+  /**
+   * The faces are a part of the surface of their vertices' hull, as a piece of a decomposition is: that hull counts, of any
+   * dimension. Vertices of no face are left out. A face of the hull on which no face of the mesh lies is called
+   * SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
+   */
+  SWIFTPROX_INPUT_PATCH = 4
 } swiftprox_input;
+
+/** What a face of the hull of a patch is called on which none of the caller's lies: UINT32_MAX. */
+#define SWIFTPROX_NO_FACE 4294967295
 
 /**
  * Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
@@ -279,6 +288,65 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_estimate_tolerance(const double *vertices,
                                                    size_t vertex_count,
                                                    double *tolerance);
+
+/** Where swiftprox_mesh_decompose writes the triangles of a surface, piece by piece. The arrays are the caller's. */
+typedef struct swiftprox_decomposition {
+  /**
+   * Receives the vertices of each triangle, 3 * capacity numbers, counter-clockwise seen from outside: those of one piece
+   * follow each other. Of exactly equal vertices the first is named.
+   */
+  uint32_t *corners;
+  /** Receives for each triangle the face of the mesh that it is a part of, or is null. */
+  uint32_t *faces;
+  /** Receives for each triangle the number of its piece, ascending from 0, or is null. */
+  uint32_t *pieces;
+  /**
+   * Triangles for which the arrays have room. Two fewer than corners, summed over the faces of three or more, are always
+   * enough.
+   */
+  size_t capacity;
+  /** Receives the number of triangles; 0 on failure. */
+  size_t triangle_count;
+  /** Receives the number of pieces; 0 on failure. */
+  size_t piece_count;
+} swiftprox_decomposition;
+
+/**
+ * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex, and may be in
+ * several parts. Each triangle of the surface is in one piece; the piece's body is the convex hull of its triangles, which lie
+ * on that hull.
+ *
+ * Of a closed surface, outside of which its faces run counter-clockwise, the hulls are inside of the body: bodies that are apart
+ * are as far apart as their pieces. Pieces may overlap, and need not fill the body, so that a body wholly inside of another may
+ * not meet one of its pieces. Surfaces without inside, which are open, or cavities, become flat pieces. A mesh whose closed
+ * parts are all inside out is turned.
+ *
+ * For an object of a scene make a shape of each piece k with swiftprox_shape_create_from_mesh: the same vertices, the corners of
+ * the piece's triangles, no valences, input = SWIFTPROX_INPUT_PATCH; and hand all of them to swiftprox_scene_add_object.
+ *
+ * `vertices`, `indices` and `valences` are as swiftprox_shape_create_from_mesh takes them; a face need not be convex, and is to
+ * be flat about. `tolerance` is relative to the bounding box's diagonal: what is that close to a plane counts as on it, and a
+ * piece may be about that far beyond the surface; 0 is exact. swiftprox_mesh_estimate_tolerance says what the coordinates
+ * excuse. Without it, plane faces that were turned and rounded come to pieces. It takes time in proportion to the square of the
+ * triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
+ * `progress_user` is handed to it.
+ *
+ * SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two
+ * in the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
+ * the message says how many are needed. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit
+ * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: decomposition, its corners or an array of the mesh is null.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_mesh_decompose(const double *vertices,
+                                          size_t vertex_count,
+                                          const uint32_t *indices,
+                                          const uint32_t *valences,
+                                          size_t face_count,
+                                          double tolerance,
+                                          swiftprox_progress_callback progress,
+                                          void *progress_user,
+                                          struct swiftprox_decomposition *decomposition);
 
 /**
  * Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.

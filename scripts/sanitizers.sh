@@ -28,6 +28,7 @@ address)
     if command -v c++ >/dev/null; then
         programs="$programs legacy_robot legacy_rigid_bodies legacy_modeller legacy_actor legacy_flat legacy_files legacy_methods"
         programs="$programs legacy_queries legacy_pieces legacy_edges legacy_units legacy_macros legacy_text_meshes legacy_strict legacy_planner"
+        programs="$programs legacy_general legacy_boundary"
     fi
     # Unquoted: each word is a target.
     cmake --build build/asan --target $programs

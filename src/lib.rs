@@ -32,6 +32,8 @@ pub mod polyhedron;
 #[doc(hidden)]
 pub mod build;
 #[doc(hidden)]
+pub mod decomposition;
+#[doc(hidden)]
 pub mod tables;
 #[doc(hidden)]
 pub mod solve;

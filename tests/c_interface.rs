@@ -221,7 +221,7 @@ fn unknown_enumerators_are_refused() {
         let wrong = PairAnswer { lower: 2.5, distance: 2.5, upper: 2.5, ..answer };
         assert_eq!(verify(&wrong), StatusCode::ErrorUnverified);
 
-        let options = CShapeOptions { input: 4, ..shape_options() };
+        let options = CShapeOptions { input: 5, ..shape_options() };
         let mut made = shape;
         let status = swiftprox_shape_create_from_points(CORNERS.as_ptr(), 4, &options, &mut made);
         assert_eq!(status, StatusCode::ErrorInvalidArgument);

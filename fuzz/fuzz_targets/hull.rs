@@ -35,9 +35,9 @@ fn check(points: &[Vector]) {
     };
     assert!(finite, "a hull of what is not finite");
     check_hull(points, &hull).unwrap_or_else(|error| panic!("{error} of {points:?}"));
-    let made = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull]
+    let made = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull, InputPolicy::NearlyConvex]
         .map(|policy| Shape::from_points(points, &options(policy)));
-    for (shape, least) in made.iter().zip([3, 2, 0]) {
+    for (shape, least) in made.iter().zip([3, 2, 0, 2]) {
         match shape {
             Ok(shape) => assert!(hull.dimension >= least && shape.polyhedron().dimension == hull.dimension),
             Err(error) => assert!(hull.dimension < least && matches!(error, Error::Mesh(_)), "{error:?}: {points:?}"),

@@ -5,9 +5,12 @@
 use std::fmt::Write;
 
 use libfuzzer_sys::fuzz_target;
+use swiftprox::base::predicates::ExactPoints;
+use swiftprox::decomposition::decompose;
 use swiftprox::error::Error;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{Format, parse_mesh};
+use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 const FORMATS: [Option<Format>; 5] =
@@ -22,6 +25,7 @@ fuzz_target!(|input: (u8, &[u8])| {
             check_mesh(&mesh);
             check_writing(&mesh);
             check_shape(&mesh);
+            check_pieces(&mesh);
         }
         Err(error @ (Error::File(_) | Error::Limit(_))) => assert!(error.message().contains("the file"), "{error}"),
         Err(error) => panic!("another kind of error: {error:?}"),
@@ -59,7 +63,8 @@ fn check_writing(mesh: &PolygonMesh) {
 /// What a policy admits the laxer ones admit, and they make the same of it.
 fn check_shape(mesh: &PolygonMesh) {
     let make = |input| Shape::from_mesh(mesh, &ShapeOptions { input, ..ShapeOptions::default() });
-    let [strict, flat, hull] = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull].map(make);
+    let policies = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull, InputPolicy::NearlyConvex, InputPolicy::Patch];
+    let [strict, flat, hull, nearly_convex, patch] = policies.map(make);
     let hull = hull.expect("every mesh has a hull");
     for shape in [&strict, &flat] {
         match shape {
@@ -68,4 +73,28 @@ fn check_shape(mesh: &PolygonMesh) {
         }
     }
     assert!(strict.is_err() || flat.is_ok());
+    match (&flat, &nearly_convex) {
+        (Ok(flat), Ok(nearly_convex)) => assert!(flat == nearly_convex),
+        // Labels are those of faces that the hull alone is not given.
+        (Err(_), Ok(nearly_convex)) => assert_eq!(nearly_convex.polyhedron().triangles.len(), hull.polyhedron().triangles.len()),
+        (Ok(_), Err(error)) => panic!("{error}"),
+        (Err(_), Err(error)) => assert!(matches!(error, Error::Mesh(_)), "{error:?}"),
+    }
+    if let Err(error) = patch {
+        assert!(matches!(error, Error::Mesh(_)), "{error:?}");
+    }
+}
+
+/// Any mesh comes to convex pieces, all its triangles once, or is refused.
+fn check_pieces(mesh: &PolygonMesh) {
+    match decompose(mesh, 0.0, &mut Progress::new(&mut |_| true)) {
+        Err(error) => assert!(matches!(error, Error::Mesh(_)), "{error:?}"),
+        Ok(pieces) => {
+            let exact = ExactPoints::new(&mesh.vertices).expect("memory");
+            for piece in (0..pieces.piece_count()).map(|k| pieces.piece(k)) {
+                let is_above = |corners: &[u32; 3]| piece.iter().flatten().any(|v| exact.orientation(*corners, *v) > 0.0);
+                assert!(!piece.is_empty() && !piece.iter().any(is_above), "{piece:?}");
+            }
+        }
+    }
 }

@@ -57,7 +57,13 @@ public:
                            SWIFT_Real box_enl_abs = DEFAULT_BOX_ENLARGE_ABS, const int* face_valences = DEFAULT_FACE_VALENCES,
                            SWIFT_Real cube_aspect_ratio = DEFAULT_CUBE_ASPECT_RATIO);
 
-    /* A convex mesh file, or a convex decomposition. Another mesh is refused. `split` changes nothing. */
+    /*
+     * A mesh file, or a decomposition or hierarchy that SWIFT++'s decomposer wrote. A mesh that is not convex, up to the precision
+     * of its coordinates, is decomposed: its surface into patches that lie on their hulls, which are the pieces and are inside of
+     * the body. It is to be closed, with its faces counter-clockwise seen from outside, or all clockwise. With SWIFT_ALLOW_BOUNDARY
+     * an open surface is taken, too, in flat pieces. After Set_Take_Hull(true) the convex hull is taken instead. `split` changes
+     * nothing.
+     */
     bool Add_General_Object(const char* filename, int& id, bool fixed = DEFAULT_FIXED,
                             const SWIFT_Orientation& orient = DEFAULT_ORIENTATION,
                             const SWIFT_Translation& trans = DEFAULT_TRANSLATION, SWIFT_Real scale = DEFAULT_SCALE,

@@ -7,6 +7,7 @@
  *   SWIFT_HIERARCHY         the levels that min_tri_count and qslim_tri_ratio ask for are built where either is not its default.
  *                           Levels that the caller gives need no switch.
  *   SWIFT_ONLY_TRIS and SWIFT_REPORT_EDGE_IDS, both: an edge is reported by one id, 3 * face + k, else by its two vertices.
+ *   SWIFT_ALLOW_BOUNDARY    Add_General_Object takes surfaces that are not closed.
  *   SWIFT_DEBUG             warnings about calls without effect are printed, too.
  *   SWIFT_LEGACY_VERSION    1: only the forms of SWIFT 1.x of the two queries that have two, 2: only those of SWIFT++. Not defined:
  *                           both, side by side. Needed where a fifth argument NULL or nullptr of Query_Contact_Determination
@@ -19,7 +20,7 @@
  *   SWIFT_LEGACY_ALL_PAIRS  queries with the tolerance SWIFT_INFINITY list all pairs also where the broad phase is on, else those
  *                           whose boxes overlap.
  *
- * All other switches of old (look-up tables, QSlim, boundaries, caching, front tracking, priority directions) change nothing.
+ * All other switches of old (look-up tables, QSlim, caching, front tracking, priority directions) change nothing.
  */
 #ifndef SWIFT_CONFIG_H
 #define SWIFT_CONFIG_H

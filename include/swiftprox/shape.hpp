@@ -207,10 +207,50 @@ inline Result<double> try_estimate_tolerance(Range<const double> vertices) noexc
         return swiftprox_mesh_estimate_tolerance(vertices.data(), vertices.size() / 3, tolerance);
     });
 }
+/** The triangles of a surface, piece by piece. */
+struct Decomposition {
+    /** 3 vertices of each triangle. */
+    std::vector<std::uint32_t> corners;
+    /** The face of the mesh that each triangle is a part of. */
+    std::vector<std::uint32_t> faces;
+    /** The piece of each triangle, ascending from 0. */
+    std::vector<std::uint32_t> pieces;
+    std::size_t piece_count = 0;
+};
+/** A mesh that need not be convex as convex pieces; see swiftprox_mesh_decompose. */
+inline Result<Decomposition> try_decompose(Range<const double> vertices, Range<const std::uint32_t> indices,
+                                           Range<const std::uint32_t> valences = {}, double tolerance = 0,
+                                           const Progress &progress = {})
+{
+    if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
+        return detail::refused<Decomposition>(fault);
+    }
+    const std::size_t face_count = valences.empty() ? indices.size() / 3 : valences.size();
+    Result<Decomposition> result;
+    Decomposition &found = result.value;
+    // No face has more triangles than corners.
+    found.corners.resize(3 * indices.size() + 1);
+    found.faces.resize(indices.size() + 1);
+    found.pieces.resize(indices.size() + 1);
+    swiftprox_decomposition c{found.corners.data(), found.faces.data(), found.pieces.data(), indices.size(), 0, 0};
+    result.status = swiftprox_mesh_decompose(vertices.data(), vertices.size() / 3, indices.data(),
+                                             valences.empty() ? nullptr : valences.data(), face_count, tolerance,
+                                             detail::callback_of(progress), detail::user_of(progress), &c);
+    found.corners.resize(3 * c.triangle_count);
+    found.faces.resize(c.triangle_count);
+    found.pieces.resize(c.triangle_count);
+    found.piece_count = c.piece_count;
+    return result;
+}
 #if SWIFTPROX_HAS_EXCEPTIONS
 inline double estimate_tolerance(Range<const double> vertices)
 {
     return take(try_estimate_tolerance(vertices));
+}
+inline Decomposition decompose(Range<const double> vertices, Range<const std::uint32_t> indices,
+                               Range<const std::uint32_t> valences = {}, double tolerance = 0, const Progress &progress = {})
+{
+    return take(try_decompose(vertices, indices, valences, tolerance, progress));
 }
 #endif
 

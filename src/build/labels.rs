@@ -10,7 +10,7 @@ use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{collected, copied, extend, filled, lacking, push, reserve, with_capacity};
 use crate::base::progress::Progress;
 use crate::build::merge::merge_bound;
-use crate::mesh::PolygonMesh;
+use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::{Face, Polyhedron};
 
 /// Corners of a polygon whose faces are candidates for it.
@@ -30,8 +30,9 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) -> Result<()> {
     Ok(())
 }
 
-/// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour. `points` are the mesh's
-/// vertices, centred like the polyhedron; `numbers` gives the labels of the mesh's faces, if they are not their indices.
+/// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour, or the one that is for
+/// bare faces. `points` are the mesh's vertices, centred like the polyhedron; `numbers` gives the labels of the mesh's faces, if
+/// they are not their indices.
 ///
 /// Polygons lie on the hull up to the convexity tolerance, so some of their vertices may not be hull vertices, or by an ulp only
 /// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
@@ -44,16 +45,19 @@ pub fn label_by_polygons(
     polyhedron: &mut Polyhedron,
     points: &[Vector],
     mesh: &PolygonMesh,
-    numbers: Option<&[u32]>,
+    numbers: Option<&Numbers>,
     progress: &mut Progress,
 ) -> Result<()> {
     let face_count = polyhedron.faces.len();
     let found = faces_of_polygons(polyhedron, points, mesh, &mut progress.part(0.0, 0.9))?;
     // From here on in the order of labels.
-    let polygons = numbers.map(places_of).transpose()?;
+    let polygons = numbers.map(|numbers| places_of(&numbers.faces)).transpose()?;
     let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
     let mut holders: Vec<u32> = collected((0..found.len() as u32).map(|label| found[polygon(label)]))?;
-    let borrowed = borrowed_labels(polyhedron, &holders, &mut progress.part(0.9, 1.0))?;
+    let borrowed = match numbers.and_then(|numbers| numbers.bare_face) {
+        Some(label) => bare_faces(face_count, &holders, label)?,
+        None => borrowed_labels(polyhedron, &holders, &mut progress.part(0.9, 1.0))?,
+    };
     extend(&mut holders, borrowed.iter().map(|(face, _)| *face))?;
     let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
 
@@ -261,6 +265,13 @@ fn polygon_normal(points: &[Vector], corners: &[u32]) -> Vector {
     let origin = points[corners[0] as usize];
     let offset = |c: u32| points[c as usize] - origin;
     corners[1..].windows(2).map(|pair| offset(pair[0]).cross(&offset(pair[1]))).sum()
+}
+
+/// The faces that hold no polygon, with one label for all of them.
+fn bare_faces(face_count: usize, holders: &[u32], label: u32) -> Result<Vec<(u32, u32)>> {
+    let mut is_bare = filled(true, face_count)?;
+    holders.iter().for_each(|face| is_bare[*face as usize] = false);
+    collected((0..).zip(is_bare).filter(|(_, is_bare)| *is_bare).map(|(face, _)| (face, label)))
 }
 
 /// Labels for the faces that hold no polygon, with those faces. They spread from faces that have one, across the flattest edge

@@ -18,7 +18,7 @@ fn unknown(number: i32, member: &str, kind: &str) -> Failure {
     Failure::new(StatusCode::ErrorInvalidArgument, format!("{member} is {number}, which is no {kind}"))
 }
 
-enumerator!(InputPolicy { Strict, Flat, Hull, NearlyConvex });
+enumerator!(InputPolicy { Strict, Flat, Hull, NearlyConvex, Patch });
 enumerator!(Start { Automatic, Cache, Table, Cold });
 enumerator!(Levels { Automatic, None, All });
 enumerator!(Refinement { Adaptive, Single, SingleSingle, DoubleDouble });

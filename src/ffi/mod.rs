@@ -21,6 +21,7 @@ pub mod tuning;
 pub mod shape_options;
 pub mod shape;
 pub mod level;
+pub mod decomposition;
 pub mod pair;
 pub mod depth;
 pub mod motion;

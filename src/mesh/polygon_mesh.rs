@@ -4,7 +4,7 @@
 use crate::base::error::{Error, Result};
 use crate::base::locality::places_of;
 use crate::base::math::Vector;
-use crate::base::memory::{collected, extend, filled, push, reserve, with_capacity};
+use crate::base::memory::{collected, copied, extend, filled, push, reserve, with_capacity};
 use crate::base::progress::Progress;
 
 /// A polygon mesh in the caller's own numbering.
@@ -27,6 +27,8 @@ pub struct Numbers {
     pub vertices: Vec<u32>,
     /// The caller's index of each face.
     pub faces: Vec<u32>,
+    /// What a face of the hull is called on which no face of the mesh lies; `None`: as a neighbour.
+    pub bare_face: Option<u32>,
 }
 
 impl Default for PolygonMesh {
@@ -140,7 +142,26 @@ impl PolygonMesh {
             mesh.indices.extend(self.face(f as usize).iter().map(|v| places[*v as usize]));
             mesh.starts.push(mesh.indices.len() as u32);
         }
-        Ok(Some((mesh, Numbers { vertices: order, faces })))
+        Ok(Some((mesh, Numbers { vertices: order, faces, bare_face: None })))
+    }
+
+    /// The same with those vertices alone that faces have, and the index of each here. `None` if the faces are no faces over the
+    /// vertices.
+    pub(crate) fn without_unused_vertices(&self) -> Result<Option<(PolygonMesh, Vec<u32>)>> {
+        if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= self.vertices.len()) {
+            return Ok(None);
+        }
+        let mut used = copied(&self.indices)?;
+        used.sort_unstable();
+        used.dedup();
+        let place = |v: &u32| used.binary_search(v).unwrap_or_default() as u32;
+        let mesh = PolygonMesh {
+            vertices: collected(used.iter().map(|v| self.vertices[*v as usize]))?,
+            indices: collected(self.indices.iter().map(place))?,
+            starts: copied(&self.starts)?,
+            single_precision: self.single_precision,
+        };
+        Ok(Some((mesh, used)))
     }
 
     /// Turns every face round; the starts divide the indices.

@@ -1,6 +1,7 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
 pub(crate) mod extent;
+mod patch;
 pub mod file;
 
 use std::path::Path;
@@ -24,6 +25,8 @@ use crate::polyhedron::Polyhedron;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
+pub use patch::NO_FACE;
+use patch::hull_of_patch;
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -79,6 +82,10 @@ pub enum InputPolicy {
     /// of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
     /// last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
     NearlyConvex = 3,
+    /// The faces are a part of the surface of their vertices' hull, as a piece of a decomposition is: that hull counts, of any
+    /// dimension. Vertices of no face are left out. A face of the hull on which no face of the mesh lies is called
+    /// SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
+    Patch = 4,
 }
 
 /// How a shape is made.
@@ -187,10 +194,13 @@ impl Shape {
         if mesh.vertices.is_empty() {
             return Err(Error::Mesh("the mesh has no vertices".into()));
         }
+        if options.input == InputPolicy::Patch {
+            return Shape::of_patch(mesh, options, progress);
+        }
         let given = mesh;
         let least_tolerance = match options.input {
             InputPolicy::NearlyConvex => precision_tolerance(&mesh.vertices),
-            InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull => CONVEXITY_TOLERANCE,
+            InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull | InputPolicy::Patch => CONVEXITY_TOLERANCE,
         };
         let mut mesh = PolygonMesh {
             vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
@@ -220,7 +230,7 @@ impl Shape {
                 InputPolicy::Strict | InputPolicy::Flat | InputPolicy::NearlyConvex => {
                     check_as_given(&mesh, &mut of_body).and(Err(Error::Bug("degenerate faces passed the check".into())))
                 }
-                InputPolicy::Hull => {
+                InputPolicy::Hull | InputPolicy::Patch => {
                     let noise = options.noise(&given.vertices, None)?;
                     Shape::of_points(&mesh.vertices, noise, options, &mut progress.part(0.05, 1.0))
                 }
@@ -245,11 +255,28 @@ impl Shape {
                 }
                 Some(&ordered)
             }
-            InputPolicy::Hull => is_as_promised.then_some(&ordered),
+            InputPolicy::Hull | InputPolicy::Patch => is_as_promised.then_some(&ordered),
         };
         let building = &mut of_body.part(0.45, 1.0);
         let polyhedron = build_in_steps(&ordered.vertices, hull, polygons, Some(&numbers), building)?;
         let noise = options.noise(&given.vertices, polygons.map(|_| given))?;
+        Shape::admitted(polyhedron, noise, options, progress)
+    }
+
+    /// The hull of an open surface that lies on it.
+    fn of_patch(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
+        let Some((mut patch, used)) = mesh.without_unused_vertices()? else {
+            return Err(Error::Mesh("the faces of a patch are none over its vertices".into()));
+        };
+        if patch.face_count() == 0 {
+            return Err(Error::Mesh("the mesh has no faces".into()));
+        }
+        if let Some(f) = (0..patch.face_count()).find(|f| patch.face(*f).len() < 3) {
+            return Err(Error::Mesh(format!("face {f} has fewer than three corners")));
+        }
+        let noise = options.noise(&patch.vertices, None)?;
+        patch.vertices = transformed(&patch.vertices, options, &mut progress.part(0.0, 0.0))?;
+        let polyhedron = hull_of_patch(&patch, &used, &mut progress.part(0.0, options.share_of_body()))?;
         Shape::admitted(polyhedron, noise, options, progress)
     }
 
@@ -279,7 +306,7 @@ impl Shape {
         let mut of_body = progress.part(0.0, options.share_of_body());
         let order = along_curve(points, &mut of_body.part(0.0, 0.04))?;
         let ordered = in_order(points, &order, &mut of_body.part(0.04, 0.05))?;
-        let numbers = Numbers { vertices: order, faces: Vec::new() };
+        let numbers = Numbers { vertices: order, faces: Vec::new(), bare_face: None };
         let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.05, 0.3))?;
         let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
         Shape::admitted(polyhedron, noise, options, progress)
@@ -489,7 +516,7 @@ impl Shape {
         let least = match options.input {
             InputPolicy::Strict => 3,
             InputPolicy::Flat | InputPolicy::NearlyConvex => 2,
-            InputPolicy::Hull => 0,
+            InputPolicy::Hull | InputPolicy::Patch => 0,
         };
         if polyhedron.dimension < least {
             let what = ["all vertices are one point", "all vertices lie on a line", "all vertices lie in a plane"];

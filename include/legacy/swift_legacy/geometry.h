@@ -11,6 +11,7 @@ struct Geometry {
     const swiftprox_shape* shape;
     std::vector<Mesh> levels; /* the body and, where the caller gave them, its levels of detail; after the input transform */
     bool knows_faces;         /* faces in answers are the caller's, else those of a hull */
+    bool is_patch;            /* a piece of a decomposition: some faces of its hull are none of the caller's */
 #if defined(SWIFT_ONLY_TRIS) && defined(SWIFT_REPORT_EDGE_IDS)
     typedef std::map<std::pair<uint32_t, uint32_t>, int> EdgeIds;
     EdgeIds edge_ids; /* of the edges from corner to corner of the caller's triangles, of equal vertices the first */
@@ -28,7 +29,7 @@ struct Geometry {
 
     int face_label(uint32_t face) const
     {
-        if (!knows_faces) {
+        if (!knows_faces || face == SWIFTPROX_NO_FACE) {
             return -1;
         }
         return body().face_labels.empty() ? static_cast<int>(face) : body().face_labels[face];
@@ -91,7 +92,7 @@ struct Geometry {
     {
         const Mesh& mesh = body();
         std::size_t begin = 0, end = mesh.indices.size();
-        if (knows_faces) {
+        if (knows_faces && face != SWIFTPROX_NO_FACE) {
             begin = 3 * static_cast<std::size_t>(face);
             if (!mesh.valences.empty()) {
                 begin = 0;
@@ -151,7 +152,8 @@ public:
     /* Takes the meshes, which are empty then. False after a failure, which swiftprox_library_last_error_message explains. */
     bool make(std::vector<Mesh>& levels, Convexity convexity, const LevelOptions& options)
     {
-        const swiftprox_shape* shape = make_shape(levels, options);
+        const bool is_patch = convexity == CONVEXITY_OF_PATCH;
+        const swiftprox_shape* shape = is_patch ? make_hull_of_patch(levels[0]) : make_shape(levels, options);
         const bool knows_faces = shape != NULL;
         if (shape == NULL && convexity == CONVEXITY_BY_HULL) {
             shape = make_hull(levels[0]);
@@ -165,6 +167,7 @@ public:
         geometry_->shape = shape;
         geometry_->levels.swap(levels);
         geometry_->knows_faces = knows_faces;
+        geometry_->is_patch = is_patch;
 #if defined(SWIFT_ONLY_TRIS) && defined(SWIFT_REPORT_EDGE_IDS)
         geometry_->number_edges();
 #endif

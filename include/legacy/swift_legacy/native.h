@@ -21,7 +21,8 @@ const int MOST_LEVELS = 32;
 
 enum Convexity {
     CONVEXITY_REQUIRED, /* the mesh is to be convex, flat ones included */
-    CONVEXITY_BY_HULL   /* of another mesh the convex hull counts */
+    CONVEXITY_BY_HULL,  /* of another mesh the convex hull counts */
+    CONVEXITY_OF_PATCH  /* the mesh is a piece of a decomposition, on its hull: that counts */
 };
 
 /* How levels of detail are made for a body that comes without. */
@@ -103,6 +104,19 @@ inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const 
         status = swiftprox_shape_create_from_mesh(body.vertices, body.vertex_count, body.indices, body.valences,
                                                   body.face_count, &options, &shape);
     }
+    return status == SWIFTPROX_OK ? shape : NULL;
+}
+
+/* The hull of a piece of a decomposition; null after a failure. */
+inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
+{
+    swiftprox_shape_options options;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_PATCH;
+    const swiftprox_shape* shape = NULL;
+    const swiftprox_mesh body = native_mesh(mesh);
+    const swiftprox_status status = swiftprox_shape_create_from_mesh(body.vertices, body.vertex_count, body.indices, body.valences,
+                                                                     body.face_count, &options, &shape);
     return status == SWIFTPROX_OK ? shape : NULL;
 }
 

@@ -5,6 +5,7 @@
 #include "piece_files.h"
 #include "defaults.h"
 #include "objects.h"
+#include "surface_pieces.h"
 
 namespace swift_legacy {
 
@@ -36,10 +37,11 @@ struct Adder {
     const char* method;
     Verbosity verbosity;
     BoxCentre box_centre;
+    bool decomposes;  /* a mesh that is not convex */
     const char* cure; /* what a program can do about a mesh that is refused */
 
     Adder(const char* name, Verbosity says, BoxCentre centre)
-        : method(name), verbosity(says), box_centre(centre), cure("after Set_Take_Hull(true) the convex hull of the vertices is taken")
+        : method(name), verbosity(says), box_centre(centre), decomposes(false), cure("after Set_Take_Hull(true) the convex hull of the vertices is taken")
     {
     }
 };
@@ -186,6 +188,10 @@ public:
         }
         part.pieces.resize(1);
         if (!part.pieces[0].make(levels, convexity_, settings.levels)) {
+            std::vector<Mesh> pieces;
+            if (adder_.decomposes && pieces_of_surface(levels[0], pieces)) {
+                return from_decomposition(pieces, CONVEXITY_OF_PATCH, settings, part);
+            }
             say_why(index, levels[0]);
             return false;
         }
@@ -194,13 +200,13 @@ public:
     }
 
     /* From the pieces of a decomposition, after the input transform. */
-    bool from_decomposition(std::vector<Mesh>& pieces, const PartSettings& settings, Part& part) const
+    bool from_decomposition(std::vector<Mesh>& pieces, Convexity convexity, const PartSettings& settings, Part& part) const
     {
         part.pieces.resize(pieces.size());
         for (std::size_t i = 0; i < pieces.size(); ++i) {
             std::vector<Mesh> levels(1);
             std::swap(levels[0], pieces[i]);
-            if (!part.pieces[i].make(levels, CONVEXITY_BY_HULL, settings.levels)) {
+            if (!part.pieces[i].make(levels, convexity, settings.levels)) {
                 say_why(static_cast<int>(i), levels[0]);
                 return false;
             }
@@ -228,7 +234,8 @@ public:
             for (std::size_t level = 0; level < levels.size(); ++level) {
                 levels[level].transform(transform);
             }
-            if (!part.pieces[i].make(levels, CONVEXITY_BY_HULL, settings.levels)) {
+            const Convexity convexity = original.pieces[i]->is_patch ? CONVEXITY_OF_PATCH : CONVEXITY_BY_HULL;
+            if (!part.pieces[i].make(levels, convexity, settings.levels)) {
                 say_why(index, levels[0]);
                 return false;
             }

@@ -131,8 +131,7 @@ inline bool SWIFT_Scene::Add_General_Object(const char* filename, int& id, bool 
                                             SWIFT_Real box_enl_rel, SWIFT_Real box_enl_abs, SWIFT_Real)
 {
     swift_legacy::Adder adder("Add_General_Object", swift_legacy::SAYS_CREATION_FAILED, swift_legacy::BOX_ABOUT_ORIGIN);
-    adder.cure = "give what is not convex as a decomposition file (Convex_Decomposition), which SWIFT++'s decomposer writes; after "
-                 "Set_Take_Hull(true) the convex hull of the vertices is taken";
+    adder.decomposes = true;
     const swift_legacy::PartSettings settings(box_setting, box_enl_rel, box_enl_abs,
                                               swift_legacy::LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
     std::vector<swift_legacy::Mesh> pieces;
@@ -152,7 +151,7 @@ inline bool SWIFT_Scene::Add_General_Object(const char* filename, int& id, bool 
     }
     const swift_legacy::PartBuilder builder(objects_, fixed, convexity_, adder);
     std::vector<swift_legacy::Part> parts(1);
-    return builder.from_decomposition(pieces, settings, parts[0]) && insert(adder.method, parts, fixed, id);
+    return builder.from_decomposition(pieces, swift_legacy::CONVEXITY_BY_HULL, settings, parts[0]) && insert(adder.method, parts, fixed, id);
 }
 
 inline bool SWIFT_Scene::Add_Pieced_Object(const SWIFT_Real* const* vertices, const int* const* faces, const int* num_vertices,

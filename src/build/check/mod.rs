@@ -14,7 +14,7 @@ use crate::build::hull::convex_hull_in_steps;
 use crate::mesh::{PolygonMesh, check_vertex};
 use convexity::{Side, most_inward};
 pub use convexity::{check_convexity, is_inside_out};
-use duplicates::first_of_equal;
+pub(crate) use duplicates::first_of_equal;
 use edges::{Matching, match_edges};
 pub use proof::{check_hull, check_hull_in_steps};
 use violation::violation;
@@ -64,7 +64,7 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
-fn check_indices(mesh: &PolygonMesh) -> Result<()> {
+pub(crate) fn check_indices(mesh: &PolygonMesh) -> Result<()> {
     let count = mesh.vertices.len();
     if count == 0 || mesh.face_count() == 0 {
         return violation(format!("the mesh has no {}", if count == 0 { "vertices" } else { "faces" }));
