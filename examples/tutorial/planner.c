@@ -153,7 +153,8 @@ static struct edge cast_edge(struct world *world, struct state from, struct stat
 static struct state last_valid(struct world *world, struct state from, struct state to, double t_lo)
 {
     const double t = fmax(0, t_lo - 1e-6);
-    const struct state state = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y), from.angle + t * (to.angle - from.angle)};
+    const struct state state = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
+                                from.angle + t * (to.angle - from.angle)};
     return is_free(world, state) ? state : from;
 }
 

@@ -289,8 +289,11 @@ int main(int argc, char **argv)
     }
     double moved = 0, fastest = 0;
     for (size_t i = 1; i < BODIES; i++) {
-        const double x = bodies[i].pose[3] - at_first[i].pose[3], y = bodies[i].pose[7], z = bodies[i].pose[11] - at_first[i].pose[11];
-        moved = fmax(moved, sqrt(x * x + y * y + z * z));
+        double way[3];
+        for (int k = 0; k < 3; k++) {
+            way[k] = bodies[i].pose[4 * k + 3] - at_first[i].pose[4 * k + 3];
+        }
+        moved = fmax(moved, sqrt(dot(way, way)));
         fastest = fmax(fastest, sqrt(dot(bodies[i].velocity, bodies[i].velocity)));
     }
     printf("after %d steps no cube is farther than %.2f from where it began\n", STEPS, moved);
