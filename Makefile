@@ -18,6 +18,7 @@
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
+# make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
@@ -45,7 +46,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench docs clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -189,6 +190,11 @@ hard:
 	rm -rf $(BUILD)/hard
 	cargo run --locked --release --example hard_cases -- $(BUILD)/hard $(if $(SEED),--seed $(SEED)) $(if $(COUNT),--count $(COUNT))
 	$(MAKE) cases CASES=$(BUILD)/hard
+
+docs:
+	@command -v doxygen >/dev/null || scripts/apt.sh doxygen
+	@command -v python3 >/dev/null || scripts/apt.sh python3
+	docs/reference/make.sh $(BUILD)/docs
 
 clean:
 	cargo clean

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Checks that the sentences of README.md that have numbers say what the CSV files of benches/results say. Each is made anew here, and
-the page has to have it word for word."""
+"""Checks that sentences of README.md and tables of docs/choosing.md that have numbers say what the CSV files of benches/results say.
+Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
 
-from rows import read
+from rows import geometric_mean, read
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 
@@ -35,12 +35,49 @@ def second_thread():
     return f"a second thread saves {min(saved):.0f} to {max(saved):.0f} % of a step of 10,000 bodies or more where all move"
 
 
-def main():
-    with open(os.path.join(HERE, "..", "README.md")) as file:
+MOTIONS = {"0.1": "0.1°", "1": "1°", "10": "10°", "random": "random"}
+
+
+def mean_ns(rows, column="best_ns", **wanted):
+    """The geometric mean of a time over the rows that have the wanted values, of each motion."""
+    of = {}
+    for row in rows:
+        if all(row[name] == value for name, value in wanted.items()):
+            of.setdefault(row["step"], []).append(float(row[column]))
+    return {step: f"{geometric_mean(times):.0f}" for step, times in of.items()}
+
+
+def table(first, lines):
+    """A table whose columns are motions; a line is a name and a time for each."""
+    head = [f"| {first} | " + " | ".join(MOTIONS.values()) + " |", "|---|" + "--:|" * len(MOTIONS)]
+    return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for step in MOTIONS) + " |" for name, times in lines])
+
+
+def query_table():
+    rows = rows_of("figures-choice.csv")
+    orbits = {"small": "apart", "deep": "at times in each other"}
+    return table("query", [(f"{query}, {said}", mean_ns(rows, query=query, orbit=orbit, series="automatic"))
+                           for query in ("intersection", "distance", "approximate", "contact") for orbit, said in orbits.items()])
+
+
+def depth_table():
+    rows = rows_of("depths.csv")
+    lines = [(f"{int(n):,}", mean_ns(rows, n=n, orbit="deep", method="swiftprox")) for n in ("102", "1002", "10002")]
+    resting = mean_ns(rows, orbit="resting", method="swiftprox")["resting"]
+    return table("vertices", lines + [("a box on a box", {step: resting if step == "0.1" else "" for step in MOTIONS})])
+
+
+def check(page, said):
+    with open(os.path.join(HERE, "..", page), encoding="utf-8") as file:
         text = file.read()
-    missing = [said for said in (table_times(), mesh_times(), second_thread()) if said not in text]
+    missing = [part for part in said if part not in text]
     if missing:
-        sys.exit("README.md does not say what the CSV files say:\n" + "\n".join(missing))
+        sys.exit(f"{page} does not say what the CSV files say:\n" + "\n".join(missing))
+
+
+def main():
+    check("README.md", (table_times(), mesh_times(), second_thread()))
+    check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 
 if __name__ == "__main__":

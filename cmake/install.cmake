@@ -46,7 +46,8 @@ install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/legacy" DESTINATION "${CMAKE_INSTALL
 install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swiftproxConfigVersion.cmake"
   DESTINATION "${config_dir}" COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftprox.pc" "${install_tree}/swiftprox-legacy.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
-install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development)
+install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development
+  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN reference EXCLUDE)
 
 # --- Without debug information -------------------------------------------------------------------------------------------------
 

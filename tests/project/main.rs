@@ -1,6 +1,6 @@
-//! The project itself: the order of its code, its exports, its README.
+//! The project itself: the order of its code, its exports, its links.
 
 mod architecture;
 mod cpp;
-mod readme;
+mod links;
 mod symbols;

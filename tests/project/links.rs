@@ -1,23 +1,6 @@
-//! The C code in the README is that of examples, which are compiled and run; links of all pages lead somewhere.
+//! Links of all pages lead somewhere.
 
 use std::path::{Path, PathBuf};
-
-const README: &str = include_str!("../../README.md");
-const HELLO: &str = include_str!("../../examples/hello.c");
-const SCENE: &str = include_str!("../../examples/scene.c");
-
-/// The blocks of C in the README.
-fn blocks() -> Vec<&'static str> {
-    let block = |rest: &'static str| rest.split_once("```\n").expect("the block ends").0;
-    README.split("```c\n").skip(1).map(block).collect()
-}
-
-#[test]
-fn the_blocks_of_c_are_from_examples() {
-    let [program, scene] = blocks()[..] else { panic!("README.md has {} blocks of C, not 2", blocks().len()) };
-    assert!(program == HELLO, "README.md and examples/hello.c differ");
-    assert!(SCENE.contains(scene), "README.md has lines that examples/scene.c has not:\n{scene}");
-}
 
 /// README.md, ARCHITECTURE.md, and those of `docs`, `benches` and `fuzz`.
 fn pages() -> Vec<PathBuf> {
