@@ -1,4 +1,4 @@
-/* Numbers as bytes, the lowest first, and bytes as base64 (RFC 4648): what stands between base64_start and base64_end is one text. */
+/* Numbers as bytes, the lowest first, and bytes as base64 (RFC 4648). All between base64_start and base64_end is one text. */
 #ifndef SWIFTPROX_TOOLS_BASE64_H
 #define SWIFTPROX_TOOLS_BASE64_H
 

@@ -153,7 +153,7 @@ static void find_centre(const struct page_data *data, const struct page_body *bo
     }
 }
 
-/* The quaternion x y z w of a row-major [R|T], with the root of what is largest (Shepperd 1978, "Quaternion from rotation matrix"). */
+/* The quaternion x y z w of a row-major [R|T], divided by its largest part (Shepperd 1978, "Quaternion from rotation matrix"). */
 static void find_turn(const double pose[12], int16_t turn[4])
 {
     const double diagonal[4] = {pose[0], pose[5], pose[10], pose[0] + pose[5] + pose[10]};
@@ -395,7 +395,8 @@ static void count_pair(struct page_step *step, const swiftprox_pair_answer *answ
 }
 
 /* What the step's query listed, the deepest and nearest first: of a query that stopped the pair at which it did. */
-static int add_pairs(struct page_data *data, const struct player *player, const swiftprox_scene_answer *answer, struct page_step *step)
+static int add_pairs(struct page_data *data, const struct player *player, const swiftprox_scene_answer *answer,
+                     struct page_step *step)
 {
     const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
     swiftprox_scene_contacts contacts;

@@ -186,7 +186,7 @@ function drawSolids(solids, camera, paper) {
   gl.enable(gl.BLEND);
   gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   gl.enable(gl.POLYGON_OFFSET_FILL);
-  gl.polygonOffset(1, 1);
+  gl.polygonOffset(2, 4);
   solids.groups.forEach((group, isPicked) => {
     if (isPicked) {
       gl.clear(gl.DEPTH_BUFFER_BIT);

@@ -69,11 +69,11 @@ function startPage(recording) {
   const pairSize = () => Math.min(...state.picked.filter(body => body !== NO_BODY)
     .map(body => recording.shapes[shapeOf(recording, body)].radius));
 
-  const drawNames = project => state.picked.forEach((body, i) => {
+  const drawNames = project => state.picked.forEach(body => {
     const move = body === NO_BODY ? -1 : moveOf(recording, body, state.step);
     const spot = move < 0 ? null : project(placeOf(recording, move));
     if (spot) {
-      label(context, nameOf(recording, body), [spot[0] + 8, spot[1] - 8], colours, colours[i ? "two" : "one"]);
+      label(context, nameOf(recording, body), [spot[0] + 8, spot[1] - 8], colours);
     }
   });
 

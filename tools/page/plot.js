@@ -1,7 +1,7 @@
 
 /* ---- plot.js: intervals over time ---- */
 
-const PLOT = { width: 368, left: 52, right: 12, panels: [{ top: 20, height: 112 }, { top: 158, height: 66 }], bottom: 258 };
+const PLOT = { width: 368, left: 58, right: 12, panels: [{ top: 20, height: 112 }, { top: 158, height: 66 }], bottom: 258 };
 
 function svg(tag, attributes, words) {
   const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
@@ -76,7 +76,7 @@ function drawGaps(root, series, xOf) {
   }
   const { low, high, words } = rangeOf(values);
   const yOf = value => panel.top + panel.height * (high - Math.min(high, Math.max(low, value))) / (high - low);
-  drawAxis(root, panel, "gap, below 0 depth (length)" + words, ticksOf(low, high, 4), yOf, shortly);
+  drawAxis(root, panel, "gap, below 0 depth (length)" + words, ticksOf(low, high, 5), yOf, shortly);
   root.append(svg("path", { class: "zero", d: `M${PLOT.left} ${yOf(0)}H${PLOT.width - PLOT.right}` }));
   for (const run of runsOf(series, point => Number.isFinite(point.value))) {
     const ends = end => run.map(point => [xOf(point.step), yOf(Number.isFinite(point[end]) ? point[end] : point.value)]);
