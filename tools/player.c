@@ -1,6 +1,5 @@
 #include "player.h"
 
-#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -232,14 +231,25 @@ int player_play(struct player *player, swiftprox_scene_answer *answer)
     return player->is_recording ? play_recording(player, answer) : play_text(player, answer);
 }
 
-void player_print_object(const struct player *player, swiftprox_object_id id, uint64_t user_data)
+bool player_find_number(const struct player *player, swiftprox_object_id id, uint32_t *number)
 {
-    uint32_t number;
-    if (!player->is_recording) {
-        printf(" %llu", (unsigned long long)user_data);
-    } else if (swiftprox_replay_get_number(player->replay, id, &number) == SWIFTPROX_OK) {
-        printf(" %" PRIu32, number);
-    } else {
-        fputs(" -", stdout); /* a shape that was in no scene */
+    if (player->is_recording) {
+        return swiftprox_replay_get_number(player->replay, id, number) == SWIFTPROX_OK;
     }
+    swiftprox_object_info info = {.struct_size = sizeof info};
+    const bool is_there = swiftprox_scene_get_object_info(player->scene, id, &info) == SWIFTPROX_OK;
+    *number = (uint32_t)info.user_data;
+    return is_there;
+}
+
+swiftprox_query_kind player_query_kind(const struct player *player)
+{
+    scene_query *const query = player->options->query;
+    if (!query && player->is_recording) {
+        return player->info.kind;
+    }
+    return query == swiftprox_scene_query_intersection           ? SWIFTPROX_QUERY_KIND_INTERSECTION
+           : query == swiftprox_scene_query_contacts             ? SWIFTPROX_QUERY_KIND_CONTACT
+           : query == swiftprox_scene_query_approximate_distance ? SWIFTPROX_QUERY_KIND_APPROXIMATE
+                                                                 : SWIFTPROX_QUERY_KIND_DISTANCE;
 }

@@ -65,8 +65,12 @@ enum next_step player_next(struct player *player);
  * message is printed and the status is another than GOOD. */
 int player_play(struct player *player, swiftprox_scene_answer *answer);
 
-/* Prints a blank and the number of an object of a result, from 0 in the order in which objects came. */
-void player_print_object(const struct player *player, swiftprox_object_id id, uint64_t user_data);
+/* The number of an object, from 0 in the order in which objects came. False where there is no such object, as of a shape that was
+ * in no scene. */
+bool player_find_number(const struct player *player, swiftprox_object_id id, uint32_t *number);
+
+/* What the step that is played asks. */
+swiftprox_query_kind player_query_kind(const struct player *player);
 
 /* Prints the last message of the library; FAILED. */
 int player_failed(void);

@@ -1,6 +1,7 @@
 /* swiftprox-replay: plays a scene back, step by step: what queries list, or what they cost. It is a user of the C interface
  * like any other, and knows nothing that its headers do not say. */
 #include <fenv.h>
+#include <inttypes.h>
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -8,13 +9,17 @@
 #include <string.h>
 
 #include "input.h"
+#include "output_file.h"
+#include "page_data.h"
+#include "page_file.h"
 #include "player.h"
 #include "program.h"
 #include "progress.h"
+#include "text.h"
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
                             "                        [--error E] [--budget B] [--input strict|flat|hull] [--workers K] [--verify]\n"
-                            "                        [--bench PASSES]\n";
+                            "                        [--bench PASSES | --html OUT]\n";
 
 static const char HELP[] =
     "\n"
@@ -45,6 +50,7 @@ static const char HELP[] =
     "  --verify              check each answer against the shapes alone, and the answers to recorded queries against the\n"
     "                        recorded ones; the first that does not hold ends the program\n"
     "  --bench PASSES        print times instead of answers, see below\n"
+    "  --html OUT            write a page that shows the scene and its answers in a browser, see below\n"
     "  --help, --version     print this text, the version\n"
     "\n"
     "Each listed pair is a line of 8 fields, numbers with 17 significant digits:\n"
@@ -61,6 +67,10 @@ static const char HELP[] =
     "query answered), the pairs that a pass lists, and the sum of their distances. Each pass plays the scene from\n"
     "its beginning; its first step, which builds everything, is not timed.\n"
     "\n"
+    "With --html nothing is printed but a line about the page, which is one file and loads nothing: the scene in 3-D, its pairs\n"
+    "step by step with the numbers above, witness points, normals, manifolds, and intervals over time. Of pairs it holds as many\n"
+    "as fit into 60 MB, the deepest and nearest of each step; it says how many were listed. OUT is replaced when all is written.\n"
+    "\n"
     "On a terminal the standard error shows a bar while it takes long.\n"
     "\n"
     "Exit status: 0, or 2 when the command line, a scene or a mesh file is bad (the message names the line), or 1 for\n"
@@ -72,7 +82,8 @@ static const struct program PROGRAM = {"swiftprox-replay", USAGE, HELP};
 
 struct arguments {
     struct player_options player;
-    size_t passes; /* 0: answers, not times */
+    size_t passes;    /* 0: answers, not times */
+    const char *page; /* null: answers are printed */
 };
 
 /* Whether each option has a meaning beside the others and for the scene; false after a message. */
@@ -89,13 +100,17 @@ static bool fits(const struct command_line *line, const struct arguments *argume
         problem = "--budget has a meaning for --query approximate alone";
     } else if (player->verify && arguments->passes) {
         problem = "--verify has no meaning beside --bench, which times the queries alone";
+    } else if (arguments->page && arguments->passes) {
+        problem = "--html has no meaning beside --bench, which keeps no answers";
+    } else if (arguments->page && text_is_same(player->path, arguments->page)) {
+        problem = "--html would replace the scene";
     } else if (command_line_has(line, "--input") && player_finds_recording(player->path)) {
         problem = "--input has no meaning for a recording, which holds its shapes";
     }
     if (problem) {
         program_refuse(&PROGRAM, "%s", problem);
     }
-    return !problem;
+    return !problem && (!arguments->page || output_file_try(arguments->page));
 }
 
 /* False if the program is to end with `*status`. */
@@ -117,6 +132,7 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
         {.name = "--workers", .kind = OPTION_COUNT, .most = 1024, .value = &workers},
         {.name = "--verify", .kind = OPTION_FLAG, .value = &arguments->player.verify},
         {.name = "--bench", .kind = OPTION_COUNT, .most = 999999, .value = &arguments->passes},
+        {.name = "--html", .kind = OPTION_OUTPUT, .value = &arguments->page},
     };
     struct command_line line = {.program = &PROGRAM,
                                 .options = options,
@@ -158,12 +174,23 @@ static const char *outcome_word(swiftprox_outcome outcome)
                                                        : "undecided";
 }
 
+/* Prints a blank and the number of an object, or - of a shape that was in no scene. */
+static void print_object(const struct player *player, swiftprox_object_id id)
+{
+    uint32_t number;
+    if (player_find_number(player, id, &number)) {
+        printf(" %" PRIu32, number);
+    } else {
+        fputs(" -", stdout);
+    }
+}
+
 /* `contact` is NULL where none was asked for. */
 static void print_pair(const struct player *player, const swiftprox_pair_result *pair, const swiftprox_contact *contact)
 {
     printf("%zu", player->step - 1);
-    player_print_object(player, pair->object1, pair->user_data1);
-    player_print_object(player, pair->object2, pair->user_data2);
+    print_object(player, pair->object1);
+    print_object(player, pair->object2);
     printf(" %s", outcome_word(pair->answer.outcome));
     print_number(pair->answer.distance, FE_TONEAREST);
     print_number(pair->answer.lower, FE_DOWNWARD);
@@ -201,8 +228,8 @@ static int verify_pair(const struct player *player, const swiftprox_pair_result 
     return GOOD;
 }
 
-/* What a step lists: of a query that stopped the pair at which it did. */
-static int print_answer(const struct player *player, const swiftprox_scene_answer *answer)
+/* What a step lists: of a query that stopped the pair at which it did. It is printed, or goes to the page if there is one. */
+static int take_answer(const struct player *player, const swiftprox_scene_answer *answer, struct page_data *page)
 {
     const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
     const size_t count = answer->found ? 1 : answer->count;
@@ -211,14 +238,14 @@ static int print_answer(const struct player *player, const swiftprox_scene_answe
     for (size_t i = 0; i < count && result == GOOD; i++) {
         const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
         result = player->options->verify ? verify_pair(player, &pairs[i], contact) : GOOD;
-        if (result == GOOD) {
+        if (result == GOOD && !page) {
             print_pair(player, &pairs[i], contact);
         }
     }
-    return result;
+    return result == GOOD && page ? page_data_add(page, player, answer) : result;
 }
 
-static int print_answers(struct player *player)
+static int play_answers(struct player *player, struct page_data *page)
 {
     int result = player_begin(player);
     struct progress progress = progress_start();
@@ -227,7 +254,7 @@ static int print_answers(struct player *player)
         if (next == STEP) {
             swiftprox_scene_answer answer;
             result = player_play(player, &answer);
-            result = result == GOOD ? print_answer(player, &answer) : result;
+            result = result == GOOD ? take_answer(player, &answer, page) : result;
         } else if (next == BAD_STEP) {
             result = BAD_INPUT;
         } else if (next == NO_MORE) {
@@ -241,6 +268,44 @@ static int print_answers(struct player *player)
     }
     const int ended = player_end(player);
     return result != GOOD ? result : ended;
+}
+
+/* ---- a page ---- */
+
+static int write_page(const struct player *player, struct page_data *page, const char *path)
+{
+    const struct page_title title = {player->options->path, player->options->tolerance, player->cut_off};
+    struct output_file output;
+    page_data_fit(page);
+    if (!output_file_open(&output, path)) {
+        return FAILED;
+    }
+    const int result = page_file_write(output.file, page, &title);
+    const long bytes = ftell(output.file);
+    if (!output_file_close(&output, result == GOOD)) {
+        return result == GOOD ? FAILED : result;
+    }
+    size_t kept = 0, listed = 0;
+    for (size_t i = 0; i < page->step_count; i++) {
+        kept += page->steps[i].pair_count;
+        listed += page->steps[i].listed;
+    }
+    printf("%s: %.1f MB, %zu steps, %zu bodies, %zu of %zu pairs\n", path, 1e-6 * (double)bytes, page->step_count,
+           page->body_count, kept, listed);
+    return GOOD;
+}
+
+static int make_page(struct player *player, const char *path)
+{
+    struct page_data page = page_data_start();
+    int result = play_answers(player, &page);
+    if (result == GOOD && page.step_count == 0) {
+        fprintf(stderr, "%s: there is no step to show\n", player->options->path);
+        result = BAD_INPUT;
+    }
+    result = result == GOOD ? write_page(player, &page, path) : result;
+    page_data_free(&page);
+    return result;
 }
 
 /* ---- times ---- */
@@ -342,7 +407,9 @@ static int run(const struct arguments *arguments)
     struct player player;
     int result = player_open(&player, &arguments->player);
     if (result == GOOD) {
-        result = arguments->passes ? print_times(&player, arguments->passes) : print_answers(&player);
+        result = arguments->passes ? print_times(&player, arguments->passes)
+                 : arguments->page ? make_page(&player, arguments->page)
+                                   : play_answers(&player, NULL);
     }
     player_free(&player);
     return program_end(&PROGRAM, result);

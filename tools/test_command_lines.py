@@ -18,8 +18,8 @@ BOX = os.path.join(MODELS, "box.off")
 OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "demo": (BOX, BOX), "tower": (MODELS,),
             "scene": (MODELS,)}
 OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
-           "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench"),
-           "demo": ("--orbit", "--svg"), "tower": ("--svg",), "crowd": ("--svg",)}
+           "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
+           "demo": ("--orbit", "--svg"), "tower": ("--svg", "--record"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
            "--orbit": ("-1", "0", "x", "1e6"),
@@ -108,9 +108,10 @@ class CommandLines(unittest.TestCase):
         self.refused("swiftprox-replay", "--verify has no meaning beside --bench", recording, "--verify", "--bench", "1")
 
     def test_files_to_be_written_are_tried_first(self):
-        for name in ("demo", "tower", "crowd"):
+        for name, option in (("demo", "--svg"), ("tower", "--svg"), ("tower", "--record"), ("crowd", "--svg"),
+                             ("swiftprox-replay", "--html")):
             for path in (os.path.join(self.folder, "none", "a.svg"), self.folder):
-                self.refused(name, path, "--svg", path)
+                self.refused(name, path, option, path)
         # The trial leaves no file behind, and none changed, where the program goes on to refuse something else.
         kept = self.file("kept.svg", "kept")
         for path in (kept, os.path.join(self.folder, "new.svg")):

@@ -19,6 +19,12 @@ bool text_is_regular(const char *path)
     return strcmp(path, "-") != 0 && stat(path, &about) == 0 && S_ISREG(about.st_mode);
 }
 
+bool text_is_same(const char *left, const char *right)
+{
+    struct stat one, other;
+    return stat(left, &one) == 0 && stat(right, &other) == 0 && one.st_dev == other.st_dev && one.st_ino == other.st_ino;
+}
+
 /* Why the open file is not read, or null: devices may never end. */
 static const char *why_not_read(FILE *file)
 {

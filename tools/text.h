@@ -24,6 +24,9 @@ struct text_line {
 /* Whether this is a regular file, and neither the standard input nor a pipe or device. */
 bool text_is_regular(const char *path);
 
+/* Whether both paths are of one file that is there. */
+bool text_is_same(const char *left, const char *right);
+
 /* Reads the file, or the standard input when `path` is "-": a regular file, a pipe or a terminal, up to a limit.
  * On failure it prints a message on the standard error and returns
  * false; there is nothing to close then. */

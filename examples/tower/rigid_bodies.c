@@ -55,6 +55,11 @@ struct world *world_create(void)
     return world;
 }
 
+void world_record(struct world *world, const char *path)
+{
+    demand(swiftprox_scene_record(world->scene, path));
+}
+
 void world_destroy(struct world *world)
 {
     demand(swiftprox_scene_destroy(world->scene));

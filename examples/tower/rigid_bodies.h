@@ -31,6 +31,9 @@ void world_destroy(struct world *world);
  * the library fails. */
 void world_add(struct world *world, const swiftprox_shape *shape, const double place[3], bool fixed);
 
+/* Writes down what happens from here on, for swiftprox-replay. Ends the program where the file cannot be written. */
+void world_record(struct world *world, const char *path);
+
 /* One step of `seconds`. */
 void world_step(struct world *world, double seconds);
 

@@ -16,12 +16,13 @@
 
 static const struct program PROGRAM = {
     "tower",
-    "usage: tower [--svg FILE] [--noise LENGTH] [FOLDER]\n",
+    "usage: tower [--svg FILE] [--record FILE] [--noise LENGTH] [FOLDER]\n",
     "\n"
     "Lets a tower of ten boxes stand and a pile come to rest for 10 simulated seconds. Fails if the tower does not stand.\n"
     "\n"
     "  FOLDER             where the shipped models are (default: examples/models)\n"
     "  --svg FILE         pictures from the side, at four times\n"
+    "  --record FILE      what swiftprox-replay plays back, and shows by --html\n"
     "  --noise LENGTH     by how much coordinates of the tower's corners are off, up to (default: 0)\n"
     "  --help, --version  print this text, the version\n",
 };
@@ -105,12 +106,13 @@ static double displacement(const struct world *world)
 
 int main(int argc, char **argv)
 {
-    const char *svg = NULL, *folder = "examples/models";
+    const char *svg = NULL, *record = NULL, *folder = "examples/models";
     double noise = 0;
     struct program_option options[] = {{.name = "--svg", .kind = OPTION_OUTPUT, .value = &svg},
+                                       {.name = "--record", .kind = OPTION_OUTPUT, .value = &record},
                                        {.name = "--noise", .kind = OPTION_AMOUNT, .value = &noise}};
     struct command_line line = {
-        .program = &PROGRAM, .options = options, .option_count = 2, .operands = &folder, .most_operands = 1};
+        .program = &PROGRAM, .options = options, .option_count = 3, .operands = &folder, .most_operands = 1};
     int status;
     if (!command_line_read(&line, argc, argv, &status)) {
         return status;
@@ -119,6 +121,9 @@ int main(int argc, char **argv)
     if (!world) {
         fputs("tower: no memory\n", stderr);
         return EXIT_FAILURE;
+    }
+    if (record) {
+        world_record(world, record);
     }
     build(world, folder, noise);
     struct strip *const strip = strip_create();

@@ -1,0 +1,269 @@
+
+/* ---- bodies.js: all bodies of a step by WebGL 2, one call for each shape; without it their outlines in 2-D ---- */
+
+/* A body is 9 words: place, turn, colour, and its number plus 1 as a colour, by which the body under a pixel is found. */
+const BODY_WORDS = 9;
+
+const VERTEX_SHADER = `#version 300 es
+uniform mat4 view;
+uniform float pixels; /* of a length of 1 at a distance of 1 */
+uniform float radius;
+uniform int mode;     /* 0: faces, 1: edges, 2: numbers */
+layout(location = 0) in vec3 vertex;
+layout(location = 1) in vec3 place;
+layout(location = 2) in vec4 turn;
+layout(location = 3) in vec4 colour;
+layout(location = 4) in vec4 number;
+out vec3 world;
+out vec4 paint;
+void main() {
+  vec3 t = 2.0 * cross(turn.xyz, vertex);
+  world = place + vertex + turn.w * t + cross(turn.xyz, t);
+  gl_Position = view * vec4(world, 1.0);
+  float size = radius * pixels / max(gl_Position.w, 1e-30); /* edges of small bodies would hide them */
+  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.55, clamp(size / 12.0, 0.0, 1.0) * colour.a) : colour;
+}`;
+
+const FRAGMENT_SHADER = `#version 300 es
+precision highp float;
+precision highp int;
+uniform int mode;
+uniform vec3 eye;
+uniform vec3 light;
+in vec3 world;
+in vec4 paint;
+out vec4 result;
+void main() {
+  result = paint;
+  if (mode == 0) {
+    vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
+    if (dot(normal, eye - world) < 0.0) { normal = -normal; }
+    float shade = 0.62 + 0.24 * max(dot(normal, light), 0.0) + 0.2 * max(dot(normal, normalize(eye - world)), 0.0);
+    result.rgb *= shade;
+  }
+}`;
+
+function makeProgram(gl) {
+  const program = gl.createProgram();
+  for (const [type, source] of [[gl.VERTEX_SHADER, VERTEX_SHADER], [gl.FRAGMENT_SHADER, FRAGMENT_SHADER]]) {
+    const shader = gl.createShader(type);
+    gl.shaderSource(shader, source);
+    gl.compileShader(shader);
+    gl.attachShader(program, shader);
+  }
+  gl.linkProgram(program);
+  if (!gl.getProgramParameter(program, gl.LINK_STATUS)) {
+    throw new Error(gl.getProgramInfoLog(program));
+  }
+  return program;
+}
+
+function makeBuffer(gl, target, data) {
+  const buffer = gl.createBuffer();
+  gl.bindBuffer(target, buffer);
+  gl.bufferData(target, data, gl.STATIC_DRAW);
+  return buffer;
+}
+
+/* All shapes in one buffer of vertices, one of corners of triangles and one of ends of edges; each shape says where. */
+function mergeShapes(shapes) {
+  const total = list => shapes.reduce((sum, shape) => sum + shape[list].length, 0);
+  const vertices = new Float32Array(total("vertices"));
+  const merged = { vertices, triangles: new Uint32Array(total("triangles")), edges: new Uint32Array(total("edges")), parts: [] };
+  let vertex = 0, corner = 0, end = 0;
+  for (const shape of shapes) {
+    vertices.set(shape.vertices, vertex);
+    merged.triangles.set(shape.triangles.map(v => v + vertex / 3), corner);
+    merged.edges.set(shape.edges.map(v => v + vertex / 3), end);
+    merged.parts.push({ corner, corners: shape.triangles.length, end, ends: shape.edges.length });
+    vertex += shape.vertices.length;
+    corner += shape.triangles.length;
+    end += shape.edges.length;
+  }
+  return merged;
+}
+
+/* What draws with WebGL 2, or null where there is none. */
+function makeSolids(canvas, recording) {
+  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+  if (!gl) {
+    return null;
+  }
+  const program = makeProgram(gl);
+  const uniform = name => gl.getUniformLocation(program, name);
+  const uniforms = Object.fromEntries(["view", "pixels", "radius", "mode", "eye", "light"].map(name => [name, uniform(name)]));
+  const merged = mergeShapes(recording.shapes);
+  const vertices = makeBuffer(gl, gl.ARRAY_BUFFER, merged.vertices);
+  const bodies = gl.createBuffer();
+  const arrays = ["triangles", "edges"].map(list => {
+    const array = gl.createVertexArray();
+    gl.bindVertexArray(array);
+    makeBuffer(gl, gl.ELEMENT_ARRAY_BUFFER, merged[list]);
+    gl.bindBuffer(gl.ARRAY_BUFFER, vertices);
+    gl.vertexAttribPointer(0, 3, gl.FLOAT, false, 0, 0);
+    for (let place = 0; place <= 4; place++) {
+      gl.enableVertexAttribArray(place);
+      gl.vertexAttribDivisor(place, place === 0 ? 0 : 1);
+    }
+    return array;
+  });
+  gl.bindVertexArray(null);
+  return { gl, canvas, recording, uniforms, program, parts: merged.parts, bodies, arrays, groups: [], picking: null };
+}
+
+/* The bodies of a step, by shape; those that are picked come last and are drawn over the others. `paintOf` gives the colour of a
+ * body, 4 parts from 0 to 255. */
+function loadBodies(solids, step, paintOf, picked) {
+  const { gl, recording } = solids;
+  const lists = [recording.shapes.map(() => []), recording.shapes.map(() => [])];
+  let count = 0;
+  for (let body = 0; body < recording.bodyCount; body++) {
+    const move = moveOf(recording, body, step);
+    if (move >= 0) {
+      lists[picked.includes(body) ? 1 : 0][shapeOf(recording, body)].push(body, move);
+      count++;
+    }
+  }
+  const words = new Float32Array(BODY_WORDS * count), bytes = new Uint8Array(words.buffer);
+  solids.groups = lists.map(() => []);
+  let at = 0;
+  lists.forEach((list, group) => list.forEach((members, shape) => {
+    solids.groups[group].push({ shape, first: at, count: members.length / 2 });
+    for (let i = 0; i < members.length; i += 2, at++) {
+      const [body, move] = [members[i], members[i + 1]];
+      words.set(recording.moves.places.subarray(3 * move, 3 * move + 3), BODY_WORDS * at);
+      words.set(turnOf(recording, move), BODY_WORDS * at + 3);
+      bytes.set(paintOf(body), 4 * (BODY_WORDS * at + 7));
+      const number = body + 1;
+      bytes.set([number & 255, number >> 8 & 255, number >> 16 & 255, number >> 24 & 255], 4 * (BODY_WORDS * at + 8));
+    }
+  }));
+  gl.bindBuffer(gl.ARRAY_BUFFER, solids.bodies);
+  gl.bufferData(gl.ARRAY_BUFFER, words, gl.DYNAMIC_DRAW);
+}
+
+const FACES = 0, EDGES = 1, NUMBERS = 2;
+
+function drawGroup(solids, group, mode) {
+  const { gl, uniforms, parts, recording } = solids;
+  gl.bindVertexArray(solids.arrays[mode === EDGES ? 1 : 0]);
+  gl.bindBuffer(gl.ARRAY_BUFFER, solids.bodies);
+  gl.uniform1i(uniforms.mode, mode);
+  for (const { shape, first, count } of group) {
+    const part = parts[shape];
+    const [kind, from, length] = mode === EDGES ? [gl.LINES, part.end, part.ends] : [gl.TRIANGLES, part.corner, part.corners];
+    if (count === 0 || length === 0) {
+      continue;
+    }
+    const stride = 4 * BODY_WORDS, offset = stride * first;
+    gl.vertexAttribPointer(1, 3, gl.FLOAT, false, stride, offset);
+    gl.vertexAttribPointer(2, 4, gl.FLOAT, false, stride, offset + 12);
+    gl.vertexAttribPointer(3, 4, gl.UNSIGNED_BYTE, true, stride, offset + 28);
+    gl.vertexAttribPointer(4, 4, gl.UNSIGNED_BYTE, true, stride, offset + 32);
+    gl.uniform1f(uniforms.radius, recording.shapes[shape].radius);
+    gl.drawElementsInstanced(kind, length, gl.UNSIGNED_INT, 4 * from, count);
+  }
+}
+
+function setView(solids, camera) {
+  const { gl, uniforms } = solids;
+  const { right, up, back } = axesOf(camera);
+  gl.useProgram(solids.program);
+  gl.viewport(0, 0, solids.canvas.width, solids.canvas.height);
+  gl.uniformMatrix4fv(uniforms.view, false, matrixOf(camera));
+  gl.uniform1f(uniforms.pixels, solids.canvas.height / 2 / Math.tan(FIELD_OF_VIEW / 2));
+  gl.uniform3fv(uniforms.eye, add(camera.target, back, camera.distance));
+  gl.uniform3fv(uniforms.light, unit(add(add(back.map(x => 0.5 * x), right, -0.5), up, 0.8)));
+  gl.enable(gl.DEPTH_TEST);
+}
+
+/* Faces before their edges, which would else fight with them. Of bodies that are picked one sees through the faces. */
+function drawSolids(solids, camera, paper) {
+  const { gl } = solids;
+  setView(solids, camera);
+  gl.clearColor(...paper.map(part => part / 255), 1);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  gl.enable(gl.BLEND);
+  gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
+  gl.enable(gl.POLYGON_OFFSET_FILL);
+  gl.polygonOffset(2, 4);
+  solids.groups.forEach((group, isPicked) => {
+    if (isPicked) {
+      gl.clear(gl.DEPTH_BUFFER_BIT);
+    }
+    gl.depthMask(!isPicked);
+    drawGroup(solids, group, FACES);
+    gl.depthMask(true);
+    drawGroup(solids, group, EDGES);
+  });
+}
+
+/* The body under a pixel of the page, or NO_BODY. */
+function bodyAt(solids, camera, x, y) {
+  const { gl, canvas } = solids;
+  if (!solids.picking) {
+    solids.picking = { frame: gl.createFramebuffer(), colour: gl.createRenderbuffer(), depth: gl.createRenderbuffer() };
+  }
+  const { frame, colour, depth } = solids.picking;
+  const scale = canvas.width / camera.width;
+  const number = new Uint8Array(4);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, frame);
+  for (const [buffer, format, place] of [[colour, gl.RGBA8, gl.COLOR_ATTACHMENT0], [depth, gl.DEPTH_COMPONENT24, gl.DEPTH_ATTACHMENT]]) {
+    gl.bindRenderbuffer(gl.RENDERBUFFER, buffer);
+    gl.renderbufferStorage(gl.RENDERBUFFER, format, canvas.width, canvas.height);
+    gl.framebufferRenderbuffer(gl.FRAMEBUFFER, place, gl.RENDERBUFFER, buffer);
+  }
+  setView(solids, camera);
+  gl.disable(gl.BLEND);
+  gl.clearColor(0, 0, 0, 0);
+  gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
+  solids.groups.forEach(group => drawGroup(solids, group, NUMBERS));
+  gl.readPixels(Math.floor(x * scale), canvas.height - 1 - Math.floor(y * scale), 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, number);
+  gl.bindFramebuffer(gl.FRAMEBUFFER, null);
+  return new Uint32Array(number.buffer)[0] === 0 ? NO_BODY : new Uint32Array(number.buffer)[0] - 1;
+}
+
+/* ---- without WebGL ---- */
+
+/* Edges as lines, as many as can be drawn in a moment. */
+function drawOutlines(context, recording, step, camera, paintOf) {
+  const MOST = 60000;
+  const project = projector(camera);
+  let drawn = 0;
+  context.lineWidth = 1;
+  for (let body = 0; body < recording.bodyCount && drawn < MOST; body++) {
+    const move = moveOf(recording, body, step);
+    if (move < 0) {
+      continue;
+    }
+    const { vertices, edges } = recording.shapes[shapeOf(recording, body)];
+    const place = placeOf(recording, move), turn = turnOf(recording, move);
+    const spot = v => project(add(place, turned(turn, Array.from(vertices.subarray(3 * v, 3 * v + 3)))));
+    context.strokeStyle = `rgb(${paintOf(body).slice(0, 3)})`;
+    context.beginPath();
+    for (let i = 0; i < edges.length; i += 2) {
+      const from = spot(edges[i]), to = spot(edges[i + 1]);
+      if (from && to) {
+        context.moveTo(...from);
+        context.lineTo(...to);
+      }
+    }
+    context.stroke();
+    drawn += edges.length / 2;
+  }
+}
+
+/* The body whose centre is nearest to a pixel, if it is near, else NO_BODY. */
+function bodyNearest(recording, step, camera, x, y) {
+  const project = projector(camera);
+  let [nearest, least] = [NO_BODY, 40];
+  for (let body = 0; body < recording.bodyCount; body++) {
+    const move = moveOf(recording, body, step);
+    const spot = move < 0 ? null : project(placeOf(recording, move));
+    const distance = spot ? Math.hypot(spot[0] - x, spot[1] - y) : Infinity;
+    if (distance < least) {
+      [nearest, least] = [body, distance];
+    }
+  }
+  return nearest;
+}

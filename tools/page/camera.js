@@ -1,0 +1,136 @@
+
+/* ---- camera.js: vectors, and a camera that turns about a point ---- */
+
+const add = (a, b, scale = 1) => a.map((x, k) => x + scale * b[k]);
+const dot = (a, b) => a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+const middle = (a, b) => a.map((x, k) => 0.5 * (x + b[k]));
+
+function unit(a) {
+  const length = Math.hypot(...a);
+  return length > 0 ? a.map(x => x / length) : a;
+}
+
+/* A vector turned by a unit quaternion x y z w. */
+function turned(turn, v) {
+  const [x, y, z, w] = turn;
+  const t = cross([x, y, z], v).map(part => 2 * part);
+  return add(add(v, t, w), cross([x, y, z], t));
+}
+
+const FIELD_OF_VIEW = 35 * Math.PI / 180;
+
+function makeCamera() {
+  /* extent: half of what moves; reach: how far anything is from the origin */
+  return { target: [0, 0, 0], yaw: -1.05, pitch: 0.42, distance: 1, extent: 1, reach: 1, up: 2, width: 1, height: 1 };
+}
+
+/* The axes of the picture: to the right, up, and to the eye. */
+function axesOf(camera) {
+  const axis = k => [0, 1, 2].map(i => i === (camera.up + 1 + k) % 3 ? 1 : 0);
+  const [first, second, up] = [axis(0), axis(1), axis(2)];
+  const level = add(first.map(x => x * Math.cos(camera.yaw)), second, Math.sin(camera.yaw));
+  const back = add(level.map(x => x * Math.cos(camera.pitch)), up, Math.sin(camera.pitch));
+  const right = unit(cross(up, back));
+  return { right, up: cross(back, right), back };
+}
+
+/* Column-major, as WebGL takes it. */
+function matrixOf(camera) {
+  const { right, up, back } = axesOf(camera);
+  const eye = add(camera.target, back, camera.distance);
+  const f = 1 / Math.tan(FIELD_OF_VIEW / 2);
+  const far = camera.distance + Math.hypot(...camera.target) + camera.reach;
+  const near = Math.max(camera.distance * 0.02, far * 1e-5);
+  const rows = [
+    [right, f * camera.height / camera.width],
+    [up, f],
+    [back, (far + near) / (near - far)],
+  ].map(([axis, scale]) => [...axis.map(x => x * scale), -dot(axis, eye) * scale]);
+  rows[2][3] += 2 * far * near / (near - far);
+  rows.push([...back.map(x => -x), dot(back, eye)]);
+  return Float32Array.from({ length: 16 }, (_, i) => rows[i % 4][i >> 2]);
+}
+
+/* Points of the scene as pixels of the page, or null behind the eye. */
+function projector(camera) {
+  const { right, up, back } = axesOf(camera);
+  const eye = add(camera.target, back, camera.distance);
+  const scale = camera.height / 2 / Math.tan(FIELD_OF_VIEW / 2);
+  return point => {
+    const seen = add(point, eye, -1);
+    const depth = -dot(seen, back);
+    return depth <= camera.distance * 0.02 ? null :
+      [camera.width / 2 + scale * dot(seen, right) / depth, camera.height / 2 - scale * dot(seen, up) / depth];
+  };
+}
+
+/* Pixels that a length at the target takes. */
+const pixelsPerLength = camera => camera.height / 2 / Math.tan(FIELD_OF_VIEW / 2) / camera.distance;
+
+function turnCamera(camera, dx, dy) {
+  camera.yaw -= dx * 0.008;
+  camera.pitch = Math.min(1.55, Math.max(-1.55, camera.pitch + dy * 0.008));
+}
+
+function moveCamera(camera, dx, dy) {
+  const { right, up } = axesOf(camera);
+  const scale = 1 / pixelsPerLength(camera);
+  camera.target = add(add(camera.target, right, -dx * scale), up, dy * scale);
+}
+
+function zoomCamera(camera, factor) {
+  camera.distance = Math.min(20 * camera.extent, Math.max(1e-5 * camera.extent, camera.distance * factor));
+}
+
+/* A few places of a body over time, seen from the origin. */
+function samplesOf(recording, body) {
+  const { first, order } = recording.moves;
+  const stride = Math.max(1, Math.floor((first[body + 1] - first[body]) / 8));
+  const samples = [];
+  for (let at = first[body]; at < first[body + 1]; at += stride) {
+    const place = placeOf(recording, order[at]);
+    if (!Number.isNaN(place[0])) {
+      samples.push(place);
+    }
+  }
+  return samples;
+}
+
+/* A box that holds most of the bodies: one that is flung away does not make the others small. Null of no bodies. */
+function boxOf(recording, bodies) {
+  const lower = [[], [], []], upper = [[], [], []];
+  for (const body of bodies) {
+    const radius = recording.shapes[shapeOf(recording, body)].radius;
+    for (const place of samplesOf(recording, body)) {
+      place.forEach((x, k) => {
+        lower[k].push(x - radius);
+        upper[k].push(x + radius);
+      });
+    }
+  }
+  const quantile = (numbers, part) => Float64Array.from(numbers).sort()[Math.round(part * (numbers.length - 1))];
+  return lower[0].length === 0 ? null :
+    [lower.map(numbers => quantile(numbers, 0.01)), upper.map(numbers => quantile(numbers, 0.99))];
+}
+
+/* Shows what moves, and of what is fixed all that is no larger than that and not far away. */
+function frameScene(camera, recording) {
+  const all = Array.from({ length: recording.bodyCount }, (_, body) => body);
+  const radiusOf = body => recording.shapes[shapeOf(recording, body)].radius;
+  const moving = all.filter(body => !isFixed(recording, body));
+  let box = boxOf(recording, moving);
+  if (box) {
+    const target = middle(...box), extent = Math.hypot(...add(box[1], box[0], -1)) / 2;
+    const isBeside = body => radiusOf(body) <= extent &&
+      samplesOf(recording, body).some(place => Math.hypot(...add(place, target, -1)) <= 2 * extent);
+    box = boxOf(recording, moving.concat(all.filter(body => isFixed(recording, body) && isBeside(body))));
+  }
+  box = box || boxOf(recording, all) || [[-1, -1, -1], [1, 1, 1]];
+  camera.target = middle(...box);
+  camera.extent = Math.max(Math.hypot(...add(box[1], box[0], -1)) / 2, 1e-30);
+  camera.reach = all.reduce((most, body) => samplesOf(recording, body)
+    .reduce((far, place) => Math.max(far, Math.hypot(...place) + radiusOf(body)), most), camera.extent);
+  const narrow = Math.min(1, camera.width / camera.height);
+  camera.distance = 0.92 * camera.extent / Math.sin(FIELD_OF_VIEW / 2) / narrow;
+}

@@ -1,0 +1,360 @@
+
+/* ---- page.js: what is shown now, and what changes it ---- */
+
+const element = id => document.getElementById(id);
+
+function readColours() {
+  const style = getComputedStyle(document.documentElement);
+  const names = ["paper", "ink", "quiet", "alone", "fixed", "near", "touching", "undecided", "one", "two", "normal", "manifold"];
+  const colours = Object.fromEntries(names.map(name => [name, style.getPropertyValue("--" + name).trim()]));
+  colours.nearMark = colours.one;
+  colours.touchingMark = colours.two;
+  return colours;
+}
+
+/* #rrggbb as 4 parts. */
+const partsOf = (colour, alpha = 255) => [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16)).concat(alpha);
+
+const mixed = (parts, others, share) => parts.map((part, k) => k < 3 ? Math.round(part + share * (others[k] - part)) : part);
+
+function startPage(recording) {
+  const canvas = element("solids"), overlay = element("overlay");
+  const context = overlay.getContext("2d");
+  const solids = makeSolids(canvas, recording);
+  const camera = makeCamera();
+  const state = { step: 0, picked: null, body: NO_BODY, isPlaying: false, begun: 0 };
+  let colours = readColours(), spots = [], moveLine = () => {}, isDue = false, outcomes = new Map(), answer = null;
+
+  /* -- drawing -- */
+
+  const paintOf = body => {
+    const outcome = outcomes.get(body);
+    const name = isFixed(recording, body) ? "fixed" : outcome !== undefined ? colourOfOutcome(outcome) : "alone";
+    const parts = partsOf(colours[name]);
+    if (!state.picked && body === state.body) {
+      return partsOf(colours.one);
+    }
+    if (!state.picked || !answer) {
+      return parts;
+    }
+    const place = state.picked.indexOf(body);
+    const alpha = isFixed(recording, body) ? 40 : 120; /* the ground does not hide what stands on it */
+    return place >= 0 ? partsOf(colours[place ? "two" : "one"], alpha) : mixed(partsOf(colours.alone), partsOf(colours.paper), 0.55);
+  };
+
+  const draw = () => {
+    isDue = false;
+    const ratio = overlay.width / camera.width;
+    context.setTransform(ratio, 0, 0, ratio, 0, 0);
+    context.clearRect(0, 0, camera.width, camera.height);
+    context.font = "12px " + getComputedStyle(document.body).fontFamily;
+    if (solids) {
+      drawSolids(solids, camera, partsOf(colours.paper));
+    } else {
+      drawOutlines(context, recording, state.step, camera, paintOf);
+    }
+    const project = projector(camera);
+    spots = [];
+    if (state.picked && answer) {
+      drawPicked(context, recording, answer, 0.6 * pairSize(), project, colours);
+      drawNames(project);
+    } else {
+      spots = drawPairs(context, recording, state.step, project, colours);
+    }
+    drawAxes(context, camera, colours);
+    drawScale(context, camera, colours);
+  };
+
+  /* The radius of the smaller body. */
+  const pairSize = () => Math.min(...state.picked.filter(body => body !== NO_BODY)
+    .map(body => recording.shapes[shapeOf(recording, body)].radius));
+
+  const drawNames = project => state.picked.forEach(body => {
+    const move = body === NO_BODY ? -1 : moveOf(recording, body, state.step);
+    const spot = move < 0 ? null : project(placeOf(recording, move));
+    if (spot) {
+      label(context, nameOf(recording, body), [spot[0] + 8, spot[1] - 8], colours);
+    }
+  });
+
+  const drawSoon = () => {
+    if (!isDue) {
+      isDue = true;
+      requestAnimationFrame(draw);
+    }
+  };
+
+  /* -- what the step and the pick say -- */
+
+  const refresh = () => {
+    const { step, picked } = state;
+    const pair = picked ? findPair(recording, step, ...picked) : -1;
+    answer = pair < 0 ? null : pairOf(recording, pair);
+    outcomes = new Map();
+    for (let at = recording.firstPair[step]; at < recording.firstPair[step + 1]; at++) {
+      for (const body of recording.pairBodies.subarray(2 * at, 2 * at + 2)) {
+        const known = outcomes.get(body);
+        outcomes.set(body, known === INTERSECTING ? known : recording.code(at, 0));
+      }
+    }
+    if (solids) {
+      loadBodies(solids, step, paintOf, answer ? picked : []);
+    }
+    element("step").value = step;
+    element("step-text").value = `step ${step} of 0 to ${recording.stepCount - 1}`;
+    showPair(element("pair"), recording, state, answer, { forget: () => pick(null), look: lookAtPair });
+    showList(recording, state, listedPairs(recording, state), pick);
+    showTallies(element("tallies"), recording, step);
+    moveLine(step);
+    drawSoon();
+  };
+
+  /* Of the picked pair, or of the nearest in each step. */
+  const refreshPlot = () => {
+    const series = [];
+    for (let step = 0; step < recording.stepCount; step++) {
+      const nearest = recording.firstPair[step] < recording.firstPair[step + 1] ? recording.firstPair[step] : -1;
+      const pair = state.picked ? findPair(recording, step, ...state.picked) : nearest;
+      if (pair >= 0) {
+        series.push({ step, ...gapOf(recording, pair) });
+      }
+    }
+    const title = state.picked ? "Gap of " + pairName(recording, state.picked) : "Nearest or deepest pair of each step";
+    moveLine = drawPlot(element("plot"), title, series, recording.stepCount, goTo);
+    moveLine(state.step);
+  };
+
+  const goTo = step => {
+    state.step = Math.min(recording.stepCount - 1, Math.max(0, step));
+    refresh();
+  };
+
+  const pick = bodies => {
+    state.picked = bodies;
+    refreshPlot();
+    refresh();
+  };
+
+  /* -- play -- */
+
+  const setPlaying = isPlaying => {
+    state.isPlaying = isPlaying;
+    element("play").textContent = isPlaying ? "Pause" : "Play";
+    if (isPlaying) {
+      if (state.step === recording.stepCount - 1) {
+        goTo(0);
+      }
+      startClock();
+    }
+  };
+
+  const startClock = () => {
+    const [from, start, rate] = [state.step, performance.now(), Number(element("speed").value)];
+    state.begun++;
+    const round = state.begun;
+    const tick = now => {
+      if (!state.isPlaying || round !== state.begun) {
+        return;
+      }
+      const step = from + Math.floor((now - start) / 1000 * rate);
+      if (step > state.step) {
+        goTo(step);
+      }
+      if (state.step === recording.stepCount - 1) {
+        setPlaying(false);
+      } else {
+        requestAnimationFrame(tick);
+      }
+    };
+    requestAnimationFrame(tick);
+  };
+
+  const goByHand = step => {
+    setPlaying(false);
+    goTo(step);
+  };
+
+  /* -- clicks in the scene -- */
+
+  const click = (x, y) => {
+    const near = spots.filter(({ spot }) => Math.hypot(spot[0] - x, spot[1] - y) < 8);
+    if (near.length > 0 && state.body === NO_BODY) {
+      const distance = ({ spot }) => Math.hypot(spot[0] - x, spot[1] - y);
+      const { pair } = near.reduce((best, other) => distance(other) < distance(best) ? other : best);
+      pick(Array.from(recording.pairBodies.subarray(2 * pair, 2 * pair + 2)));
+      return;
+    }
+    const body = solids ? bodyAt(solids, camera, x, y) : bodyNearest(recording, state.step, camera, x, y);
+    clickBody(body);
+  };
+
+  const clickBody = body => {
+    const both = [state.body, body].sort((a, b) => a - b);
+    const isPair = state.body !== NO_BODY && body !== NO_BODY && body !== state.body && !state.picked;
+    state.body = isPair || body === state.body ? NO_BODY : body;
+    pick(isPair ? both : null);
+    drawSoon();
+  };
+
+  const fingers = new Map();
+  let travelled = 0;
+  overlay.addEventListener("pointerdown", event => {
+    overlay.setPointerCapture(event.pointerId);
+    fingers.set(event.pointerId, [event.offsetX, event.offsetY]);
+    travelled = fingers.size > 1 ? Infinity : 0;
+  });
+  overlay.addEventListener("pointermove", event => {
+    const before = fingers.get(event.pointerId);
+    if (!before) {
+      return;
+    }
+    const now = [event.offsetX, event.offsetY];
+    const [dx, dy] = [now[0] - before[0], now[1] - before[1]];
+    travelled += Math.hypot(dx, dy);
+    if (fingers.size === 2) {
+      const other = Array.from(fingers).find(([id]) => id !== event.pointerId)[1];
+      const apart = spot => Math.max(10, Math.hypot(spot[0] - other[0], spot[1] - other[1]));
+      zoomCamera(camera, apart(before) / apart(now));
+      moveCamera(camera, dx / 2, dy / 2);
+    } else if (event.shiftKey || event.buttons & 6) {
+      moveCamera(camera, dx, dy);
+    } else {
+      turnCamera(camera, dx, dy);
+    }
+    fingers.set(event.pointerId, now);
+    drawSoon();
+  });
+  const letGo = event => {
+    const isClick = event.type === "pointerup" && fingers.has(event.pointerId) && travelled < 4;
+    fingers.delete(event.pointerId);
+    if (isClick && event.button === 0) {
+      click(event.offsetX, event.offsetY);
+    }
+  };
+  overlay.addEventListener("pointerup", letGo);
+  overlay.addEventListener("pointercancel", letGo);
+  overlay.addEventListener("contextmenu", event => event.preventDefault());
+  overlay.addEventListener("wheel", event => {
+    event.preventDefault();
+    zoomCamera(camera, Math.exp(event.deltaY * (event.deltaMode ? 0.05 : 0.0015)));
+    drawSoon();
+  }, { passive: false });
+
+  /* -- keys and controls -- */
+
+  const showAll = () => {
+    frameScene(camera, recording);
+    drawSoon();
+  };
+
+  const lookAtPair = () => {
+    if (answer && spotOf(answer, () => true)) {
+      camera.target = middle(...answer.drawn);
+      camera.distance = 5 * Math.max(pairSize(), Math.hypot(...add(answer.drawn[0], answer.drawn[1], -1)));
+      drawSoon();
+    }
+  };
+
+  const neighbour = offset => {
+    const pairs = listedPairs(recording, state);
+    const at = pairs.indexOf(state.picked ? findPair(recording, state.step, ...state.picked) : -1);
+    const pair = pairs[Math.min(pairs.length - 1, Math.max(0, at + offset))];
+    if (pair !== undefined) {
+      pick(Array.from(recording.pairBodies.subarray(2 * pair, 2 * pair + 2)));
+    }
+  };
+
+  const KEYS = {
+    " ": () => setPlaying(!state.isPlaying),
+    ArrowLeft: stride => goByHand(state.step - stride),
+    ArrowRight: stride => goByHand(state.step + stride),
+    Home: () => goByHand(0),
+    End: () => goByHand(recording.stepCount - 1),
+    ArrowUp: () => neighbour(-1),
+    ArrowDown: () => neighbour(1),
+    f: showAll,
+    l: lookAtPair,
+    Escape: () => {
+      state.body = NO_BODY;
+      pick(null);
+    },
+  };
+  document.addEventListener("keydown", event => {
+    const isTyping = event.target.tagName === "SELECT" || (event.key === " " && event.target.tagName === "BUTTON");
+    const act = KEYS[event.key.length === 1 ? event.key.toLowerCase() : event.key];
+    if (act && !isTyping && !event.ctrlKey && !event.metaKey && !event.altKey) {
+      event.preventDefault();
+      act(event.shiftKey ? 10 : 1);
+    }
+  });
+  element("step").max = recording.stepCount - 1;
+  element("step").addEventListener("input", () => goByHand(Number(element("step").value)));
+  element("play").addEventListener("click", () => setPlaying(!state.isPlaying));
+  element("speed").addEventListener("change", () => state.isPlaying && startClock());
+  element("frame").addEventListener("click", showAll);
+  element("up").addEventListener("change", () => {
+    camera.up = Number(element("up").value);
+    drawSoon();
+  });
+  matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
+    colours = readColours();
+    refresh();
+  });
+  new ResizeObserver(() => {
+    const ratio = Math.min(devicePixelRatio || 1, 2);
+    [camera.width, camera.height] = [Math.max(1, overlay.clientWidth), Math.max(1, overlay.clientHeight)];
+    for (const surface of [canvas, overlay]) {
+      [surface.width, surface.height] = [Math.round(camera.width * ratio), Math.round(camera.height * ratio)];
+    }
+    draw();
+  }).observe(overlay);
+
+  [camera.width, camera.height] = [Math.max(1, overlay.clientWidth), Math.max(1, overlay.clientHeight)];
+  frameScene(camera, recording);
+  describe(recording, Boolean(solids));
+  refreshPlot();
+  refresh();
+  return { state, camera, recording, goTo, pick, draw, isSolid: Boolean(solids),
+    spotOfBody: body => projector(camera)(placeOf(recording, moveOf(recording, body, state.step))) };
+}
+
+/* What does not change. */
+function describe(recording, isSolid) {
+  const { head } = recording;
+  document.title = head.scene + " – swiftprox";
+  element("title").textContent = head.scene;
+  const bounds = head.tolerance === undefined ? "" : ", tolerance " + head.tolerance;
+  element("about").textContent = `${counted(recording.stepCount, "step")}, ${counted(recording.bodyCount, "convex body").replace("bodys", "bodies")}, ` +
+    `${counted(recording.pairCount, "pair")}${bounds}; swiftprox ${head.version}`;
+  if (head.cutOff) {
+    element("caution").hidden = false;
+    element("caution").textContent = "The recording was not ended; this is what there is of it.";
+  }
+  if (!isSolid) {
+    element("notice").hidden = false;
+    element("notice").textContent = "This browser gives no WebGL 2, so that bodies are drawn as their edges alone, and of a large scene not all.";
+  }
+  const entries = [["touching", "intersecting"], ["near", "listed as near"], ["undecided", "undecided"], ["alone", "not listed"], ["fixed", "fixed"]];
+  const used = entries.filter(([name]) => name !== "undecided" || hasUndecided(recording));
+  element("legend").replaceChildren(...used.map(([name, words]) => {
+    const dot = make("i", {});
+    dot.style.background = `var(--${name})`;
+    return make("li", {}, dot, words);
+  }));
+  const origin = head.origin.map(x => shortly(x)).join(", ");
+  element("precision").textContent = "Numbers of pairs are the doubles of the answers, rounded as swiftprox-replay prints them: " +
+    "lower ends down, upper ends up. Bodies are drawn from places in single precision, seen from (" + origin + "), and from turns " +
+    `of which each part is rounded to 1/${head.turnScale}. Lengths are in the unit of the shapes' vertices; a step is a query.`;
+}
+
+function hasUndecided(recording) {
+  for (let pair = 0; pair < recording.pairCount; pair++) {
+    if (colourOfOutcome(recording.code(pair, 0)) === "undecided") {
+      return true;
+    }
+  }
+  return false;
+}
+
+/* For the console, and for tests. */
+const page = startPage(readRecording());

@@ -1,0 +1,342 @@
+#!/usr/bin/env python3
+"""Tests the page of swiftprox-replay --html:  test_page.py TOOL RECORDER Data|Browser
+
+Data looks into the file, Browser opens it in headless Chromium."""
+import base64
+import decimal
+import json
+import math
+import os
+import random
+import re
+import resource
+import signal
+import struct
+import subprocess
+import sys
+import tempfile
+import unittest
+
+import browser
+
+TOOL, RECORDER = sys.argv[1], sys.argv[2]  # the second writes a recording to the file that it is given
+MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "models")
+HEAD = "# swiftprox scene 1\n"
+BOXES = HEAD + f"shape box {MODELS}/box.off\nobject box fixed\nobject box\nobject box\n"  # half sides 0.8, 0.5, 0.3
+INTERSECTING = 3
+STEP_WORDS, PAIR_CODES = 22, 9  # as tools/page/recording.js has them
+
+
+def at(number, x, y=0, z=0):
+    return f"{number} 1 0 0 {x} 0 1 0 {y} 0 0 1 {z}\n"
+
+
+def printed(value, rounding=decimal.ROUND_HALF_EVEN):
+    """As printf("%.17g") in that direction."""
+    if not math.isfinite(value) or value == 0:
+        return "%g" % value
+    digits = decimal.Context(prec=17, rounding=rounding).create_decimal(decimal.Decimal(value))
+    power = digits.adjusted()
+    mantissa = "".join(map(str, digits.as_tuple().digits)).ljust(17, "0")[:17]
+    sign = "-" if value < 0 else ""
+    if -4 <= power < 17:
+        digits = "0" * -power + mantissa
+        point = max(power, 0) + 1
+        return (sign + digits[:point] + "." + digits[point:]).rstrip("0").rstrip(".")
+    return f"{sign}{mantissa[0]}.{mantissa[1:]}".rstrip("0").rstrip(".") + "e%+03d" % power
+
+
+class Page(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory()
+        self.addCleanup(folder.cleanup)
+        self.folder = folder.name
+
+    def path(self, name):
+        return os.path.join(self.folder, name)
+
+    def file(self, content, name="scene.txt"):
+        with open(self.path(name), "w") as out:
+            out.write(content)
+        return self.path(name)
+
+    def recording(self):
+        subprocess.run([RECORDER, self.path("scene.swiftprox")], check=True, timeout=60)
+        return self.path("scene.swiftprox")
+
+    def run_tool(self, *arguments, **options):
+        return subprocess.run([TOOL, *arguments], capture_output=True, text=True, timeout=60, **options)
+
+    def make(self, scene, *options):
+        """The page of a scene."""
+        done = self.run_tool(scene, *options, "--html", self.path("page.html"))
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.assertRegex(done.stdout, r"page\.html: \d+\.\d MB, \d+ steps, \d+ bodies, \d+ of \d+ pairs\n$")
+        return self.path("page.html")
+
+    def lines(self, scene, *options):
+        """What the tool prints of it."""
+        done = self.run_tool(scene, *options)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        return done.stdout.splitlines()
+
+
+def blocks(path):
+    with open(path, encoding="utf-8") as page:
+        text = page.read()
+    found = {name: base64.b64decode(data) for name, data in re.findall(r'<script type="text/plain" id="([\w.]+)">([^<]*)<', text)}
+    return json.loads(re.search(r'id="head">(.*?)</script>', text)[1]), found
+
+
+def numbers(data, kind):
+    return [number for number, in struct.iter_unpack("<" + kind, data)]
+
+
+def groups(items, size):
+    return [items[i:i + size] for i in range(0, len(items), size)]
+
+
+class Data(Page):
+    def test_it_loads_nothing(self):
+        with open(self.make(self.file(BOXES + "step\n")), encoding="utf-8") as page:
+            text = page.read()
+        self.assertIn("default-src 'none'", text)
+        self.assertEqual(set(re.findall(r"https?://[^\"'` ]*", text)), {"http://www.w3.org/2000/svg"})  # the name of SVG
+        self.assertEqual(re.findall(r"(?:\ssrc|\shref)\s*=|url\(|@import|\bfetch\(|\bimport\(|XMLHttpRequest|WebSocket", text), [])
+        self.assertEqual(re.findall(r"@[A-Z]+@", text), [])
+        self.assertLess(len(text), 100000)
+
+    def test_names_of_files_stay_text(self):
+        scene = self.file(BOXES + "step\n", "a<script><!-- \"\\.txt")
+        head, _ = blocks(self.make(scene))
+        self.assertEqual(head["scene"], os.path.basename(scene))
+
+    def test_numbers_are_those_that_are_printed(self):
+        draw = random.Random(5)
+        scene = BOXES
+        for _ in range(6):
+            scene += "step\n" + at(1, *(draw.uniform(-1.5, 1.5) for _ in range(3))) + at(2, *(draw.uniform(-2, 2) for _ in range(3)))
+        options = ("--query", "contact", "--tolerance", "2")
+        _, data = blocks(self.make(self.file(scene), *options))
+        counts = [words[2] for words in groups(numbers(data["steps"], "I"), STEP_WORDS)]
+        steps = [step for step, count in enumerate(counts) for _ in range(count)]
+        lines = []
+        for step, bodies, codes, (value, lower, upper) in zip(
+                steps, groups(numbers(data["pair.bodies"], "I"), 2), groups(data["pair.codes"], PAIR_CODES),
+                groups(numbers(data["pair.intervals"], "d"), 3)):
+            if codes[0] == INTERSECTING:
+                self.assertTrue(0 <= lower <= value <= upper)
+                lines.append(f"{step} {bodies[0]} {bodies[1]} intersecting 0 0 0 {printed(value)}")
+            else:
+                lines.append(f"{step} {bodies[0]} {bodies[1]} separated {printed(value)} "
+                             f"{printed(lower, decimal.ROUND_FLOOR)} {printed(upper, decimal.ROUND_CEILING)} nan")
+        self.assertGreater(len(lines), 10)
+        self.assertEqual(sorted(lines), sorted(self.lines(self.path("scene.txt"), *options)))
+
+    def test_poses_are_those_of_the_scene_up_to_the_precision_that_is_said(self):
+        draw = random.Random(3)
+        scene, poses, far = BOXES, [], 1e6  # far from the world's origin, where floats are coarse
+        for _ in range(20):
+            scene += "step\n"
+            moved = {}
+            for body in draw.sample(range(3), 2):
+                q = [draw.gauss(0, 1) for _ in range(4)]
+                size = math.hypot(*q)
+                x, y, z, w = (part / size for part in q)
+                rows = [[1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+                        [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+                        [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)]]
+                place = [far + draw.uniform(-5, 5) for _ in range(3)]
+                moved[body] = [rows[i] + [place[i]] for i in range(3)]
+                scene += f"{body} " + " ".join(repr(number) for row in moved[body] for number in row) + "\n"
+            poses.append(moved)
+        head, data = blocks(self.make(self.file(scene), "--query", "intersection"))
+        centre = head["shapes"][0]["centre"]
+        moves = iter(zip(numbers(data["move.bodies"], "I"), groups(numbers(data["move.places"], "f"), 3),
+                         groups(numbers(data["move.turns"], "h"), 4)))
+        counts = [words[1] for words in groups(numbers(data["steps"], "I"), STEP_WORDS)]
+        self.assertEqual(counts, [3] + [2] * 19)  # what stands still is not told again
+        for step, moved in enumerate(poses):
+            for _ in range(counts[step]):
+                body, place, turn = next(moves)
+                if body not in moved:
+                    continue
+                rows = moved[body]
+                reach = max(abs(part) for part in place)
+                for k in range(3):
+                    true = sum(rows[k][i] * centre[i] for i in range(3)) + rows[k][3]
+                    self.assertLessEqual(abs(place[k] + head["origin"][k] - true), reach * 2.0 ** -23 + 1e-9)
+                x, y, z, w = (part / head["turnScale"] for part in turn)
+                self.assertAlmostEqual(math.hypot(x, y, z, w), 1, delta=1e-4)
+                self.assertAlmostEqual(1 - 2 * (y * y + z * z), rows[0][0], delta=2e-4)
+                self.assertAlmostEqual(2 * (x * y + z * w), rows[1][0], delta=2e-4)
+                self.assertAlmostEqual(2 * (x * z - y * w), rows[2][0], delta=2e-4)
+                self.assertAlmostEqual(2 * (y * z + x * w), rows[2][1], delta=2e-4)
+
+    def test_a_recording_of_objects_that_come_and_go(self):
+        _, data = blocks(self.make(self.recording(), "--verify"))
+        gone = [body for body, place in zip(numbers(data["move.bodies"], "I"), groups(numbers(data["move.places"], "f"), 3))
+                if math.isnan(place[0])]
+        self.assertEqual(gone, [1])
+        pairs = groups(numbers(data["pair.bodies"], "I"), 2)
+        self.assertEqual(sorted(pairs), [[0, 1], [0, 1], [0, 2], [0, 3], [1, 2], [2, 0xffffffff]])
+
+    def test_the_nearest_pairs_are_kept_where_all_have_no_room(self):
+        count, steps = 340, 7
+        draw = random.Random(1)
+        scene = HEAD + f"shape box {MODELS}/box.off\n" + "object box\n" * count
+        for _ in range(steps):
+            scene += "step\n" + "".join(at(i, *(draw.uniform(-40, 40) for _ in range(3))) for i in range(count))
+        page = self.make(self.file(scene))
+        self.assertLess(os.path.getsize(page), 57e6)
+        self.assertGreater(os.path.getsize(page), 55e6)
+        _, data = blocks(page)
+        words = groups(numbers(data["steps"], "I"), STEP_WORDS)
+        self.assertEqual([row[3] for row in words], [count * (count - 1) // 2] * steps)
+        kept = words[0][2]
+        self.assertEqual([row[2] for row in words], [kept] * steps)
+        values = groups(numbers(data["pair.intervals"], "d"), 3)
+        distances = [0 if math.isnan(value) else value for value, _, _ in values[:kept]]
+        self.assertEqual(distances, sorted(distances))
+        listed = sorted(float(line.split()[4]) for line in self.lines(self.file(scene.split("step\n")[0] + "step\n" +
+                                                                               scene.split("step\n")[1])))
+        self.assertEqual(distances, listed[:kept])
+
+    def test_refusals_leave_what_was_there(self):
+        page = self.file("kept", "page.html")
+        scene = self.file(BOXES + "step\n")
+
+        def refused(status, message, *arguments, **options):
+            done = self.run_tool(*arguments, **options)
+            self.assertEqual((done.returncode, done.stdout), (status, ""))
+            self.assertIn(message, done.stderr)
+            with open(page) as file:
+                self.assertEqual(file.read(), "kept")
+            self.assertEqual([name for name in os.listdir(self.folder) if name.endswith(".part")], [])
+
+        refused(2, "No such file", scene, "--html", self.path("none/page.html"))
+        refused(2, "irectory", scene, "--html", self.folder)
+        refused(2, "it is a device or a pipe", scene, "--html", "/dev/null")
+        refused(2, "--html would replace the scene", scene, "--html", scene)
+        refused(2, "--html has no meaning beside --bench", scene, "--html", page, "--bench", "1")
+        refused(2, "there is no step to show", self.file(BOXES, "empty.txt"), "--html", page)
+        refused(2, "No such file", self.path("missing.txt"), "--html", page)
+
+        def no_room():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (4096, 4096))
+
+        refused(1, "page.html: it cannot be written: File too large", scene, "--html", page, preexec_fn=no_room)
+        refused(1, "out.html: it cannot be written: File too large", scene, "--html", self.path("out.html"), preexec_fn=no_room)
+        self.assertNotIn("out.html", os.listdir(self.folder))
+
+
+class Browser(Page):
+    def open(self, tab, page):
+        tab.open("file://" + page)
+        failed = [event for event in tab.events if event.get("method") == "Runtime.exceptionThrown"]
+        self.assertEqual(failed, [])
+        loaded = {event["params"]["request"]["url"] for event in tab.events if event.get("method") == "Network.requestWillBeSent"}
+        self.assertEqual(loaded, {"file://" + page})
+
+    def around(self, tab, spot, radius=2):
+        """The colours about a place of the view."""
+        return {pixel for row in tab.pixels((spot[0] - radius, spot[1] - radius, 2 * radius + 1, 2 * radius + 1)) for pixel in row}
+
+    def test_the_page(self):
+        with browser.Browser(1000, 700) as tab:
+            self.numbers_are_printed_alike(tab)
+            self.every_pair_says_what_the_tool_prints(tab, self.recording())
+            self.every_pair_says_what_the_tool_prints(tab, self.boxes(), "--query", "contact", "--tolerance", "3")
+            self.bodies_are_where_they_are(tab)
+            self.pairs_are_picked_by_clicks(tab)
+            self.it_plays_and_obeys_keys(tab)
+
+    def boxes(self):
+        """Three boxes beside each other; the third moves over the second, then into it."""
+        return self.file(BOXES + "step\n" + at(1, 3) + at(2, 6) + "step\n" + at(2, 3.1, 0.2, 1) + "step\n" + at(2, 3.1, 0.2, 0.45))
+
+    def numbers_are_printed_alike(self, tab):
+        self.open(tab, self.make(self.boxes()))
+        draw = random.Random(9)
+        values = [0.0, -0.0, 1.0, 0.1, 100.0, 1e16, 1e17, 123456789012345678.0, 1e-4, 1e-5, 5e-324, 1.7976931348623157e308, 2.0 ** -25,
+                  -2.0 ** -25, 0.5 + 2.0 ** -53, 1 - 2.0 ** -53, 9.9999999999999999e22, 0.0001 - 2.0 ** -66]
+        while len(values) < 300:
+            value, = struct.unpack("<d", draw.randbytes(8))
+            values += [value, draw.uniform(-1, 1)] if math.isfinite(value) else []
+        for direction, rounding in ((0, decimal.ROUND_HALF_EVEN), (-1, decimal.ROUND_FLOOR), (1, decimal.ROUND_CEILING)):
+            shown = tab.run(f"{json.dumps(values)}.map(value => printed(value, {direction}))")
+            self.assertEqual(shown, [printed(value, rounding) for value in values])
+        self.assertEqual([printed(value) for value in values], ["%.17g" % value for value in values])
+
+    def every_pair_says_what_the_tool_prints(self, tab, scene, *options):
+        self.open(tab, self.make(scene, *options))
+        shown = []
+        for step in range(tab.run("Number(document.getElementById('step').max)") + 1):
+            tab.run(f"(() => {{ const slider = document.getElementById('step'); slider.value = {step};"
+                    " slider.dispatchEvent(new Event('input')); })()")
+            rows = tab.run("document.querySelectorAll('#list tbody tr').length")
+            for row in range(rows):
+                tab.run(f"document.querySelectorAll('#list tbody tr')[{row}].click()")
+                shown.append(tab.run("document.getElementById('line').textContent"))
+        self.assertEqual(sorted(shown), sorted(self.lines(scene, *options)))
+
+    def bodies_are_where_they_are(self, tab):
+        """By their projections: a body is drawn there, not another colour, and not where it is no more."""
+        self.open(tab, self.make(self.boxes(), "--query", "contact", "--tolerance", "0"))
+        self.assertTrue(tab.run("page.isSolid"))
+        paper = {tuple(tab.run("partsOf(readColours().paper).slice(0, 3)"))}
+        tab.frame()
+        spots = [tab.run(f"page.spotOfBody({body})") for body in range(3)]
+        for spot in spots:
+            self.assertNotIn(paper, [self.around(tab, spot)])
+        before = self.around(tab, spots[2])
+        tab.key("ArrowRight")
+        tab.frame()
+        self.assertEqual(self.around(tab, spots[2]), paper)  # it has gone
+        self.assertNotEqual(before, paper)
+        self.assertNotEqual(self.around(tab, tab.run("page.spotOfBody(2)")), paper)
+        apart = self.around(tab, tab.run("page.spotOfBody(1)"))
+        tab.key("ArrowRight")
+        tab.frame()
+        self.assertNotEqual(self.around(tab, tab.run("page.spotOfBody(1)")), apart)  # the colour of what intersects
+
+    def pairs_are_picked_by_clicks(self, tab):
+        self.open(tab, self.make(self.boxes(), "--query", "distance", "--tolerance", "3"))
+        tab.frame()
+        for body in (2, 1):
+            tab.click(*tab.run(f"page.spotOfBody({body})"))
+        self.assertEqual(tab.run("page.state.picked"), [1, 2])
+        self.assertEqual(tab.run("document.getElementById('line').textContent").split()[:3], ["0", "1", "2"])
+        tab.key("Escape")
+        self.assertIsNone(tab.run("page.state.picked"))
+        tab.frame()
+        between = tab.run("projector(page.camera)(middle(...pairOf(page.recording, findPair(page.recording, 0, 0, 1)).drawn))")
+        tab.click(*between)
+        self.assertEqual(tab.run("page.state.picked"), [0, 1])
+
+    def it_plays_and_obeys_keys(self, tab):
+        self.assertEqual(tab.run("page.state.step"), 0)
+        tab.key("End")
+        self.assertEqual(tab.run("page.state.step"), 2)
+        tab.key("Home")
+        tab.run("document.getElementById('speed').value = '60'")
+        tab.key(" ")
+        tab.run("new Promise(done => { const look = () => page.state.step === 2 ? done() : setTimeout(look, 10); look(); })")
+        self.assertEqual(tab.run("document.getElementById('step-text').textContent"), "step 2 of 0 to 2")
+        self.assertEqual(tab.run("document.getElementById('play').textContent"), "Play")
+
+    def test_without_webgl_edges_are_drawn_and_words_say_so(self):
+        with browser.Browser(1000, 700, ["--disable-3d-apis"]) as tab:
+            self.open(tab, self.make(self.boxes()))
+            self.assertFalse(tab.run("page.isSolid"))
+            self.assertIn("no WebGL 2", tab.run("document.getElementById('notice').textContent"))
+            tab.frame()
+            spot = tab.run("page.spotOfBody(1)")
+            self.assertGreater(len(self.around(tab, spot, 40)), 1)
+            tab.click(*spot)
+            self.assertEqual(tab.run("page.state.body"), 1)
+
+
+if __name__ == "__main__":
+    unittest.main(argv=[sys.argv[0], *sys.argv[3:]])
