@@ -1,6 +1,7 @@
-//! The project itself: the order of its code, its exports, its README.
+//! The project itself: the order of its code, its exports, the layout of its structs, its README.
 
 mod architecture;
 mod cpp;
+mod layout;
 mod readme;
 mod symbols;
