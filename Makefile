@@ -70,7 +70,7 @@ check:
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
 test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config abidiff=abigail-tools $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
 	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz lint
 
@@ -88,7 +88,7 @@ test-rust:
 # in the end: it fails no test, but nobody should have to look for it.
 test-c:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config abidiff=abigail-tools $(PEERS)
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true

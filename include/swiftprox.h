@@ -40,6 +40,10 @@
  * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
  * results, features, statistics, meshes, caches, ids) stay as they are within a major version, while that is 0 within a minor one.
  *
+ * Stability. Each function says that it is stable or experimental. A stable one keeps its arguments and its meaning as structs of
+ * fixed size keep their members: within a major version, while that is 0 within a minor one. An experimental one may change or go
+ * in any version, and so may what it alone takes or fills.
+ *
  * Enums. Each is a type of its own, as large as an int32_t, so that compilers warn where two are mixed up. Any number is safe to
  * hand over: those that are no enumerators are refused, and get words that say so.
  *
@@ -108,7 +112,11 @@ extern "C" {
 /** Patch version of this header. */
 #define SWIFTPROX_VERSION_PATCH 0
 
-/** The version of the library that runs, as "major.minor.patch". Never null, valid for ever. */
+/**
+ * The version of the library that runs, as "major.minor.patch". Never null, valid for ever.
+ *
+ * Stable.
+ */
 const char *swiftprox_library_version(void);
 
 /** What a call returns. The numbers are never reused. */
@@ -166,6 +174,8 @@ typedef char swiftprox_enums_are_32_bits[sizeof(swiftprox_status) == 4 ? 1 : -1]
  * SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and SWIFTPROX_VERSION_PATCH, which are then those of the program.
  *
  * SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_library_check_version(int32_t major,
@@ -175,10 +185,16 @@ swiftprox_status swiftprox_library_check_version(int32_t major,
 /**
  * What went wrong in the last call of this thread that did not return SWIFTPROX_OK; the empty string before the first. Never
  * null; valid until the next such call of the same thread, or its end.
+ *
+ * Stable.
  */
 const char *swiftprox_library_last_error_message(void);
 
-/** A status in words. Never null, valid for ever; a number that is no status gets a string that says so. */
+/**
+ * A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
+ *
+ * Stable.
+ */
 const char *swiftprox_library_status_string(swiftprox_status status);
 
 /** @} */
@@ -270,6 +286,8 @@ typedef struct swiftprox_shape_options {
 /**
  * Fills `options` with the defaults. Call it as swiftprox_shape_options_init(&options), which hands over the size that the program
  * was compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_shape_options_init_sized(struct swiftprox_shape_options *options,
                                         size_t struct_size);
@@ -283,6 +301,8 @@ void swiftprox_shape_options_init_sized(struct swiftprox_shape_options *options,
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
  * SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
  * or vertices where there are some.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_estimate_tolerance(const double *vertices,
@@ -361,6 +381,8 @@ swiftprox_status swiftprox_mesh_decompose(const double *vertices,
  * SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFTPROX_ERROR_LIMIT: a count does not fit
  * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER,
  * SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_create_from_mesh(const double *vertices,
@@ -383,6 +405,8 @@ swiftprox_status swiftprox_shape_create_from_mesh(const double *vertices,
  * SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message
  * names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_create_from_points(const double *points,
@@ -406,6 +430,8 @@ swiftprox_status swiftprox_shape_create_from_points(const double *points,
  * name the file.
  * SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT,
  * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_create_from_file(const char *path,
@@ -425,6 +451,8 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
  * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *source,
@@ -436,12 +464,16 @@ swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *sou
 /**
  * Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
  * from any thread. Of null it returns null.
+ *
+ * Stable.
  */
 const struct swiftprox_shape *swiftprox_shape_retain(const struct swiftprox_shape *shape);
 
 /**
  * Gives back one share of a shape that the caller owns, from a function that made the shape or from swiftprox_shape_retain. The
  * last share frees the shape; scenes hold shares of their own. Safe from any thread. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_shape_release(const struct swiftprox_shape *shape);
 
@@ -484,6 +516,8 @@ typedef struct swiftprox_shape_info {
  * The inertia takes time in proportion to the triangles.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
@@ -495,6 +529,8 @@ swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is
  * null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_copy_vertices(const struct swiftprox_shape *shape,
@@ -510,6 +546,8 @@ swiftprox_status swiftprox_shape_copy_vertices(const struct swiftprox_shape *sha
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or corners is
  * null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *shape,
@@ -526,6 +564,8 @@ swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *sh
  *
  * SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
  * stays, and the shape can be used as before. SWIFTPROX_ERROR_NULL_POINTER: shape is null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_prepare(const struct swiftprox_shape *shape,
@@ -541,6 +581,8 @@ swiftprox_status swiftprox_shape_prepare(const struct swiftprox_shape *shape,
  * SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
  * names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was. SWIFTPROX_ERROR_NULL_POINTER,
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_save(const struct swiftprox_shape *shape,
@@ -558,6 +600,8 @@ swiftprox_status swiftprox_shape_save(const struct swiftprox_shape *shape,
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
  * of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
  * progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_load(const char *path,
@@ -725,6 +769,8 @@ typedef struct swiftprox_pair_config {
 /**
  * Fills `config` with the defaults. Call it as swiftprox_pair_config_init(&config), which hands over the size that the program was
  * compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
                                       size_t struct_size);
@@ -743,6 +789,8 @@ void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
  * SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
  * range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_NULL_POINTER,
  * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is reset, too.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_distance(const struct swiftprox_shape *shape1,
@@ -757,6 +805,8 @@ swiftprox_status swiftprox_pair_distance(const struct swiftprox_shape *shape1,
  * As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
  * which the objects overlap least and the features that meet there: those of swiftprox_pair_depth, which says how deep they are in
  * each other, and where. Arguments and errors as of swiftprox_pair_distance.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_contact(const struct swiftprox_shape *shape1,
@@ -771,6 +821,8 @@ swiftprox_status swiftprox_pair_contact(const struct swiftprox_shape *shape1,
  * The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
  * need not be tight; and SWIFTPROX_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies
  * intersect or nearly do. Arguments and errors as of swiftprox_pair_distance.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape1,
@@ -788,6 +840,8 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
  * goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
  * comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1,
@@ -817,6 +871,8 @@ swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1
  * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
  * answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
  * apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
@@ -828,15 +884,23 @@ swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
 /**
  * An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
  * that says so.
+ *
+ * Stable.
  */
 const char *swiftprox_library_outcome_string(swiftprox_outcome outcome);
 
-/** What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so. */
+/**
+ * What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
+ *
+ * Stable.
+ */
 const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by);
 
 /**
  * A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
  * number that is no kind gets a string that says so.
+ *
+ * Stable.
  */
 const char *swiftprox_library_feature_kind_string(swiftprox_feature_kind kind);
 
@@ -942,6 +1006,8 @@ typedef struct swiftprox_depth_config {
 /**
  * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
  * was compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
                                        size_t struct_size);
@@ -953,6 +1019,8 @@ void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
  * separates them: swiftprox_pair_distance tells how far.
  *
  * Arguments and errors as of swiftprox_pair_distance; the cache is one for depths alone, and config may be null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
@@ -975,6 +1043,8 @@ swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
  * Takes time linear in the number of vertices and in the size of the cache.
  *
  * Errors as of swiftprox_pair_verify.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape1,
@@ -984,7 +1054,11 @@ swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape
                                              const struct swiftprox_depth_cache *cache,
                                              const struct swiftprox_depth_answer *answer);
 
-/** How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so. */
+/**
+ * How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
+ *
+ * Stable.
+ */
 const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
 
 /** @} */
@@ -1068,6 +1142,8 @@ typedef struct swiftprox_manifold_config {
 /**
  * Fills `config` with the defaults. Call it as swiftprox_manifold_config_init(&config), which hands over the size that the program
  * was compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *config,
                                           size_t struct_size);
@@ -1085,6 +1161,8 @@ void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *conf
  *
  * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
  * On failure the manifold is reset, and points are as they were.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
@@ -1156,6 +1234,8 @@ typedef struct swiftprox_motion {
  *
  * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0
  * on. SWIFTPROX_ERROR_NULL_POINTER. Then nothing is written.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_motion_between(const double *pose1,
@@ -1225,6 +1305,8 @@ typedef struct swiftprox_cast_config {
 /**
  * Fills `config` with the defaults. Call it as swiftprox_cast_config_init(&config), which hands over the size that the program was
  * compiled with. Null is ignored.
+ *
+ * Experimental.
  */
 void swiftprox_cast_config_init_sized(struct swiftprox_cast_config *config,
                                       size_t struct_size);
@@ -1242,6 +1324,8 @@ void swiftprox_cast_config_init_sized(struct swiftprox_cast_config *config,
  * that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when.
  * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is
  * reset, too.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_cast(const struct swiftprox_shape *shape1,
@@ -1266,6 +1350,8 @@ swiftprox_status swiftprox_pair_cast(const struct swiftprox_shape *shape1,
  *
  * SWIFTPROX_ERROR_UNVERIFIED: something does not hold, or is not proved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT:
  * an enumerator in the answer is unknown, or it holds no outcome. Others as of swiftprox_pair_cast and swiftprox_pair_verify.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_cast_verify(const struct swiftprox_shape *shape1,
@@ -1306,6 +1392,8 @@ typedef struct swiftprox_clearance_config {
 /**
  * Fills `config` with the defaults. Call it as swiftprox_clearance_config_init(&config), which hands over the size that the
  * program was compiled with. Null is ignored.
+ *
+ * Experimental.
  */
 void swiftprox_clearance_config_init_sized(struct swiftprox_clearance_config *config,
                                            size_t struct_size);
@@ -1315,6 +1403,8 @@ void swiftprox_clearance_config_init_sized(struct swiftprox_clearance_config *co
  * The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or
  * as can be proved. It is wider where the step budget runs out, and where rounding of poses hides more. Arguments and errors as of
  * swiftprox_pair_cast; on failure the numbers are NaN.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
@@ -1325,7 +1415,11 @@ swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
                                           const struct swiftprox_clearance_config *config,
                                           struct swiftprox_clearance *answer);
 
-/** How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so. */
+/**
+ * How a cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ *
+ * Experimental.
+ */
 const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome);
 
 /** @} */
@@ -1385,6 +1479,8 @@ typedef struct swiftprox_scene_options {
 /**
  * Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
  * was compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
                                         size_t struct_size);
@@ -1397,6 +1493,8 @@ void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
  * other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
  * the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_create(const struct swiftprox_scene_options *options,
@@ -1408,6 +1506,8 @@ swiftprox_status swiftprox_scene_create(const struct swiftprox_scene_options *op
  *
  * SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
  * of its memory. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the scene is gone, and its recording was not written to its end.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_destroy(struct swiftprox_scene *scene);
@@ -1450,6 +1550,8 @@ typedef struct swiftprox_object_options {
 /**
  * Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
  * program was compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_object_options_init_sized(struct swiftprox_object_options *options,
                                          size_t struct_size);
@@ -1461,6 +1563,8 @@ void swiftprox_object_options_init_sized(struct swiftprox_object_options *option
  *
  * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds. SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_add_shape(struct swiftprox_scene *scene,
@@ -1476,6 +1580,8 @@ swiftprox_status swiftprox_scene_add_shape(struct swiftprox_scene *scene,
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects or
  * pieces than a scene holds. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names
  * the argument. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
@@ -1487,6 +1593,8 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
 /**
  * Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
  * with the arguments and the errors of both. Both options may be null for the defaults.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_add_mesh(struct swiftprox_scene *scene,
@@ -1502,6 +1610,8 @@ swiftprox_status swiftprox_scene_add_mesh(struct swiftprox_scene *scene,
 /**
  * Makes a shape as swiftprox_shape_create_from_file does and adds an object of that one piece as swiftprox_scene_add_object does,
  * with the arguments and the errors of both. Both options may be null for the defaults.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
@@ -1517,6 +1627,8 @@ swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
  * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  * SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
@@ -1527,6 +1639,8 @@ swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
  * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
@@ -1537,6 +1651,8 @@ swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
  * an object that was removed. Two ids name the same object if their bits are equal.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *scene,
@@ -1550,6 +1666,8 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
  * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *scene,
@@ -1562,13 +1680,19 @@ swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *s
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
  * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_pose(struct swiftprox_scene *scene,
                                           struct swiftprox_object_id id,
                                           const double *pose);
 
-/** As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`. */
+/**
+ * As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
+ *
+ * Stable.
+ */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id,
@@ -1582,6 +1706,8 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
  * Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
  * pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
  * scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
@@ -1596,13 +1722,19 @@ swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
  * Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
  * SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
  * poses is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_all_poses(struct swiftprox_scene *scene,
                                                const double *poses,
                                                size_t count);
 
-/** As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object. */
+/**
+ * As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+ *
+ * Stable.
+ */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scene,
                                                     const double *rotations,
@@ -1617,6 +1749,8 @@ swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scen
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  * SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
@@ -1630,6 +1764,8 @@ swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *scene,
@@ -1642,6 +1778,8 @@ swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *sc
  * remember stays.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_fixed(struct swiftprox_scene *scene,
@@ -1652,6 +1790,8 @@ swiftprox_status swiftprox_scene_set_fixed(struct swiftprox_scene *scene,
  * Sets the number that comes back in every result of this object.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_user_data(struct swiftprox_scene *scene,
@@ -1681,6 +1821,8 @@ typedef struct swiftprox_object_info {
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
  * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *scene,
@@ -1693,6 +1835,8 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  * SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
@@ -1773,6 +1917,8 @@ typedef struct swiftprox_scene_query {
 /**
  * Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
  * compiled with. Null is ignored.
+ *
+ * Stable.
  */
 void swiftprox_scene_query_init_sized(struct swiftprox_scene_query *query,
                                       size_t struct_size);
@@ -1824,6 +1970,8 @@ typedef struct swiftprox_scene_answer {
  * SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
  * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED. The answer is empty then. What a scene
  * has accepted it answers: no pair makes a query fail.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scene,
@@ -1834,6 +1982,8 @@ swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scen
  * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
  * swiftprox_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features;
  * of an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
@@ -1843,6 +1993,8 @@ swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
 /**
  * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
  * says of each. Errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
@@ -1853,6 +2005,8 @@ swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *sc
  * As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
  * for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
  * (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
@@ -1867,6 +2021,8 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
  * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
  *
  * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
@@ -1906,6 +2062,8 @@ typedef struct swiftprox_scene_contacts {
  * swiftprox_scene_query.detail. On failure `*contacts` is empty.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene or contacts is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
@@ -1930,6 +2088,8 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other
  * errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
@@ -1944,6 +2104,8 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
  *
  * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of
  * swiftprox_scene_query_intersection.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
@@ -1990,6 +2152,8 @@ typedef struct swiftprox_scene_events {
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
  * or events is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
@@ -2045,6 +2209,8 @@ typedef struct swiftprox_scene_statistics {
  * all else 0.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *scene,
@@ -2054,6 +2220,8 @@ swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *sc
  * Sets the statistics of a scene to zero.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
@@ -2076,6 +2244,8 @@ swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *sce
  *
  * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
@@ -2094,13 +2264,19 @@ swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
  * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
  * SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_activate_pair(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id1,
                                                struct swiftprox_object_id id2);
 
-/** Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair. */
+/**
+ * Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair.
+ *
+ * Stable.
+ */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_deactivate_pair(struct swiftprox_scene *scene,
                                                  struct swiftprox_object_id id1,
@@ -2110,12 +2286,18 @@ swiftprox_status swiftprox_scene_deactivate_pair(struct swiftprox_scene *scene,
  * Activates all pairs that an object is in now.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_activate_object(struct swiftprox_scene *scene,
                                                  struct swiftprox_object_id id);
 
-/** Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object. */
+/**
+ * Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object.
+ *
+ * Stable.
+ */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_deactivate_object(struct swiftprox_scene *scene,
                                                    struct swiftprox_object_id id);
@@ -2124,11 +2306,17 @@ swiftprox_status swiftprox_scene_deactivate_object(struct swiftprox_scene *scene
  * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_activate_all(struct swiftprox_scene *scene);
 
-/** Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all. */
+/**
+ * Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all.
+ *
+ * Stable.
+ */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_deactivate_all(struct swiftprox_scene *scene);
 
@@ -2136,6 +2324,8 @@ swiftprox_status swiftprox_scene_deactivate_all(struct swiftprox_scene *scene);
  * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
  *
  * Errors as of swiftprox_scene_activate_pair; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_is_pair_active(const struct swiftprox_scene *scene,
@@ -2147,6 +2337,8 @@ swiftprox_status swiftprox_scene_is_pair_active(const struct swiftprox_scene *sc
  * Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_filter(struct swiftprox_scene *scene,
@@ -2169,6 +2361,8 @@ typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id obj
  * asked anew. The callback may be called from every thread that queries the scene.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
@@ -2179,6 +2373,8 @@ swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
  * Asks the filter anew of all pairs that are near, in the next query.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
@@ -2191,6 +2387,8 @@ swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
  *
  * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
  * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
@@ -2201,6 +2399,8 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
  * From now on the scene finds the pairs that are near, as it did before swiftprox_scene_set_pairs.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
@@ -2228,6 +2428,8 @@ swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
  * SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
  * end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_record(struct swiftprox_scene *scene,
@@ -2265,6 +2467,8 @@ typedef struct swiftprox_replay_step_info {
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
  * beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
  * null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_open(const char *path,
@@ -2275,6 +2479,8 @@ swiftprox_status swiftprox_replay_open(const char *path,
  * Ends a replay and its scene, which the caller owns. Null is ignored.
  *
  * SWIFTPROX_ERROR_BUSY: another call uses the scene, and both live on. Other errors as of swiftprox_scene_destroy.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_close(struct swiftprox_replay *replay);
@@ -2282,6 +2488,8 @@ swiftprox_status swiftprox_replay_close(struct swiftprox_replay *replay);
 /**
  * Gives the scene of a replay, which owns it: ask it what you like between the steps, change nothing, and do not destroy it. Null
  * for null.
+ *
+ * Stable.
  */
 struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
 
@@ -2292,6 +2500,8 @@ struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
  * SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
  * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
@@ -2302,6 +2512,8 @@ swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
  *
  * SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
  * with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
@@ -2321,6 +2533,8 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
  * query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
  * query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
  * removed. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
@@ -2333,6 +2547,8 @@ swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of the scene. SWIFTPROX_ERROR_NULL_POINTER: replay or number is null.
  * SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_get_number(const struct swiftprox_replay *replay,
@@ -2356,6 +2572,8 @@ typedef void (*swiftprox_log_callback)(swiftprox_status status, const char *mess
  * Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
  * not return SWIFTPROX_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
  * from several at once; calls already under way in other threads may still reach the old one for a moment.
+ *
+ * Stable.
  */
 void swiftprox_library_set_log(swiftprox_log_callback callback,
                                void *user);
@@ -2386,6 +2604,8 @@ typedef void (*swiftprox_deallocate_callback)(void *user, void *memory, size_t s
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFTPROX_ERROR_UNSUPPORTED: the
  * library was not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator.
  * Nothing has changed then.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_library_set_allocator(swiftprox_allocate_callback allocate,
@@ -2430,6 +2650,8 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
  * it begins with the magic of another reader, or that one with it: a file could be for both. SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER: magic is null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_library_register_mesh_reader(const char *magic,
@@ -2443,6 +2665,8 @@ swiftprox_status swiftprox_library_register_mesh_reader(const char *magic,
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
  * SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
+ *
+ * Stable.
  */
 swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *sink,
                                                   const double *vertices,
@@ -2456,6 +2680,8 @@ swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *si
  *
  * SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
+ *
+ * Stable.
  */
 swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
                                                const uint32_t *indices,
@@ -2468,6 +2694,8 @@ swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
  * otherwise.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: sink is null.
+ *
+ * Stable.
  */
 swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_sink *sink);
 
@@ -2477,6 +2705,8 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  * where a call to the sink was refused before, unless that was for memory.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
+ *
+ * Stable.
  */
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);

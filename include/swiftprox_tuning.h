@@ -91,6 +91,8 @@ typedef struct swiftprox_shape_tuning {
 /**
  * Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program
  * was compiled with. Null is ignored.
+ *
+ * Experimental.
  */
 void swiftprox_shape_tuning_init_sized(struct swiftprox_shape_tuning *tuning,
                                        size_t struct_size);
@@ -128,6 +130,8 @@ typedef struct swiftprox_shape_tuning_info {
  * first. On failure all is 0.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_tuning_info(const struct swiftprox_shape *shape,
@@ -161,6 +165,8 @@ typedef struct swiftprox_mesh {
  * names it. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit 32 bits.
  * SWIFTPROX_ERROR_MEMORY.
  * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_create_from_levels(const struct swiftprox_mesh *levels,
@@ -195,6 +201,8 @@ typedef struct swiftprox_level_info {
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
  * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_level_info(const struct swiftprox_shape *shape,
@@ -208,6 +216,8 @@ swiftprox_status swiftprox_shape_get_level_info(const struct swiftprox_shape *sh
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
  * SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is null.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_copy_level_vertices(const struct swiftprox_shape *shape,
@@ -222,6 +232,8 @@ swiftprox_status swiftprox_shape_copy_level_vertices(const struct swiftprox_shap
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
  * SWIFTPROX_ERROR_NULL_POINTER: shape or corners is null.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_copy_level_triangles(const struct swiftprox_shape *shape,
@@ -296,6 +308,8 @@ typedef struct swiftprox_pair_tuning {
 /**
  * Fills `tuning` with the defaults. Call it as swiftprox_pair_tuning_init(&tuning), which hands over the size that the program was
  * compiled with. Null is ignored.
+ *
+ * Experimental.
  */
 void swiftprox_pair_tuning_init_sized(struct swiftprox_pair_tuning *tuning,
                                       size_t struct_size);

@@ -66,6 +66,10 @@ const BEHIND_STATUS: &str = "\
 typedef char swiftprox_enums_are_32_bits[sizeof(swiftprox_status) == 4 ? 1 : -1];
 ";
 
+/// Marks of functions; the head of swiftprox.h says what they mean.
+const STABLE: &str = "Stable.";
+const EXPERIMENTAL: &str = "Experimental.";
+
 fn root() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR"))
 }
@@ -134,6 +138,7 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     let contents = fs::read_to_string(root().join("include/contents.txt")).expect("the list of contents is there");
     let mut headers: Vec<(String, String)> = Vec::new();
     let mut is_open = false;
+    let mut mark = "";
     for line in contents.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
         match word {
@@ -148,14 +153,16 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
             "group" => {
                 let (_, text) = headers.last_mut().expect("a header before its groups");
                 *text += if is_open { "/** @} */\n\n" } else { "" };
-                let (name, title) = rest.split_once(' ').expect("a name and a title");
+                let words: Vec<&str> = rest.splitn(3, ' ').collect();
+                let [name, word, title] = words[..] else { panic!("no name, mark and title: {line}") };
+                mark = mark_of(word);
                 *text += &format!("/**\n * @defgroup swiftprox_{name} {title}\n * @{{\n */\n\n");
                 is_open = true;
             }
             _ => {
                 let (_, text) = headers.last_mut().expect("a header before its declarations");
                 let declaration = declared.remove(line).unwrap_or_else(|| panic!("{line} is not declared"));
-                *text += &declaration;
+                *text += &if is_function(&declaration) { marked(&declaration, mark) } else { declaration };
                 text.push('\n');
                 if line == "swiftprox_status" {
                     *text += &format!("{BEHIND_STATUS}\n");
@@ -165,6 +172,31 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     }
     close(headers.last_mut(), &mut is_open);
     headers
+}
+
+/// What a function's comment says of its future.
+fn mark_of(word: &str) -> &'static str {
+    match word {
+        "stable" => STABLE,
+        "experimental" => EXPERIMENTAL,
+        _ => panic!("{word} is neither stable nor experimental"),
+    }
+}
+
+/// Members stand behind blanks, callbacks behind `typedef`.
+fn is_function(declaration: &str) -> bool {
+    let mut code = declaration.lines().filter(|line| !line.starts_with([' ', '*', '/', '#']));
+    code.any(|line| !line.starts_with("typedef") && line.contains('('))
+}
+
+/// A function with its mark at the end of its comment.
+fn marked(declaration: &str, mark: &str) -> String {
+    let (comment, code) = declaration.split_once("*/\n").expect("a function has a comment");
+    let comment = match comment.strip_prefix("/** ") {
+        Some(line) => format!("/**\n * {line}\n"),
+        None => comment.trim_end_matches(' ').to_string(),
+    };
+    format!("{} *\n * {mark}\n */\n{code}", comment.replace(" \n", "\n"))
 }
 
 /// Ends a header.
@@ -324,6 +356,22 @@ fn version_macros_are_those_of_the_crate() {
         let line = format!("#define SWIFTPROX_VERSION_{name} {value}");
         assert!(header.lines().any(|l| l == line), "no line `{line}`");
     }
+}
+
+/// In its own comment, once; and of both kinds there are some.
+#[test]
+fn each_function_says_whether_it_is_stable() {
+    let mut counts = HashMap::new();
+    for (_, header) in generate() {
+        let blocks = header.split("\n\n").filter(|block| block.starts_with("/**") && is_function(block));
+        for block in blocks {
+            let marks: Vec<&str> = block.lines().filter_map(|line| line.strip_prefix(" * ")).collect();
+            let marks: Vec<&str> = marks.into_iter().filter(|line| [STABLE, EXPERIMENTAL].contains(line)).collect();
+            let [mark] = marks[..] else { panic!("marked by {marks:?}: {block}") };
+            *counts.entry(mark.to_string()).or_insert(0) += 1;
+        }
+    }
+    assert!(counts[STABLE] > 80 && counts[EXPERIMENTAL] > 10, "{counts:?}");
 }
 
 /// All libraries share the names of C.

@@ -1,6 +1,7 @@
-//! The project itself: the order of its code, its exports, its links.
+//! The project itself: the order of its code, its exports, the layout of its structs, its links.
 
 mod architecture;
 mod cpp;
+mod layout;
 mod links;
 mod symbols;

@@ -1,7 +1,8 @@
 //! What the shared library exports: functions of our nouns under our own prefix (`swift_` is that of the Swift language's runtime,
 //! which may live in the same process), and nothing else. Needs `nm`, which `make test` installs.
 
-use std::path::PathBuf;
+use std::fs;
+use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
@@ -67,4 +68,40 @@ fn every_function_of_the_header_is_exported() {
         }
     }
     assert_eq!(count, exports.len());
+}
+
+/// What Debian's tools derive dependencies from. A symbol keeps the version that it came with.
+#[test]
+#[cfg_attr(not(target_os = "linux"), ignore = "shared libraries of Linux")]
+fn the_symbols_of_the_debian_package_are_those_exported() {
+    let name = format!("libswiftprox{}", so_version());
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(format!("packaging/debian/{name}.symbols"));
+    let committed = fs::read_to_string(&path).unwrap_or_default();
+    let mut exports = exports();
+    exports.sort();
+    let mut expected =
+        format!("libswiftprox.so.{} {name} #MINVER#\n* Build-Depends-Package: libswiftprox-dev\n", so_version());
+    for export in exports {
+        let since = committed.lines().find_map(|line| line.strip_prefix(&format!(" {export}@Base ")));
+        expected += &format!(" {export}@Base {}\n", since.unwrap_or(env!("CARGO_PKG_VERSION")));
+    }
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &expected).unwrap();
+        return;
+    }
+    assert!(
+        expected == committed,
+        "{} is not what is exported; BLESS=1 cargo test --test project symbols",
+        path.display()
+    );
+    let control = include_str!("../../packaging/debian/control");
+    assert!(control.contains(&format!("Package: {name}\n")), "packaging/debian/control has no package {name}");
+}
+
+/// The version in the shared library's name; build.rs sets it.
+fn so_version() -> String {
+    match (env!("CARGO_PKG_VERSION_MAJOR"), env!("CARGO_PKG_VERSION_MINOR")) {
+        ("0", minor) => format!("0.{minor}"),
+        (major, _) => major.to_string(),
+    }
 }

@@ -1,0 +1,22 @@
+/* The C compiler lays structs out, and numbers statuses, as layout.h says, which Rust has written. Compiling it is the test. */
+
+#include "swiftprox_tuning.h"
+
+#if SIZE_MAX != 0xffffffffffffffff
+#error "layout.h is that of pointers with 64 bits"
+#endif
+
+#define STRUCT(type, size, alignment) \
+    _Static_assert(sizeof(type) == (size), "the size of " #type); \
+    _Static_assert(_Alignof(type) == (alignment), "the alignment of " #type);
+#define MEMBER(type, member, offset, size) \
+    _Static_assert(offsetof(type, member) == (offset), "where " #type "." #member " stands"); \
+    _Static_assert(sizeof(((type *)0)->member) == (size), "the size of " #type "." #member);
+#define NUMBER(enumerator, value) _Static_assert((enumerator) == (value), "the number of " #enumerator);
+
+#include "layout.h"
+
+int main(void)
+{
+    return 0;
+}

@@ -1,0 +1,262 @@
+//! Where the members of C's structs stand. c_tests/abi/layout.h has the numbers: here Rust's layout is compared with them, in
+//! c_tests/abi/layout.c that of the C compiler. `BLESS=1 cargo test --test project layout` rewrites them.
+
+use std::fmt::Write;
+use std::fs;
+use std::mem::{align_of, offset_of, size_of};
+use std::path::Path;
+
+use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
+use swiftprox::ffi::level::{CMesh, LevelInfo};
+use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
+use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
+use swiftprox::ffi::object_query::CSceneEvents;
+use swiftprox::ffi::pair::{CPairCache, CPairConfig};
+use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
+use swiftprox::ffi::record::CReplayStep;
+use swiftprox::ffi::scene::CSceneOptions;
+use swiftprox::ffi::shape::ShapeInfo;
+use swiftprox::ffi::shape_options::CShapeOptions;
+use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
+use swiftprox::motion::{CastAnswer, Clearance};
+use swiftprox::object::ObjectId;
+use swiftprox::pair::{DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, Statistics};
+use swiftprox::scene::{Contact, ObjectPair, PairResult, SceneStatistics};
+
+const HEADERS: [&str; 2] =
+    [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
+
+const TABLE: &str = "c_tests/abi/layout.h";
+
+/// The head of the table.
+const HEAD: &str = "\
+/*
+ * The layout of C's structs where pointers have 64 bits, and the numbers of the statuses. Written by Rust, compared by layout.c.
+ *
+ *   STRUCT(type, size, alignment)    MEMBER(type, member, offset, size)    NUMBER(enumerator, value)
+ *
+ * `BLESS=1 cargo test --test project layout` rewrites it. A line that changes is a change of the ABI: CHANGELOG.md tells it.
+ */
+";
+
+struct Layout {
+    name: &'static str,
+    size: usize,
+    alignment: usize,
+    /// Name, offset and size of each member.
+    members: Vec<(&'static str, usize, usize)>,
+}
+
+fn size_of_member<T, M>(_: impl Fn(&T) -> &M) -> usize {
+    size_of::<M>()
+}
+
+macro_rules! layouts {
+    ($($name:ident = $rust:ty { $($member:ident),* },)*) => {
+        vec![$(Layout {
+            name: stringify!($name),
+            size: size_of::<$rust>(),
+            alignment: align_of::<$rust>(),
+            members: vec![$((
+                stringify!($member),
+                offset_of!($rust, $member),
+                size_of_member(|whole: &$rust| &whole.$member),
+            )),*],
+        }),*]
+    };
+}
+
+/// Every struct of the headers, in their order.
+#[rustfmt::skip]
+fn layouts() -> Vec<Layout> {
+    let mut all = layouts! {
+        swiftprox_shape_options = CShapeOptions {
+            struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
+            tuning, face_noise
+        },
+        swiftprox_shape_info = ShapeInfo {
+            struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
+            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia
+        },
+        swiftprox_feature = Feature { kind, ids },
+        swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },
+        swiftprox_pair_answer = PairAnswer {
+            outcome, decided_by, distance, lower, upper, local1, local2, world1, world2, normal, feature1,
+            feature2, proof, proof_count, statistics
+        },
+        swiftprox_pair_cache = CPairCache { words },
+        swiftprox_pair_config = CPairConfig {
+            struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget,
+            tuning
+        },
+        swiftprox_depth_statistics = DepthStatistics { steps, supports, triangles, exact_iterations },
+        swiftprox_depth_answer = DepthAnswer {
+            outcome, ending, depth, lower, upper, local1, local2, world1, world2, normal, feature1,
+            feature2, statistics
+        },
+        swiftprox_depth_cache = CDepthCache { words },
+        swiftprox_depth_config = CDepthConfig {
+            struct_size, rotation_limit, absolute_error, relative_error, step_budget
+        },
+        swiftprox_manifold_point = ManifoldPoint {
+            local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id
+        },
+        swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
+        swiftprox_manifold_cache = CManifoldCache { words },
+        swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
+        swiftprox_motion = CMotion {
+            kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
+        },
+        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
+        swiftprox_cast_config = CCastConfig {
+            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
+        },
+        swiftprox_clearance = Clearance { lower, upper, time, queries },
+        swiftprox_clearance_config = CClearanceConfig {
+            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
+        },
+        swiftprox_scene_options = CSceneOptions {
+            struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
+        },
+        swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask },
+        swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask },
+        swiftprox_scene_query = CSceneQuery {
+            struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget,
+            early_exit, tuning, margin, detail
+        },
+        swiftprox_pair_result = PairResult {
+            object1, object2, user_data1, user_data2, piece1, piece2, answer
+        },
+        swiftprox_scene_answer = CSceneAnswer { pairs, count, intersecting, found },
+        swiftprox_contact = Contact { depth, manifold, first_point },
+        swiftprox_scene_contacts = CSceneContacts { contacts, count, points, point_count },
+        swiftprox_object_pair = ObjectPair { object1, object2, user_data1, user_data2 },
+        swiftprox_scene_events = CSceneEvents { began, began_count, ended, ended_count },
+        swiftprox_scene_statistics = SceneStatistics {
+            queries, pairs, marched, coherent, fallback, exact, marching_steps, fallback_iterations,
+            exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
+            inscribed_spheres, unmoved, out_of_reach
+        },
+        swiftprox_replay_step_info = CReplayStep {
+            struct_size, has_step, has_query, kind, cut_off, fraction
+        },
+        swiftprox_shape_tuning = CShapeTuning {
+            struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels,
+            lookup_radius_factor, lookup_resolution
+        },
+        swiftprox_shape_tuning_info = TuningInfo {
+            struct_size, hierarchy, lookup, level_count, level_bytes, lookup_bytes, lookup_resolution
+        },
+        swiftprox_mesh = CMesh { vertices, vertex_count, indices, valences, face_count },
+        swiftprox_level_info = LevelInfo {
+            struct_size, vertex_count, edge_count, face_count, triangle_count, deviation, bytes
+        },
+        swiftprox_pair_tuning = CPairTuning { struct_size, start, levels, refinement },
+    };
+    // Its only member is private, and so as large as it and at its beginning.
+    let (size, alignment) = (size_of::<ObjectId>(), align_of::<ObjectId>());
+    let id = Layout { name: "swiftprox_object_id", size, alignment, members: vec![("bits", 0, size)] };
+    let behind = all.iter().position(|layout| layout.name == "swiftprox_object_options").unwrap();
+    all.insert(behind, id);
+    all
+}
+
+/// What the headers promise never to use again.
+const STATUSES: [(&str, StatusCode, i32); 17] = [
+    ("SWIFTPROX_OK", StatusCode::Ok, 0),
+    ("SWIFTPROX_ERROR_NULL_POINTER", StatusCode::ErrorNullPointer, 1),
+    ("SWIFTPROX_ERROR_INVALID_ARGUMENT", StatusCode::ErrorInvalidArgument, 2),
+    ("SWIFTPROX_ERROR_STRUCT_SIZE", StatusCode::ErrorStructSize, 3),
+    ("SWIFTPROX_ERROR_POSE", StatusCode::ErrorPose, 4),
+    ("SWIFTPROX_ERROR_MESH", StatusCode::ErrorMesh, 5),
+    ("SWIFTPROX_ERROR_FILE", StatusCode::ErrorFile, 6),
+    ("SWIFTPROX_ERROR_HANDLE", StatusCode::ErrorHandle, 7),
+    ("SWIFTPROX_ERROR_LIMIT", StatusCode::ErrorLimit, 8),
+    ("SWIFTPROX_ERROR_CANCELLED", StatusCode::ErrorCancelled, 9),
+    ("SWIFTPROX_ERROR_BUG", StatusCode::ErrorBug, 10),
+    ("SWIFTPROX_ERROR_POISONED", StatusCode::ErrorPoisoned, 11),
+    ("SWIFTPROX_ERROR_VERSION", StatusCode::ErrorVersion, 12),
+    ("SWIFTPROX_ERROR_UNVERIFIED", StatusCode::ErrorUnverified, 13),
+    ("SWIFTPROX_ERROR_UNSUPPORTED", StatusCode::ErrorUnsupported, 14),
+    ("SWIFTPROX_ERROR_MEMORY", StatusCode::ErrorMemory, 15),
+    ("SWIFTPROX_ERROR_BUSY", StatusCode::ErrorBusy, 16),
+];
+
+/// The structs of the headers, each with its members, in order.
+fn declared() -> Vec<(String, Vec<String>)> {
+    let mut structs = Vec::new();
+    let mut is_open = false;
+    let lines = HEADERS.iter().flat_map(|header| header.lines());
+    for line in lines.filter(|line| !line.trim_start().starts_with(['/', '*'])) {
+        if let Some(name) = line.strip_prefix("typedef struct ").and_then(|rest| rest.strip_suffix(" {")) {
+            structs.push((name.to_string(), Vec::new()));
+            is_open = true;
+        } else if line.starts_with('}') {
+            is_open = false;
+        } else if let (true, Some(declaration)) = (is_open, line.strip_suffix(';')) {
+            // A pointer to a function has its name in parentheses, an array its length behind it.
+            let before = declaration.split_once("(*").map_or(declaration, |(_, name)| name.split(')').next().unwrap());
+            let name = before.split([' ', '*']).next_back().unwrap().split('[').next().unwrap();
+            structs.last_mut().unwrap().1.push(name.to_string());
+        }
+    }
+    structs
+}
+
+#[test]
+fn every_member_of_the_headers_is_listed_here() {
+    let listed: Vec<(String, Vec<String>)> = layouts()
+        .into_iter()
+        .map(|layout| (layout.name.to_string(), layout.members.iter().map(|(name, ..)| name.to_string()).collect()))
+        .collect();
+    assert_eq!(listed, declared(), "tests/project/layout.rs lists what the headers declare");
+}
+
+#[test]
+#[cfg_attr(not(target_pointer_width = "64"), ignore = "the table is that of 64 bits")]
+fn rust_lays_structs_out_as_the_table_says() {
+    let mut table = HEAD.to_string();
+    for layout in layouts() {
+        writeln!(table, "\nSTRUCT({}, {}, {})", layout.name, layout.size, layout.alignment).unwrap();
+        for (member, offset, size) in layout.members {
+            writeln!(table, "MEMBER({}, {member}, {offset}, {size})", layout.name).unwrap();
+        }
+    }
+    table.push('\n');
+    for (name, code, _) in STATUSES {
+        writeln!(table, "NUMBER({name}, {})", code as i32).unwrap();
+    }
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(TABLE);
+    if std::env::var_os("BLESS").is_some() {
+        fs::write(&path, &table).unwrap();
+    }
+    let committed = fs::read_to_string(&path).unwrap_or_default();
+    let different = table.lines().zip(committed.lines()).find(|(new, old)| new != old);
+    assert!(
+        table == committed,
+        "the layout is not that of {TABLE} (first difference: {different:?}); where the ABI is to change, tell it in CHANGELOG.md, \
+         then: BLESS=1 cargo test --test project layout"
+    );
+}
+
+/// A new status takes a new number; these are for ever.
+#[test]
+fn the_numbers_of_statuses_are_frozen() {
+    for (name, code, number) in STATUSES {
+        assert_eq!(code as i32, number, "{name}");
+        assert!(HEADERS[0].contains(&format!("  {name} = {number}")), "{name} is not {number} in swiftprox.h");
+    }
+    let enumerators = HEADERS[0].split_once("typedef enum swiftprox_status").unwrap().1.split_once('}').unwrap().0;
+    let count = enumerators.lines().filter(|line| line.starts_with("  SWIFTPROX_")).count();
+    assert_eq!(count, STATUSES.len(), "a new status is listed here, too");
+}
+
+/// c_tests/abi/abi.py compares the words with what has changed, where abidiff is.
+#[test]
+fn the_newest_version_tells_its_abi() {
+    let newest = include_str!("../../CHANGELOG.md").split("\n## ").nth(1).unwrap();
+    assert!(newest.starts_with(env!("CARGO_PKG_VERSION")), "CHANGELOG.md begins with {:?}", newest.lines().next());
+    let (_, words) = newest.split_once("\n### ABI\n").expect("CHANGELOG.md has a part `ABI` for the newest version");
+    assert!(words.split_whitespace().count() > 3, "CHANGELOG.md says nothing under `ABI`");
+}
