@@ -21,6 +21,7 @@ pub mod level;
 pub mod pair;
 pub mod depth;
 pub mod motion;
+pub mod ray;
 mod task_loan;
 pub mod workers;
 pub mod scene;
@@ -42,6 +43,7 @@ use crate::base::error::Error;
 use crate::base::simd::environment::{with_callers, with_default};
 use crate::motion::CastOutcome;
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
+use crate::ray::RayOutcome;
 use crate::scene::ContactDetail;
 use crate::shape::InputPolicy;
 use motion::MotionKind;
@@ -332,6 +334,7 @@ enumerator!(DecidedBy {
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
+enumerator!(RayOutcome { None, Miss, Hit, Inside });
 enumerator!(CastOutcome { None, Free, Hit, Near, Budget });
 enumerator!(MotionKind { Fixed, Screw, Affine, Callback });
 
@@ -354,6 +357,8 @@ pub type ContactDetailNumber = i32;
 pub type DepthEndingNumber = i32;
 /// A [`CastOutcome`].
 pub type CastOutcomeNumber = i32;
+/// A [`RayOutcome`].
+pub type RayOutcomeNumber = i32;
 /// A [`MotionKind`].
 pub type MotionKindNumber = i32;
 /// An [`InputPolicy`].

@@ -28,6 +28,7 @@ pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistic
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Start};
+pub(crate) use contact::{label, normalised};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub use descent::Refinement;
 use ladder::climb;
