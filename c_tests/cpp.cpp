@@ -193,6 +193,19 @@ static void motions()
     CHECK(!swiftprox::try_decompose(corners, faces, {}, -1));
 }
 
+/* A ray through the middle of a cube, and one beside it. */
+static void rays()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    const swiftprox_ray through{{-3, 0.1, 0.2}, {2, 0, 0}, 10};
+    const auto hit = swiftprox::try_cast_ray({box, Pose::at(1, 0, 0)}, through);
+    CHECK(hit && hit.value.outcome == SWIFTPROX_RAY_OUTCOME_HIT && hit.value.normal[0] == -1);
+    const auto miss = swiftprox::try_cast_ray({box, Pose::at(1, 5, 0)}, through);
+    CHECK(miss && miss.value.outcome == SWIFTPROX_RAY_OUTCOME_MISS && std::isnan(miss.value.entry[0]));
+    CHECK(std::strlen(swiftprox::to_string(hit.value.outcome)) > 0);
+}
+
 static void scenes(const std::string &folder)
 {
     const auto made = cube();
@@ -333,6 +346,7 @@ int main(int argc, char **argv)
     shapes();
     pairs();
     motions();
+    rays();
     scenes(folder);
     mesh_readers(folder);
 #if SWIFTPROX_HAS_EXCEPTIONS

@@ -1425,6 +1425,77 @@ const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome
 /** @} */
 
 /**
+ * @defgroup swiftprox_ray Rays
+ * @{
+ */
+
+/** The points `origin + t*direction` with 0 <= t <= `t_max`. */
+typedef struct swiftprox_ray {
+  /** Where it begins, in the world. */
+  double origin[3];
+  /** Where it leads, of any length but 0. */
+  double direction[3];
+  /** Where it ends, from 0 to infinity. */
+  double t_max;
+} swiftprox_ray;
+
+/** Whether a ray meets a body. */
+typedef enum swiftprox_ray_outcome SWIFTPROX_INT32 {
+  /** Nothing is said yet: the value of a fresh answer. */
+  SWIFTPROX_RAY_OUTCOME_NONE = 0,
+  /** No point of the ray is in the body. */
+  SWIFTPROX_RAY_OUTCOME_MISS = 1,
+  /** The ray enters the body, or touches it, from its origin on. */
+  SWIFTPROX_RAY_OUTCOME_HIT = 2,
+  /** The ray begins in the body, at a place that is not the first of its line in it. */
+  SWIFTPROX_RAY_OUTCOME_INSIDE = 3
+} swiftprox_ray_outcome;
+
+/** The part of a ray that is in a body, `entry <= t <= exit`. Numbers that it does not say are NaN. */
+typedef struct swiftprox_ray_answer {
+  /** Whether there is such a part. */
+  swiftprox_ray_outcome outcome;
+  /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
+  uint32_t exact;
+  /** `entry[0]` <= where it begins <= `entry[1]`; 0 from inside. */
+  double entry[2];
+  /** `exit[0]` <= where it ends <= `exit[1]`: where the ray leaves the body, or `t_max` if that comes first. */
+  double exit[2];
+  /**
+   * Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
+   * face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane.
+   */
+  double normal[3];
+  /**
+   * Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
+   * vertex.
+   */
+  struct swiftprox_feature feature;
+  /** Faces that the search visited. */
+  uint32_t steps;
+} swiftprox_ray_answer;
+
+/**
+ * Where a ray meets a shape at a pose, the part of it that is in the closed body: certain, whatever the magnitudes. A ray that
+ * only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
+ * that the ray and the body have wide, over that of the direction.
+ *
+ * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
+ * is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
+ * SWIFTPROX_ERROR_NULL_POINTER.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
+                                          const double *pose,
+                                          const struct swiftprox_ray *ray,
+                                          struct swiftprox_ray_answer *answer);
+
+/** How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
+
+/** @} */
+
+/**
  * @defgroup swiftprox_scene Scenes
  * @{
  */

@@ -17,6 +17,7 @@
 
 #include "swiftprox/library.hpp"
 #include "swiftprox/motion.hpp"
+#include "swiftprox/ray.hpp"
 #include "swiftprox/pair.hpp"
 #include "swiftprox/pose.hpp"
 #include "swiftprox/scene.hpp"

@@ -42,6 +42,7 @@ pub mod levels;
 pub mod shape;
 pub mod pair;
 pub mod motion;
+pub mod ray;
 pub mod scene;
 #[doc(hidden)]
 pub mod ffi;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 13] = [
+const SOURCES: [&str; 15] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -18,6 +18,8 @@ const SOURCES: [&str; 13] = [
     "src/pair/manifold/answer.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",
+    "src/ray/query.rs",
+    "src/ray/answer.rs",
     "src/scene/world/object.rs",
     "src/scene/search/query.rs",
     "src/scene/search/statistics.rs",

@@ -4,6 +4,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::motion::CastOutcome;
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
+use crate::ray::RayOutcome;
 use crate::scene::ContactDetail;
 use crate::shape::InputPolicy;
 
@@ -38,6 +39,7 @@ enumerator!(DecidedBy {
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
+enumerator!(RayOutcome { None, Miss, Hit, Inside });
 enumerator!(CastOutcome { None, Free, Hit, Near, Budget });
 
 // Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
@@ -59,6 +61,8 @@ pub type ContactDetailNumber = i32;
 pub type DepthEndingNumber = i32;
 /// A [`CastOutcome`].
 pub type CastOutcomeNumber = i32;
+/// A [`RayOutcome`].
+pub type RayOutcomeNumber = i32;
 /// An [`InputPolicy`].
 pub type InputNumber = i32;
 /// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).

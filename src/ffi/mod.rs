@@ -25,6 +25,7 @@ pub mod decomposition;
 pub mod pair;
 pub mod depth;
 pub mod motion;
+pub mod ray;
 mod task_loan;
 pub mod workers;
 pub mod scene;

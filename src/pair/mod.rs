@@ -19,6 +19,7 @@ pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistic
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};
+pub(crate) use contact::{label, normalised};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics, depth};
 pub(crate) use ladder::least_error;
 pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};

@@ -20,6 +20,7 @@ pub mod oracle;
 pub mod bodies;
 pub mod caches;
 pub mod properties;
+pub mod rays;
 pub mod retold;
 
 /// The poses of a pair: the row-major 3x4 `[R|T]` of object 1 and then of object 2.

@@ -9,8 +9,8 @@
 //! Typically (1,002 vertices, 2026-11, a shared AMD EPYC core) 30–70 µs from a cold start, 7–17 µs from the right pairs. It
 //! allocates.
 
-mod dyadic;
-mod body;
+pub(crate) mod dyadic;
+pub(crate) mod body;
 mod simplex;
 mod answer;
 mod minkowski;

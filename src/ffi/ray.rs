@@ -1,0 +1,49 @@
+//! Rays at shapes.
+
+use std::ffi::c_char;
+
+use super::enumerators::RayOutcomeNumber;
+use super::failure::StatusCode;
+use super::guard::guard;
+use super::pointers::{input, output};
+use crate::base::enumerator::Enumerator;
+use crate::base::math::Pose;
+use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
+use crate::shape::Shape;
+
+/// Where a ray meets a shape at a pose, the part of it that is in the closed body: certain, whatever the magnitudes. A ray that
+/// only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
+/// that the ray and the body have wide, over that of the direction.
+///
+/// On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
+/// is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
+/// SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_cast_ray(
+    shape: *const Shape,
+    pose: *const f64,
+    ray: *const Ray,
+    answer: *mut RayAnswer,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        unsafe {
+            output(answer, "answer", RayAnswer::default())?;
+            let (shape, pose, ray) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?, input(ray, "ray")?);
+            output(answer, "answer", cast_ray(shape.at(pose), ray)?)
+        }
+    })
+}
+
+/// How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swiftprox_library_ray_outcome_string(outcome: RayOutcomeNumber) -> *const c_char {
+    let string = match RayOutcome::from_number(outcome) {
+        Some(RayOutcome::None) => c"nothing was asked",
+        Some(RayOutcome::Miss) => c"miss",
+        Some(RayOutcome::Hit) => c"hit",
+        Some(RayOutcome::Inside) => c"inside",
+        None => c"no outcome of a ray cast",
+    };
+    string.as_ptr()
+}

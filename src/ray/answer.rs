@@ -1,0 +1,54 @@
+//! What a ray cast says: plain data, laid out for C.
+
+use crate::pair::Feature;
+
+/// Whether a ray meets a body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum RayOutcome {
+    /// Nothing is said yet: the value of a fresh answer.
+    #[default]
+    None = 0,
+    /// No point of the ray is in the body.
+    Miss = 1,
+    /// The ray enters the body, or touches it, from its origin on.
+    Hit = 2,
+    /// The ray begins in the body, at a place that is not the first of its line in it.
+    Inside = 3,
+}
+
+/// The part of a ray that is in a body, `entry ≤ t ≤ exit`. Numbers that it does not say are NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct RayAnswer {
+    /// Whether there is such a part.
+    pub outcome: RayOutcome,
+    /// Whether integers decided what rounding hides: 1 or 0. They allocate.
+    pub exact: u32,
+    /// `entry[0]` ≤ where it begins ≤ `entry[1]`; 0 from inside.
+    pub entry: [f64; 2],
+    /// `exit[0]` ≤ where it ends ≤ `exit[1]`: where the ray leaves the body, or `t_max` if that comes first.
+    pub exit: [f64; 2],
+    /// Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
+    /// face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane.
+    pub normal: [f64; 3],
+    /// Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
+    /// vertex.
+    pub feature: Feature,
+    /// Faces that the search visited.
+    pub steps: u32,
+}
+
+impl Default for RayAnswer {
+    fn default() -> Self {
+        RayAnswer {
+            outcome: RayOutcome::None,
+            exact: 0,
+            entry: [f64::NAN; 2],
+            exit: [f64::NAN; 2],
+            normal: [f64::NAN; 3],
+            feature: Feature::default(),
+            steps: 0,
+        }
+    }
+}

@@ -1,0 +1,161 @@
+//! A ray cast: a walk to both ends, what doubles prove of them, and integers where they do not.
+
+use super::line::{Crossing, Line};
+use super::walk::{End, Ended, LocalLine};
+use super::{Ray, RayAnswer, RayOutcome, exact};
+use crate::base::math::Pose;
+use crate::pair::{label, normalised};
+use crate::polyhedron::{NONE, Polyhedron};
+use crate::solve::state::FeatureId;
+
+/// Corners of a face that a proof takes; of a face with more, some around the place.
+const MOST_CORNERS: usize = 8;
+
+/// What doubles prove.
+enum Proved {
+    Miss,
+    /// The line passes through the body: through this face, between these, and goes out between those.
+    Passes {
+        face: u32,
+        entry: Crossing,
+        exit: Crossing,
+    },
+    Nothing,
+}
+
+/// Where a ray meets a polyhedron at a pose; both are checked.
+pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
+    let mut answer = RayAnswer::default();
+    let line = Line::new(polyhedron, pose, ray);
+    if let Some(line) = &line {
+        match prove(line, ray, &mut answer.steps) {
+            Proved::Miss => {
+                answer.outcome = RayOutcome::Miss;
+                return answer;
+            }
+            Proved::Passes { face, entry, exit } => {
+                if fill(&mut answer, line, ray, face, entry, exit) {
+                    return answer;
+                }
+            }
+            Proved::Nothing => {}
+        }
+    }
+    exact::cast(polyhedron, pose, ray, line.as_ref(), &mut answer);
+    answer
+}
+
+fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> Proved {
+    if line.passes_sphere() {
+        return Proved::Miss;
+    }
+    let polyhedron = line.polyhedron;
+    if polyhedron.faces.is_empty() {
+        return Proved::Nothing;
+    }
+    let local = LocalLine::new(line);
+    let entering = match local.walk(End::Entry, steps) {
+        Ended::At(face) => face,
+        Ended::Beside(edge) => return if passes_edge(line, ray, edge) { Proved::Miss } else { Proved::Nothing },
+        Ended::Lost => return Proved::Nothing,
+    };
+    let Some(entry) = line.crossing_of(&polyhedron.faces[entering as usize]) else { return Proved::Nothing };
+    if entry.faces && entry.at[0] > ray.t_max {
+        return Proved::Miss;
+    }
+    let Ended::At(leaving) = local.walk(End::Exit, steps) else { return Proved::Nothing };
+    let Some(exit) = line.crossing_of(&polyhedron.faces[leaving as usize]) else { return Proved::Nothing };
+    if !entry.faces || exit.faces {
+        return Proved::Nothing;
+    }
+    if exit.at[1] < 0.0 || entry.at[0] > exit.at[1] {
+        return Proved::Miss;
+    }
+    let passes = |face: u32, faces: bool| {
+        let (corners, count) = corners(polyhedron, face, &local);
+        line.passes_through(&corners[..count], faces)
+    };
+    if passes(entering, true) && passes(leaving, false) {
+        return Proved::Passes { face: entering, entry, exit };
+    }
+    Proved::Nothing
+}
+
+/// Whether the line, or all of the ray on it, surely misses the body by the planes at an edge.
+fn passes_edge(line: &Line, ray: &Ray, edge: u32) -> bool {
+    let edge = &line.polyhedron.edges[edge as usize];
+    let mut part = [0.0, ray.t_max];
+    let [left, right] = [edge.left(), edge.right()].map(|face| &line.polyhedron.faces[face as usize]);
+    let bevel = line.polyhedron.bevels.get(edge.bevel as usize);
+    let planes =
+        [Some((&left.normal, left.slack)), Some((&right.normal, right.slack)), bevel.map(|b| (&b.normal, b.slack))];
+    for (normal, slack) in planes.into_iter().flatten() {
+        // Both ends of the edge are as near to each plane as its slack says.
+        if let Some(crossing) = line.crossing(normal, slack, edge.tail()) {
+            match crossing.faces {
+                true => part[0] = part[0].max(crossing.at[0]),
+                false => part[1] = part[1].min(crossing.at[1]),
+            }
+        }
+    }
+    part[0] > part[1]
+}
+
+/// Corners of a face, counter-clockwise from outside; of many a few around where the line comes to its plane.
+fn corners(polyhedron: &Polyhedron, face: u32, local: &LocalLine) -> ([u32; MOST_CORNERS], usize) {
+    let count = polyhedron.faces[face as usize].side_count;
+    let mut corners = [NONE; MOST_CORNERS];
+    if count as usize <= MOST_CORNERS {
+        (0..count).zip(&mut corners).for_each(|(side, at)| *at = corner(polyhedron, face, side));
+        return (corners, count as usize);
+    }
+    // Of the fan around the first corner, the triangle that holds the place, with one more on either side.
+    let point = local.point_on(face);
+    let normal = &polyhedron.faces[face as usize].normal;
+    let position = |side: u32| polyhedron.vertices[corner(polyhedron, face, side) as usize].position;
+    let hub = position(0);
+    let is_left = |side: u32| (position(side) - hub).cross(&(point - hub)).dot(normal) > 0.0;
+    let (mut low, mut high) = (1, count - 1);
+    while high - low > 1 {
+        let middle = low + (high - low) / 2;
+        if is_left(middle) { low = middle } else { high = middle }
+    }
+    let around = (low.max(2) - 1..=(high + 1).min(count - 1)).filter(|&side| side > 0);
+    let mut used = 0;
+    for side in std::iter::once(0).chain(around) {
+        corners[used] = corner(polyhedron, face, side);
+        used += 1;
+    }
+    (corners, used)
+}
+
+/// What a line that passes through the body says of the ray; false where rounding hides an end of either.
+fn fill(answer: &mut RayAnswer, line: &Line, ray: &Ray, face: u32, entry: Crossing, exit: Crossing) -> bool {
+    let begins_inside = entry.at[1] < 0.0;
+    let is_certain = (begins_inside || entry.at[0] >= 0.0)
+        && entry.at[1] <= ray.t_max
+        && exit.at[0] >= 0.0
+        && line.is_narrow(entry.at)
+        && line.is_narrow(exit.at);
+    if !is_certain {
+        return false;
+    }
+    answer.exit = exit.at.map(|t| t.min(ray.t_max));
+    if begins_inside {
+        answer.outcome = RayOutcome::Inside;
+        answer.entry = [0.0; 2];
+        return true;
+    }
+    answer.outcome = RayOutcome::Hit;
+    answer.entry = entry.at;
+    answer.normal = normalised(&entry.normal);
+    let point = line.local_origin() + line.local_direction() * entry.at[0];
+    answer.feature = label(line.polyhedron, FeatureId::Face(face), &point);
+    true
+}
+
+/// The corner at which a side begins, seen from outside.
+fn corner(polyhedron: &Polyhedron, face: u32, side: u32) -> u32 {
+    let edge = &polyhedron.edges[polyhedron.side(&polyhedron.faces[face as usize], side) as usize];
+    if edge.left() == face { edge.tail() } else { edge.head() }
+}
