@@ -226,11 +226,11 @@ impl<'a> DepthQuery<'a> {
         let scale = if frame.separation > frame.size { frame.separation } else { frame.size };
         match facets::search(frame, fans, self.cache.facet(), widest * scale) {
             ByFacets::Separated(direction, facet) => {
-                self.cache.keep_facet(frame, facet, &direction);
+                self.cache.keep_facet(frame, facet, &direction, false);
                 Some(Search::Apart(direction))
             }
             ByFacets::Overlapping(overlap) => {
-                self.cache.keep_facet(frame, overlap.facet, &overlap.direction);
+                self.cache.keep_facet(frame, overlap.facet, &overlap.direction, true);
                 Some(Search::Facets(overlap))
             }
             ByFacets::Unclear => None,
