@@ -147,6 +147,9 @@ static void pairs()
     swiftprox::DepthCache depths;
     const auto depth = swiftprox::try_depth({box, here}, {box, into}, depths);
     CHECK(depth && depth.value.lower <= 0.25 && depth.value.upper >= 0.25);
+    swiftprox::ManifoldCache signed_distances;
+    const auto overlap = swiftprox::try_signed_distance({box, here}, {box, into}, signed_distances);
+    CHECK(overlap && overlap.value.lower == -depth.value.upper && overlap.value.upper == -depth.value.lower);
     CHECK_OK(swiftprox::try_depth_verify({box, here}, {box, into}, depths, depth.value).status);
     swiftprox::ManifoldCache manifolds;
     std::array<swiftprox_manifold_point, 8> points;

@@ -356,6 +356,8 @@ typedef struct swiftprox_decomposition {
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
  * the message says how many are needed. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit
  * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: decomposition, its corners or an array of the mesh is null.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_mesh_decompose(const double *vertices,
@@ -1068,6 +1070,62 @@ const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending)
  * @{
  */
 
+/**
+ * What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
+ * safe.
+ */
+typedef struct swiftprox_manifold_cache {
+  /** Not to be looked at. */
+  uint32_t words[384];
+} swiftprox_manifold_cache;
+
+/** A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind. */
+typedef struct swiftprox_signed_distance {
+  /**
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the tolerance: then only
+   * `lower` is said, and `upper` is infinite.
+   */
+  swiftprox_outcome outcome;
+  /** The best estimate, `lower <= distance <= upper`: how far the objects are apart, or minus how deep they are in each other. */
+  double distance;
+  /** Lower end of the rigorous interval; more than 0 only of objects that are apart, and of all of those. */
+  double lower;
+  /** Upper end of the rigorous interval; at most 0 of objects that overlap or touch. */
+  double upper;
+  /** Witness point on object 1, in its local frame. */
+  double local1[3];
+  /** Witness point on object 2, in its local frame. */
+  double local2[3];
+  /** Witness point on object 1, in the world frame; `world1 - world2` is `distance * normal` up to rounding. */
+  double world1[3];
+  /** Witness point on object 2, in the world frame. */
+  double world2[3];
+  /** Unit normal in the world frame, from object 2 to object 1: moving object 1 along it makes the distance grow as much. */
+  double normal[3];
+  /** What holds the witness point of object 1. */
+  struct swiftprox_feature feature1;
+  /** What holds the witness point of object 2. */
+  struct swiftprox_feature feature2;
+} swiftprox_signed_distance;
+
+/**
+ * The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit normal,
+ * witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+ *
+ * Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
+ * budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_signed_distance(const struct swiftprox_shape *shape1,
+                                                const double *pose1,
+                                                const struct swiftprox_shape *shape2,
+                                                const double *pose2,
+                                                struct swiftprox_manifold_cache *cache,
+                                                const struct swiftprox_pair_config *config,
+                                                struct swiftprox_signed_distance *answer);
+
 /** One contact point: a point of each object, in line along the normal. */
 typedef struct swiftprox_manifold_point {
   /** On object 1, in its local frame. */
@@ -1110,15 +1168,6 @@ typedef struct swiftprox_manifold {
   /** Points found, before any were left out. */
   uint32_t found_count;
 } swiftprox_manifold;
-
-/**
- * What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
- * safe.
- */
-typedef struct swiftprox_manifold_cache {
-  /** Not to be looked at. */
-  uint32_t words[384];
-} swiftprox_manifold_cache;
 
 /** What a manifold query is asked for. Fill it with swiftprox_manifold_config_init, then change what should differ. */
 typedef struct swiftprox_manifold_config {
@@ -1416,7 +1465,7 @@ swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
                                           struct swiftprox_clearance *answer);
 
 /**
- * How a cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ * How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so.
  *
  * Experimental.
  */
@@ -1483,6 +1532,8 @@ typedef struct swiftprox_ray_answer {
  * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
  * is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
  * SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
@@ -1490,7 +1541,11 @@ swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
                                           const struct swiftprox_ray *ray,
                                           struct swiftprox_ray_answer *answer);
 
-/** How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so. */
+/**
+ * How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ *
+ * Experimental.
+ */
 const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
 
 /** @} */
@@ -2304,6 +2359,8 @@ swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene)
  * single pieces make. 0: none but near pairs.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *scene,

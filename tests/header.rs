@@ -8,13 +8,14 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 15] = [
+const SOURCES: [&str; 16] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
     "src/pair/answer.rs",
     "src/pair/config.rs",
     "src/pair/depth/answer.rs",
+    "src/pair/signed_distance.rs",
     "src/pair/manifold/answer.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",

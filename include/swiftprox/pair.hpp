@@ -69,6 +69,16 @@ inline Result<swiftprox_depth_answer> try_depth(Placed a, Placed b, DepthCache &
     result.status = swiftprox_pair_depth(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
     return result;
 }
+/** The distance, or minus the depth; the cache is that of the pair's manifolds. */
+inline Result<swiftprox_signed_distance> try_signed_distance(Placed a, Placed b, ManifoldCache &cache,
+                                                             const PairConfig &config = {}) noexcept
+{
+    const swiftprox_pair_config c = config.to_c();
+    Result<swiftprox_signed_distance> result;
+    result.status =
+        swiftprox_pair_signed_distance(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+    return result;
+}
 /** Writes the points into `points`, as many as there is room for. */
 inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache &cache, Range<swiftprox_manifold_point> points,
                                                const ManifoldConfig &config = {}) noexcept
@@ -115,6 +125,10 @@ inline bool intersect(Placed a, Placed b, PairCache &cache, const PairConfig &co
 inline swiftprox_depth_answer depth(Placed a, Placed b, DepthCache &cache, const DepthConfig &config = {})
 {
     return take(try_depth(a, b, cache, config));
+}
+inline swiftprox_signed_distance signed_distance(Placed a, Placed b, ManifoldCache &cache, const PairConfig &config = {})
+{
+    return take(try_signed_distance(a, b, cache, config));
 }
 inline swiftprox_manifold manifold(Placed a, Placed b, ManifoldCache &cache, Range<swiftprox_manifold_point> points,
                                    const ManifoldConfig &config = {})

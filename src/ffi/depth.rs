@@ -3,13 +3,14 @@
 use super::enumerators::{DepthEndingNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
+use super::pair::{CPairConfig, read_config};
 use super::pointers::{exclusive, input};
 use super::structs::{Versioned, init_struct, read_struct};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify_depth;
 use crate::pair::{
     self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Manifold, ManifoldCache, ManifoldConfig,
-    ManifoldPoint, Outcome, Placed, Sink, manifold_into,
+    ManifoldPoint, Outcome, Placed, SignedDistance, Sink, manifold_into,
 };
 use crate::shape::Shape;
 use std::ffi::c_char;
@@ -266,6 +267,49 @@ const _: () = {
 pub unsafe extern "C" fn swiftprox_manifold_config_init_sized(config: *mut CManifoldConfig, struct_size: usize) {
     // SAFETY: the header's pointer rules.
     unsafe { init_struct(config, struct_size, &CManifoldConfig::DEFAULT) }
+}
+
+/// The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit normal,
+/// witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+///
+/// Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
+/// budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_signed_distance(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CManifoldCache,
+    config: *const CPairConfig,
+    answer: *mut SignedDistance,
+) -> StatusCode {
+    let status = guard(|| {
+        if answer.is_null() {
+            return Err(Failure::null("answer"));
+        }
+        // SAFETY: not null, writable by the caller; what was there before is not looked at.
+        unsafe { answer.write(SignedDistance::default()) };
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        let (shape1, pose1, shape2, pose2, cache, config, answer) = unsafe {
+            (
+                input(shape1, "shape1")?,
+                input(pose1.cast::<Pose>(), "pose1")?,
+                input(shape2, "shape2")?,
+                input(pose2.cast::<Pose>(), "pose2")?,
+                exclusive(cache.cast::<ManifoldCache>(), "cache")?,
+                read_config(config)?,
+                exclusive(answer, "answer")?,
+            )
+        };
+        let bodies = [shape1.at(pose1), shape2.at(pose2)];
+        Ok(pair::signed_distance(bodies, &mut cache.signed_distance, &config, answer)?)
+    });
+    if status == StatusCode::ErrorBug {
+        // SAFETY: null or writable by the caller.
+        unsafe { reset(cache.cast::<ManifoldCache>(), answer) };
+    }
+    status
 }
 
 /// Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest

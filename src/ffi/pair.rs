@@ -253,7 +253,7 @@ unsafe fn reset(status: StatusCode, cache: *mut CPairCache, answer: *mut PairAns
 /// # Safety
 /// `config` and its tuning meet the header's pointer rules.
 #[inline(always)]
-unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConfig> {
+pub(super) unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConfig> {
     if config.is_null() {
         return Ok(PairConfig::default());
     }

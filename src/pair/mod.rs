@@ -12,6 +12,7 @@ mod cache;
 mod depth;
 mod ladder;
 mod queries;
+mod signed_distance;
 mod manifold;
 pub mod verify;
 
@@ -26,3 +27,4 @@ pub(crate) use manifold::{Known, Reference, Sink, manifold_into, manifold_of};
 pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 pub use placed::Placed;
 pub use queries::{approximate, contact, distance, intersection, intersection_by_marching};
+pub use signed_distance::{SignedDistance, SignedDistanceCache, signed_distance};

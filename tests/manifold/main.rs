@@ -2,6 +2,7 @@
 
 mod contact_faces;
 mod reduction;
+mod signed_distance;
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{

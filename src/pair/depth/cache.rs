@@ -21,7 +21,8 @@ pub const MOST_TRIANGLES: usize = 124;
 #[repr(C)]
 pub struct DepthCache {
     /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
-    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind and the others are 0.
+    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind, the third says whether the
+    /// objects overlapped, and the others are 0.
     counts: [u8; 4],
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
@@ -121,22 +122,23 @@ impl DepthCache {
     pub fn facet(&self) -> Option<Facet> {
         let edges @ [first, _] = self.pairs[0];
         match self.counts {
-            [FACE_OF_FIRST, 0, 0, 0] => Some(Facet::Face(0, first)),
-            [FACE_OF_SECOND, 0, 0, 0] => Some(Facet::Face(1, first)),
-            [EDGES, 0, 0, 0] => Some(Facet::Edges(edges)),
+            [FACE_OF_FIRST, 0, _, 0] => Some(Facet::Face(0, first)),
+            [FACE_OF_SECOND, 0, _, 0] => Some(Facet::Face(1, first)),
+            [EDGES, 0, _, 0] => Some(Facet::Edges(edges)),
             _ => None,
         }
     }
 
     /// Keeps the nearest facet and its direction, and no polytope.
     #[inline(always)]
-    pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector) {
+    pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector, overlap: bool) {
         self.remember(frame, direction);
-        (self.counts, self.pairs[0]) = match facet {
-            Facet::Face(0, face) => ([FACE_OF_FIRST, 0, 0, 0], [face, 0]),
-            Facet::Face(_, face) => ([FACE_OF_SECOND, 0, 0, 0], [face, 0]),
-            Facet::Edges(edges) => ([EDGES, 0, 0, 0], edges),
+        let (kind, pair) = match facet {
+            Facet::Face(0, face) => (FACE_OF_FIRST, [face, 0]),
+            Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
+            Facet::Edges(edges) => (EDGES, edges),
         };
+        (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
     }
 
     /// Whether nothing is kept.
@@ -187,8 +189,9 @@ impl DepthCache {
         }
     }
 
-    /// Whether a polytope is kept.
-    pub fn holds_polytope(&self) -> bool {
-        self.counts[1] > 0
+    /// Whether a polytope is kept, or a facet of objects that overlapped.
+    pub fn expects_overlap(&self) -> bool {
+        let [_, triangles, overlap, _] = self.counts;
+        triangles > 0 || (overlap == 1 && self.facet().is_some())
     }
 }

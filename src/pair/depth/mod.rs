@@ -238,11 +238,11 @@ impl<'a> DepthQuery<'a> {
         let fans = self.fans()?;
         match facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame)) {
             ByFacets::Separated(direction, facet) => {
-                self.cache.keep_facet(frame, facet, &direction);
+                self.cache.keep_facet(frame, facet, &direction, false);
                 Some(Search::Apart(direction))
             }
             ByFacets::Overlapping(overlap) => {
-                self.cache.keep_facet(frame, overlap.facet, &overlap.direction);
+                self.cache.keep_facet(frame, overlap.facet, &overlap.direction, true);
                 Some(Search::Facets(overlap))
             }
             ByFacets::Unclear => None,

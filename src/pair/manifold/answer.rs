@@ -3,8 +3,7 @@
 use crate::base::error::{Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
 use crate::pair::answer::{Feature, Outcome};
-use crate::pair::cache::PairCache;
-use crate::pair::depth::DepthCache;
+use crate::pair::signed_distance::SignedDistanceCache;
 
 /// What a manifold query is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -42,10 +41,7 @@ impl ManifoldConfig {
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct ManifoldCache {
-    /// Of the distance.
-    pub(super) pair: PairCache,
-    /// Of the depth.
-    pub(super) depth: DepthCache,
+    pub(crate) signed_distance: SignedDistanceCache,
     pub(super) reference: Reference,
 }
 

@@ -18,9 +18,9 @@ use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::config::PairConfig;
-use crate::pair::depth::{DepthAnswer, DepthConfig, depth};
+use crate::pair::depth::DepthAnswer;
 use crate::pair::placed::Placed;
-use crate::pair::queries::distance;
+use crate::pair::signed_distance::{SignedDistance, signed_distance};
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
@@ -87,7 +87,13 @@ pub(crate) fn manifold_into(
 ) -> Result<Manifold> {
     with_default(|| {
         config.check()?;
-        let contact = find_contact(bodies, cache, config)?;
+        let mut contact = SignedDistance::default();
+        let within = PairConfig {
+            distance_tolerance: config.margin,
+            rotation_limit: config.rotation_limit,
+            ..PairConfig::default()
+        };
+        signed_distance(bodies, &mut cache.signed_distance, &within, &mut contact)?;
         Ok(make(bodies, &mut cache.reference, config, &contact, points))
     })
 }
@@ -110,83 +116,20 @@ pub(crate) fn manifold_of(
 ) -> Manifold {
     let contact = match known {
         Known::Apart(answer) if answer.lower > config.margin => {
-            Contact { outcome: Outcome::Beyond, ..Contact::apart(answer) }
+            SignedDistance { outcome: Outcome::Beyond, ..answer.into() }
         }
-        Known::Apart(answer) => Contact::apart(answer),
-        Known::Deep(answer) => Contact::deep(answer),
+        Known::Apart(answer) => answer.into(),
+        Known::Deep(answer) => answer.into(),
     };
     make(bodies, reference, config, &contact, points)
 }
 
-/// What the pair queries say.
-struct Contact {
-    outcome: Outcome,
-    /// The signed distance.
-    interval: [f64; 2],
-    normal: Vector,
-    /// The pair of witness points.
-    witness: ManifoldPoint,
-}
-
-impl Contact {
-    /// Of objects that are apart.
-    fn apart(answer: &PairAnswer) -> Contact {
-        let &PairAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
-        let (gap_lower, gap_upper) = (answer.lower, answer.upper);
-        let id = id_of(&feature1, &feature2);
-        Contact {
-            outcome: answer.outcome,
-            interval: [gap_lower, gap_upper],
-            normal: answer.normal.into(),
-            witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
-        }
-    }
-
-    /// Of objects that intersect.
-    fn deep(answer: &DepthAnswer) -> Contact {
-        let &DepthAnswer { local1, local2, world1, world2, feature1, feature2, .. } = answer;
-        let (gap_lower, gap_upper) = (-answer.upper, -answer.lower);
-        let id = id_of(&feature1, &feature2);
-        Contact {
-            outcome: answer.outcome,
-            interval: [gap_lower, gap_upper],
-            normal: answer.normal.into(),
-            witness: ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id },
-        }
-    }
-}
-
-/// How far the objects are apart, or how deep in each other. What they were the last time is asked first.
-fn find_contact(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &ManifoldConfig) -> Result<Contact> {
-    if cache.depth.holds_polytope()
-        && let Some(contact) = find_depth(bodies, cache, config)?
-    {
-        return Ok(contact);
-    }
-    let mut answer = PairAnswer::default();
-    let pair_config = PairConfig {
-        distance_tolerance: config.margin,
-        rotation_limit: config.rotation_limit,
-        ..PairConfig::default()
-    };
-    distance(bodies, &mut cache.pair, &pair_config, &mut answer)?;
-    if answer.outcome == Outcome::Intersecting
-        && let Some(contact) = find_depth(bodies, cache, config)?
-    {
-        return Ok(contact);
-    }
-    Ok(Contact::apart(&answer))
-}
-
-/// `None` of objects that are apart.
-fn find_depth(bodies: [Placed; 2], cache: &mut ManifoldCache, config: &ManifoldConfig) -> Result<Option<Contact>> {
-    let mut answer = DepthAnswer::default();
-    let depth_config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
-    depth(bodies, &mut cache.depth, &depth_config, &mut answer)?;
-    if answer.outcome != Outcome::Intersecting {
-        return Ok(None);
-    }
-    Ok(Some(Contact::deep(&answer)))
+/// The pair of witness points.
+fn witness(contact: &SignedDistance) -> ManifoldPoint {
+    let &SignedDistance { local1, local2, world1, world2, feature1, feature2, .. } = contact;
+    let (gap_lower, gap_upper) = (contact.lower, contact.upper);
+    let id = id_of(&feature1, &feature2);
+    ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id }
 }
 
 /// The cosine between a patch's normal and the contact's from which on the patch may be the reference: 10°.
@@ -202,15 +145,15 @@ fn make(
     bodies: [Placed; 2],
     before: &mut Reference,
     config: &ManifoldConfig,
-    contact: &Contact,
+    contact: &SignedDistance,
     points: &mut Sink,
 ) -> Manifold {
     let mut answer = Manifold {
         outcome: contact.outcome,
         reference: 0,
-        lower: contact.interval[0],
-        upper: contact.interval[1],
-        normal: contact.normal.into(),
+        lower: contact.lower,
+        upper: contact.upper,
+        normal: contact.normal,
         point_count: 0,
         found_count: 0,
     };
@@ -226,7 +169,7 @@ fn make(
             return answer;
         }
     }
-    points.push(|| contact.witness);
+    points.push(|| witness(contact));
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
 }
@@ -238,12 +181,13 @@ struct Patches {
 }
 
 /// The last reference stays while it is about as parallel. `None` where no patch is nearly parallel to the normal.
-fn choose_patches(bodies: [Placed; 2], contact: &Contact, last: &Reference) -> Option<Patches> {
+fn choose_patches(bodies: [Placed; 2], contact: &SignedDistance, last: &Reference) -> Option<Patches> {
+    let normal = Vector::from(contact.normal);
     let facing = [0, 1].map(|i| {
         let sticky = if last.body == i as u32 + 1 { STICKY } else { STICKY_INCIDENT };
-        let direction = if i == 0 { -contact.normal } else { contact.normal };
+        let direction = if i == 0 { -normal } else { normal };
         let last = (1..=2).contains(&last.body).then_some(last.patches[i]);
-        let witness = Vector::from([contact.witness.local1, contact.witness.local2][i]);
+        let witness = Vector::from([contact.local1, contact.local2][i]);
         facing(bodies[i], &direction, &witness, last, sticky)
     });
     let parallel = |i: usize| facing[i].map_or(-1.0, |facing| facing.parallel);
@@ -264,7 +208,7 @@ fn clip(
     patches: &Patches,
     (last, now): (&Reference, &mut Reference),
     config: &ManifoldConfig,
-    contact: &Contact,
+    contact: &SignedDistance,
     points: &mut Sink,
 ) -> usize {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
@@ -278,22 +222,21 @@ fn clip(
     let rounding = 64.0 * U * size;
     let patch = |i: usize| patches.facing[i].map(|facing| facing.patch);
     let beside = outline::first_side(polyhedra[patches.reference], patch(patches.reference));
-    let axes = Axes::new(&contact.normal, &poses[patches.reference].rotate(&beside));
+    let axes = Axes::new(&contact.normal.into(), &poses[patches.reference].rotate(&beside));
     let outlines = [(0, between), (1, Vector::zeros())]
         .map(|(i, offset)| Outline::new(polyhedra[i], poses[i], offset, &axes, patch(i)));
     let noise = outlines[0].thickness() + outlines[1].thickness();
     let precision = Precision { rounding, coincident: noise.max(COINCIDENT * size), reference: patches.reference };
     let origin = poses[1].transform(&polyhedra[1].centre);
-    let witness_spots =
-        [contact.witness.world1, contact.witness.world2].map(|p| axes.spot(&(Vector::from(p) - origin)));
-    let margin = config.margin;
-    let view = View { outlines, polyhedra, poses, precision, margin, witness: &contact.witness, witness_spots };
+    let witness_spots = [contact.world1, contact.world2].map(|p| axes.spot(&(Vector::from(p) - origin)));
+    let (margin, witness) = (config.margin, witness(contact));
+    let view = View { outlines, polyhedra, poses, precision, margin, witness: &witness, witness_spots };
 
     let numbers = [0, 1].map(|i| patch(i).map_or(0, |patch| patch.number(polyhedra[i])));
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };
     if !config.reduces {
         return view.visit(|place| match place.origin {
-            Origin::Witness => points.insist(&contact.witness),
+            Origin::Witness => points.insist(&witness),
             Origin::Corner(_) => points.push(|| view.point(place)),
         });
     }

@@ -1,0 +1,128 @@
+//! How far apart two objects are, or how deep in each other, as one number: the distance where they are apart, minus the depth where
+//! they overlap. One interval goes through zero; so do the normal and the witness points.
+
+use super::answer::{Feature, Outcome, PairAnswer};
+use super::cache::PairCache;
+use super::config::PairConfig;
+use super::depth::{DepthAnswer, DepthCache, DepthConfig, depth};
+use super::placed::Placed;
+use super::queries::distance;
+use crate::base::error::Result;
+
+/// What a pair remembers of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
+/// which of several least directions is said; never the verdict.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub struct SignedDistanceCache {
+    distance: PairCache,
+    depth: DepthCache,
+}
+
+/// A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct SignedDistance {
+    /// [`Outcome::Intersecting`] (touching included), [`Outcome::Separated`], or [`Outcome::Beyond`] the tolerance: then only
+    /// `lower` is said, and `upper` is infinite.
+    pub outcome: Outcome,
+    /// The best estimate, `lower ≤ distance ≤ upper`: how far the objects are apart, or minus how deep they are in each other.
+    pub distance: f64,
+    /// Lower end of the rigorous interval; more than 0 only of objects that are apart, and of all of those.
+    pub lower: f64,
+    /// Upper end of the rigorous interval; at most 0 of objects that overlap or touch.
+    pub upper: f64,
+    /// Witness point on object 1, in its local frame.
+    pub local1: [f64; 3],
+    /// Witness point on object 2, in its local frame.
+    pub local2: [f64; 3],
+    /// Witness point on object 1, in the world frame; `world1 − world2` is `distance · normal` up to rounding.
+    pub world1: [f64; 3],
+    /// Witness point on object 2, in the world frame.
+    pub world2: [f64; 3],
+    /// Unit normal in the world frame, from object 2 to object 1: moving object 1 along it makes the distance grow as much.
+    pub normal: [f64; 3],
+    /// What holds the witness point of object 1.
+    pub feature1: Feature,
+    /// What holds the witness point of object 2.
+    pub feature2: Feature,
+}
+
+impl Default for SignedDistance {
+    fn default() -> Self {
+        SignedDistance::from(&PairAnswer::UNSAID)
+    }
+}
+
+/// Of objects that are apart.
+impl From<&PairAnswer> for SignedDistance {
+    fn from(answer: &PairAnswer) -> Self {
+        let &PairAnswer { outcome, distance, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
+        let &PairAnswer { feature1, feature2, .. } = answer;
+        SignedDistance { outcome, distance, lower, upper, local1, local2, world1, world2, normal, feature1, feature2 }
+    }
+}
+
+/// Of objects that intersect.
+impl From<&DepthAnswer> for SignedDistance {
+    fn from(answer: &DepthAnswer) -> Self {
+        let &DepthAnswer { outcome, depth, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
+        let &DepthAnswer { feature1, feature2, .. } = answer;
+        SignedDistance {
+            outcome,
+            distance: -depth,
+            lower: -upper,
+            upper: -lower,
+            local1,
+            local2,
+            world1,
+            world2,
+            normal,
+            feature1,
+            feature2,
+        }
+    }
+}
+
+/// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as
+/// [`distance`] and [`depth`] say. Of a pair beyond `config.distance_tolerance` only `lower` is said.
+///
+/// Of `config` the tolerance, the rotation limit, the start and the levels count.
+///
+/// # Errors
+/// As of [`distance`]; then `answer` is as it was.
+pub fn signed_distance(
+    bodies: [Placed; 2],
+    cache: &mut SignedDistanceCache,
+    config: &PairConfig,
+    answer: &mut SignedDistance,
+) -> Result<()> {
+    // What the objects were the last time is asked first.
+    if cache.depth.expects_overlap()
+        && let Some(found) = of_overlap(bodies, cache, config)?
+    {
+        *answer = found;
+        return Ok(());
+    }
+    let mut apart = PairAnswer::default();
+    distance(bodies, &mut cache.distance, config, &mut apart)?;
+    if apart.outcome == Outcome::Intersecting
+        && let Some(found) = of_overlap(bodies, cache, config)?
+    {
+        *answer = found;
+        return Ok(());
+    }
+    *answer = SignedDistance::from(&apart);
+    Ok(())
+}
+
+/// `None` of objects that are apart.
+fn of_overlap(
+    bodies: [Placed; 2],
+    cache: &mut SignedDistanceCache,
+    config: &PairConfig,
+) -> Result<Option<SignedDistance>> {
+    let mut overlap = DepthAnswer::default();
+    let config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
+    depth(bodies, &mut cache.depth, &config, &mut overlap)?;
+    Ok((overlap.outcome == Outcome::Intersecting).then(|| SignedDistance::from(&overlap)))
+}
