@@ -5,3 +5,4 @@ mod cpp;
 mod layout;
 mod readme;
 mod symbols;
+mod workflow;
