@@ -26,7 +26,7 @@ static void *take(void *user, size_t size, size_t alignment)
     const size_t behind = (sizeof(label) + alignment - 1) / alignment * alignment;
     unsigned char *block;
     label *written;
-    CHECK(size > 0 && alignment >= 8 && (alignment & (alignment - 1)) == 0 && size % alignment == 0);
+    CHECK(size > 0 && alignment >= sizeof(void *) && (alignment & (alignment - 1)) == 0 && size % alignment == 0);
     block = (unsigned char *)aligned_alloc(alignment, size + behind);
     if (block == NULL) {
         return NULL;

@@ -503,8 +503,12 @@ static void run(const environment *environment)
     build_and_ask();
     read_files();
     ask_a_scene();
-    /* What has no value is not computed, nor is a call's flag taken back. */
-    CHECK(fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0 && fetestexcept(FE_UNDERFLOW) != 0);
+    /* A call's flag is not taken back. */
+    CHECK(fetestexcept(FE_UNDERFLOW) != 0);
+#ifdef __x86_64__
+    /* What has no value is not computed. AArch64's compilers divide before they choose: it raises FE_DIVBYZERO, and any call may. */
+    CHECK(fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0);
+#endif
     ask_hard_questions();
     CHECK(fetestexcept(FE_UNDERFLOW) != 0);
     enter(&ENVIRONMENTS[0]);

@@ -320,7 +320,7 @@ void refused_hulls(const Folder& folder)
     const std::size_t second = node + 9 * 4 + 32 + 114 * 4;
     const struct {
         std::size_t at;
-        char value;
+        signed char value; // char has no sign on AArch64
         const char* message;
     } bytes[] = {
         {header + 4 + 56 + 7, 127, "vertex 0 is not finite"}, {faces, 12, "face 0 has a vertex that there is not"},
@@ -334,9 +334,9 @@ void refused_hulls(const Folder& folder)
     };
     for (std::size_t i = 0; i < sizeof bytes / sizeof bytes[0]; ++i) {
         std::string bad = good;
-        bad[bytes[i].at] = bytes[i].value;
+        bad[bytes[i].at] = static_cast<char>(bytes[i].value);
         if (bytes[i].at == header + 4 + 56 + 7) {
-            bad[bytes[i].at - 1] = -16;
+            bad[bytes[i].at - 1] = static_cast<char>(-16);
         }
         refuse(scene, messages, folder.write("changed.chr", bad), bytes[i].message);
     }

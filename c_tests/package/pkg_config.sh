@@ -27,8 +27,10 @@ if [ -n "$static_libc" ]; then
     eval "'$cc' -static '$hello' $(pkg-config --static --cflags --libs swiftprox) -o static_altogether"
     ./static_altogether
 fi
-# An old program, where there is a C++ compiler.
+# A program in C++, and an old one, where there is a compiler.
 if command -v c++ >/dev/null; then
+    eval "c++ -std=c++17 '${hello%/*}/hello.cpp' $(pkg-config --cflags --libs swiftprox) -o with_cpp"
+    ./with_cpp
     eval "c++ '${hello%/*}/legacy.cpp' $(pkg-config --cflags --libs swiftprox-legacy) -o with_legacy"
     ./with_legacy
 fi

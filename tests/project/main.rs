@@ -5,3 +5,4 @@ mod cpp;
 mod layout;
 mod links;
 mod symbols;
+mod workflow;

@@ -1,0 +1,17 @@
+//! The workflow for public hosting calls targets that the Makefile has, and nothing else of the project's.
+
+#[test]
+fn each_step_is_a_target_of_the_makefile() {
+    let workflow = include_str!("../../.github/workflows/ci.yml");
+    let makefile = include_str!("../../Makefile");
+    let mut targets = Vec::new();
+    for run in workflow.lines().filter_map(|line| line.trim_start().strip_prefix("- run: ")) {
+        if let Some(target) = run.strip_prefix("make ") {
+            assert!(makefile.contains(&format!("\n{target}:")), "{run}: the Makefile has no such target");
+            targets.push(target);
+        } else {
+            assert!(run.starts_with("apt-get "), "{run}");
+        }
+    }
+    assert_eq!(targets, ["lint", "test", "packages", "cross"]);
+}
