@@ -1082,8 +1082,8 @@ typedef struct swiftprox_manifold_cache {
 /** A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind. */
 typedef struct swiftprox_signed_distance {
   /**
-   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the tolerance: then only
-   * `lower` is said, and `upper` is infinite.
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the tolerance: then `lower` is all that is known,
+   * which `distance` repeats, and `upper` is infinite.
    */
   swiftprox_outcome outcome;
   /** The best estimate, `lower <= distance <= upper`: how far the objects are apart, or minus how deep they are in each other. */

@@ -314,6 +314,28 @@ fn any_cache_gives_the_same_depth() {
     assert_eq!(points.len(), 4);
 }
 
+/// With room for none nothing is written, and the deepest point, which must be among them, is written where there is room for one.
+/// All are counted.
+#[test]
+fn any_room_will_do() {
+    let mut random = Random::new(10);
+    for _ in 0..200 {
+        let shapes = [(); 2].map(|()| hull(&(0..20).map(|_| random.direction()).collect::<Vec<_>>()));
+        let poses =
+            [Pose::new(&random.rotation(), &Vector::zeros()), Pose::new(&random.rotation(), &random.direction())];
+        let pair = [shapes[0].at(&poses[0]), shapes[1].at(&poses[1])];
+        let (all, _) = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut ManifoldCache::default(), &ALL);
+        for config in [ALL, FOUR] {
+            for room in 0..4 {
+                let mut points = vec![ManifoldPoint::default(); room];
+                let answer = manifold(pair, &mut ManifoldCache::default(), &config, &mut points).unwrap();
+                assert_eq!((answer.outcome, answer.found_count), (all.outcome, all.found_count));
+                assert!(answer.point_count as usize <= room && (room == 0 || answer.point_count > 0), "{answer:?}");
+            }
+        }
+    }
+}
+
 /// Where squares of lengths overflow the manifold is the pair of witness points; no number is NaN. From fuzzing.
 #[test]
 fn any_magnitude_has_a_manifold() {

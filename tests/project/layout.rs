@@ -7,6 +7,7 @@ use std::mem::{align_of, offset_of, size_of};
 use std::path::Path;
 
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
 use swiftprox::ffi::level::{CMesh, LevelInfo};
 use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
@@ -21,7 +22,10 @@ use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
-use swiftprox::pair::{DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, Statistics};
+use swiftprox::pair::{
+    DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
+};
+use swiftprox::ray::{Ray, RayAnswer};
 use swiftprox::scene::{Contact, ObjectPair, PairResult, SceneStatistics};
 
 const HEADERS: [&str; 2] =
@@ -75,6 +79,7 @@ fn layouts() -> Vec<Layout> {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
             tuning, face_noise
         },
+        swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
             centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia
@@ -99,11 +104,14 @@ fn layouts() -> Vec<Layout> {
         swiftprox_depth_config = CDepthConfig {
             struct_size, rotation_limit, absolute_error, relative_error, step_budget
         },
+        swiftprox_manifold_cache = CManifoldCache { words },
+        swiftprox_signed_distance = SignedDistance {
+            outcome, distance, lower, upper, local1, local2, world1, world2, normal, feature1, feature2
+        },
         swiftprox_manifold_point = ManifoldPoint {
             local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
-        swiftprox_manifold_cache = CManifoldCache { words },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
@@ -116,6 +124,8 @@ fn layouts() -> Vec<Layout> {
         swiftprox_clearance_config = CClearanceConfig {
             struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
         },
+        swiftprox_ray = Ray { origin, direction, t_max },
+        swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },

@@ -3,6 +3,7 @@
 mod contacts;
 mod events;
 mod motions;
+mod placed;
 mod record;
 mod scenes;
 mod soak;
