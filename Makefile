@@ -17,6 +17,8 @@
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
+# make packages               packages for Debian and Conan, tried as installed: scripts/debian.sh, scripts/conan.sh
+# make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
@@ -44,7 +46,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -62,7 +64,7 @@ check:
 	cargo test --locked --profile checked --lib
 	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
 	+cmake --build $(BUILD)/check
-	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
 	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
@@ -182,6 +184,15 @@ hard:
 	rm -rf $(BUILD)/hard
 	cargo run --locked --release --example hard_cases -- $(BUILD)/hard $(if $(SEED),--seed $(SEED)) $(if $(COUNT),--count $(COUNT))
 	$(MAKE) cases CASES=$(BUILD)/hard
+
+packages:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	scripts/debian.sh
+	scripts/conan.sh
+
+cross:
+	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3
+	scripts/cross.sh
 
 clean:
 	cargo clean
