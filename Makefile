@@ -19,6 +19,8 @@
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
+# make packages               packages for Debian and Conan, tried as installed: scripts/debian.sh, scripts/conan.sh
+# make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 
@@ -46,7 +48,7 @@ FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench docs clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -64,7 +66,7 @@ check:
 	cargo test --locked --profile checked --lib
 	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
 	+cmake --build $(BUILD)/check
-	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
 	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
@@ -195,6 +197,15 @@ docs:
 	@command -v doxygen >/dev/null || scripts/apt.sh doxygen
 	@command -v python3 >/dev/null || scripts/apt.sh python3
 	docs/reference/make.sh $(BUILD)/docs
+
+packages:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	scripts/debian.sh
+	scripts/conan.sh
+
+cross:
+	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3
+	scripts/cross.sh
 
 clean:
 	cargo clean
