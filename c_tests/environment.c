@@ -506,7 +506,7 @@ static void run(const environment *environment)
     /* A call's flag is not taken back. */
     CHECK(fetestexcept(FE_UNDERFLOW) != 0);
 #ifdef __x86_64__
-    /* What has no value is not computed. AArch64's compilers divide before they choose: it raises FE_DIVBYZERO, and any call may. */
+    /* What has no value is not computed. AArch64's compilers divide before they choose: that raises FE_DIVBYZERO. */
     CHECK(fetestexcept(FE_INVALID | FE_DIVBYZERO) == 0);
 #endif
     ask_hard_questions();

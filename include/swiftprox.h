@@ -1082,8 +1082,8 @@ typedef struct swiftprox_manifold_cache {
 /** A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind. */
 typedef struct swiftprox_signed_distance {
   /**
-   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the tolerance: then `lower` is all that is known,
-   * which `distance` repeats, and `upper` is infinite.
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the
+   * tolerance: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
    */
   swiftprox_outcome outcome;
   /** The best estimate, `lower <= distance <= upper`: how far the objects are apart, or minus how deep they are in each other. */
@@ -1109,8 +1109,8 @@ typedef struct swiftprox_signed_distance {
 } swiftprox_signed_distance;
 
 /**
- * The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit normal,
- * witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+ * The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit
+ * normal, witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
  *
  * Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
  * budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.

@@ -269,8 +269,8 @@ pub unsafe extern "C" fn swiftprox_manifold_config_init_sized(config: *mut CMani
     unsafe { init_struct(config, struct_size, &CManifoldConfig::DEFAULT) }
 }
 
-/// The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit normal,
-/// witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+/// The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit
+/// normal, witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
 ///
 /// Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
 /// budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.

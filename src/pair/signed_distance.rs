@@ -1,5 +1,5 @@
-//! How far apart two objects are, or how deep in each other, as one number: the distance where they are apart, minus the depth where
-//! they overlap. One interval goes through zero; so do the normal and the witness points.
+//! How far apart two objects are, or how deep in each other, as one number: the distance where they are apart, minus the depth
+//! where they overlap. One interval goes through zero; so do the normal and the witness points.
 
 use super::answer::{Feature, Outcome, PairAnswer};
 use super::cache::PairCache;
@@ -22,8 +22,8 @@ pub struct SignedDistanceCache {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SignedDistance {
-    /// [`Outcome::Intersecting`] (touching included), [`Outcome::Separated`], or [`Outcome::Beyond`] the tolerance: then `lower` is all that is known,
-    /// which `distance` repeats, and `upper` is infinite.
+    /// [`Outcome::Intersecting`] (touching included), [`Outcome::Separated`], or [`Outcome::Beyond`] the
+    /// tolerance: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
     pub outcome: Outcome,
     /// The best estimate, `lower ≤ distance ≤ upper`: how far the objects are apart, or minus how deep they are in each other.
     pub distance: f64,

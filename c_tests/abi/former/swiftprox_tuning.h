@@ -1,4 +1,4 @@
-/* swiftprox_tuning.h of 0.1.0 before motions and face_noise were added, without its comments. Programs compiled with it must run on. */
+/* swiftprox_tuning.h of 0.1.0 before motions and face_noise, without comments. Programs compiled with it must run on. */
 #ifndef SWIFTPROX_TUNING_H
 #define SWIFTPROX_TUNING_H
 
