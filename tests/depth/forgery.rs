@@ -59,6 +59,35 @@ fn forged_depths_are_refused() {
     }
 }
 
+/// A translation that parts two boxes is not the least one, though all else of the answer is true of it: normal, points, features
+/// and an overlap along the normal. Only the lower end is false, and only its proof refuses it. Found by a mutant of the check,
+/// which left that proof out; all other forgeries fail elsewhere, too.
+#[test]
+fn an_overlap_along_another_direction_is_no_depth() {
+    let (large, small) = (cuboid([1.0; 3]), cuboid([0.5; 3]));
+    // In the middle of a face of the large one, a quarter deep.
+    let origin = at(0.0, 0.0, 0.0);
+    let middle = query([&large, &small], [&origin, &at(1.25, 0.0, 0.0)], &mut DepthCache::default());
+    let [_, y, z] = middle.local2;
+    assert!(middle.depth == 0.25 && y.abs() == 0.5, "{middle:?}");
+    // The same at an edge, an eighth deep along another axis.
+    let there = at(1.25, -1.375 * y.signum(), 0.0);
+    let bodies = [large.at(&origin), small.at(&there)];
+    let mut cache = DepthCache::default();
+    let honest = query([&large, &small], [&origin, &there], &mut cache);
+    assert!((honest.depth - 0.125).abs() < 1e-12, "{honest:?}");
+    let beside = y - 1.375 * y.signum();
+    let forged =
+        DepthAnswer { local1: [1.0, beside, z], world1: [1.0, beside, z], world2: [0.75, beside, z], ..middle };
+    for cache in [cache, DepthCache::default()] {
+        verify_depth(bodies, &cache, &honest).unwrap();
+        verify_depth(bodies, &cache, &forged).unwrap_err();
+        // With a lower end that holds there is nothing to refuse.
+        verify_depth(bodies, &cache, &DepthAnswer { lower: honest.lower, ..forged }).unwrap();
+        verify_depth(bodies, &cache, &DepthAnswer { lower: 0.0, ..forged }).unwrap();
+    }
+}
+
 #[test]
 fn separated_and_touching_objects_are_told_apart() {
     let cube = cuboid([0.5, 0.5, 0.5]);
