@@ -158,7 +158,7 @@ void lists()
 
 /*
  * Cause: pairs were found by a tolerance so large that no overlapping boxes are missed, and told apart by their boxes afterwards.
- * Cut-off: any scene of more than a few objects. Repro: 25 times as many pairs were answered here as were listed.
+ * Cut-off: any scene of more than a few objects. Repro: 28,395 pairs were looked at here for 266 that were listed; now 294 are.
  */
 void effort()
 {
