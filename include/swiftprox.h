@@ -1588,11 +1588,11 @@ typedef struct swiftprox_point_answer {
 } swiftprox_point_answer;
 
 /**
- * Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of that
- * is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+ * Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
+ * that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
  *
- * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is not
- * finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
+ * not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
  *
  * Experimental.
  */
@@ -2827,13 +2827,13 @@ typedef struct swiftprox_scene_cast_answer {
 /**
  * Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
  * times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own. Pairs
- * of two of them are asked about if set->among is not 0; set->poses is not looked at. Pairs are those that queries test; both may be
- * fixed. config->step_budget is that of each pair; config may be null for the defaults. Threads and scratch as of
+ * of two of them are asked about if set->among is not 0; set->poses is not looked at. Pairs are those that queries test; both may
+ * be fixed. config->step_budget is that of each pair; config may be null for the defaults. Threads and scratch as of
  * swiftprox_scene_least_distance.
  *
  * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
- * neither 1 nor set->count, an object's pieces have poses of their own, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id
- * names no object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
+ * neither 1 nor set->count, an object's pieces have poses of their own, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an
+ * id names no object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
  * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_POISONED.
  *
  * Experimental.
@@ -2894,10 +2894,10 @@ typedef struct swiftprox_pair_question {
  * does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
  *
  * A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of range.
- * SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is answered.
- * SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED. SWIFTPROX_ERROR_BUG: all
- * answers and caches are reset.
+ * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of
+ * range. SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is
+ * answered. SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_BUG: all answers and caches are reset.
  *
  * Experimental.
  */

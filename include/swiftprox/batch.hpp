@@ -14,7 +14,7 @@ inline swiftprox_pair_question question(Placed a, Placed b, PairCache &cache) no
     return {a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache};
 }
 
-/** An answer for each pair, in order: bit for bit those of single calls. The workers of the scene share the work, if there is one. */
+/** An answer for each pair, in order: bit for bit those of single calls. The scene's workers share the work, if there is one. */
 inline Result<void> try_batch(swiftprox_query_kind kind, Range<const swiftprox_pair_question> pairs,
                               std::vector<swiftprox_pair_answer> &answers, const PairConfig &config = {},
                               const SceneView *scene = nullptr)

@@ -69,8 +69,8 @@ impl Scene {
         })
     }
 
-    /// At which of many times a set of objects is no farther from something than `margin`: all other objects, and if the set says so
-    /// one another. `poses` are those of all objects at the first time, then at the second, and so on; those of the set are not
+    /// At which of many times a set of objects is no farther from something than `margin`: all other objects, and if the set says
+    /// so one another. `poses` are those of all objects at the first time, then at the second, and so on; those of the set are not
     /// looked at, nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed.
     ///
     /// # Errors
@@ -113,14 +113,14 @@ impl Scene {
     }
 
     /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain, as
-    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own. Pairs
-    /// of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test; both may be
-    /// fixed. `config.step_budget` is that of each pair.
+    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own.
+    /// Pairs of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test;
+    /// both may be fixed. `config.step_budget` is that of each pair.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, and for an object
-    /// whose pieces have poses of their own; as of [`motion::cast`](crate::motion::cast()), and
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, and for an
+    /// object whose pieces have poses of their own; as of [`motion::cast`](crate::motion::cast()), and
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn cast(
         &self,
@@ -136,12 +136,12 @@ impl Scene {
         })
     }
 
-    /// [`Scene::cast`] of many edges, whose motions stand one behind the other: one for each edge, or one for each object of the set
-    /// at each edge. Each edge has an answer of its own.
+    /// [`Scene::cast`] of many edges, whose motions stand one behind the other: one for each edge, or one for each object of the
+    /// set at each edge. Each edge has an answer of its own.
     ///
     /// # Errors
-    /// As [`Scene::cast`], naming the edge, and [`Error::Argument`](crate::base::error::Error::Argument) for motions that do not come
-    /// out even. Answers of edges before it stay.
+    /// As [`Scene::cast`], naming the edge, and [`Error::Argument`](crate::base::error::Error::Argument) for motions that do not
+    /// come out even. Answers of edges before it stay.
     pub fn cast_batch(
         &self,
         set: &ObjectSet,

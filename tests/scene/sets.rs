@@ -1,4 +1,5 @@
-//! Questions about sets of objects: against integers for all pairs, whatever was done to the scene before, and from several threads.
+//! Questions about sets of objects: against integers for all pairs, whatever was done to the scene before, and from several
+//! threads.
 
 use std::sync::{Arc, Barrier};
 

@@ -162,8 +162,8 @@ impl BroadPhase {
         Ok(decisions)
     }
 
-    /// The trees, of moving pieces and of fixed ones, while each piece is in one of them, except some of those that have escaped, and
-    /// is in the boxes there unless it has escaped.
+    /// The trees, of moving pieces and of fixed ones, while each piece is in one of them, except some of those that have escaped,
+    /// and is in the boxes there unless it has escaped.
     pub fn fitted_trees(&self, proxies: &Proxies) -> Option<&[Tree; 2]> {
         let are_fitted = self.trees.iter().all(|tree| tree.is_fitted);
         (self.listing == Listing::Overlaps && are_fitted && !proxies.misses_escaped).then_some(&self.trees)

@@ -1,5 +1,5 @@
-//! When moving objects first meet others: boxes around what they sweep over say whom they may meet, and each such pair is cast up to
-//! the earliest time that is known.
+//! When moving objects first meet others: boxes around what they sweep over say whom they may meet, and each such pair is cast up
+//! to the earliest time that is known.
 
 use crate::base::error::{Error, Result};
 use crate::base::memory::push;
@@ -99,7 +99,8 @@ enum Target {
 ///
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
-/// object, for an object whose pieces have poses of their own, and as of [`crate::motion::cast`]; [`Error::Pose`], [`Error::Memory`].
+/// object, for an object whose pieces have poses of their own, and as of [`crate::motion::cast`]; [`Error::Pose`],
+/// [`Error::Memory`].
 pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswer> {
     question.config.check()?;
     room.caches.make_room()?;

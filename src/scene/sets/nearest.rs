@@ -1,5 +1,5 @@
-//! The nearest pair of two sets, best first: lower bounds by boxes and spheres say which pair is asked next, and what is known so far
-//! is the tolerance of the next query. It ends where no bound is less than that.
+//! The nearest pair of two sets, best first: lower bounds by boxes and spheres say which pair is asked next, and what is known so
+//! far is the tolerance of the next query. It ends where no bound is less than that.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;

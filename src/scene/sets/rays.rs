@@ -1,5 +1,5 @@
-//! What a ray meets in a scene: the trees' boxes say what it may, and each body's own cast what it does. Where intervals do not tell
-//! which of two comes first, both are cast again in integers.
+//! What a ray meets in a scene: the trees' boxes say what it may, and each body's own cast what it does. Where intervals do not
+//! tell which of two comes first, both are cast again in integers.
 
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;

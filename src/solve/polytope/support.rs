@@ -52,8 +52,8 @@ pub fn support<L: Lanes>(
     Support { pair: [vertex1, vertex2], position: position.to_array(), value, excess, upper }
 }
 
-/// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is the farthest for
-/// sure. The direction may be off by 6.2u.
+/// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is the farthest
+/// for sure. The direction may be off by 6.2u.
 #[inline(always)]
 pub fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
     if polyhedron.vertices.len() <= FEW {
