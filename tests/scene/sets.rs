@@ -222,10 +222,10 @@ fn the_least_distance_is_that_of_integers() {
                     );
                     assert!(answer.upper - answer.lower <= 1e-12 && (answer.upper == 0.0) == least.is_zero(), "{told}");
                     let nearest = &answer.nearest;
-                    let is_it = |(a, b, square_of): &&(ObjectId, ObjectId, RBig)| {
+                    let is_it = |(a, b, square_of): &(ObjectId, ObjectId, RBig)| {
                         (*a, *b) == (nearest.object1, nearest.object2) && *square_of <= square(answer.upper)
                     };
-                    assert!(squares.iter().find(is_it).is_some(), "{told}");
+                    assert!(squares.iter().any(is_it), "{told}");
                 }
                 _ => {
                     counts[2] += 1;
@@ -411,10 +411,10 @@ fn casts_end_with_the_earliest_of_all_pairs() {
             if certain < f64::INFINITY {
                 assert_eq!(answer.outcome, CastOutcome::Hit, "{told}");
                 assert!((answer.t_hi - certain).abs() <= 1e-6 && answer.t_lo <= answer.t_hi, "{told}");
-                let of_pair = |(a, b, said): &&(ObjectId, ObjectId, CastAnswer)| {
+                let of_pair = |(a, b, said): &(ObjectId, ObjectId, CastAnswer)| {
                     (*a, *b) == (answer.pair.object1, answer.pair.object2) && said.t_hi <= certain + 2e-6
                 };
-                assert!(pairs.iter().find(of_pair).is_some(), "{told}");
+                assert!(pairs.iter().any(of_pair), "{told}");
             } else if answer.outcome == CastOutcome::Free {
                 assert_eq!((answer.t_lo, answer.pair.object1), (1.0, ObjectId::NULL), "{told}");
             }

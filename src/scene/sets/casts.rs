@@ -125,7 +125,8 @@ fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
     let Question { others, motions, config, .. } = question;
     let (world, ids) = (others.world, others.set.ids);
     let Room { movers, boxes, .. } = room;
-    (movers.clear(), boxes.clear());
+    movers.clear();
+    boxes.clear();
     if ids.is_empty() || !(motions.len() == 1 || motions.len() == ids.len()) {
         let are = format!("{} motions for a set of {} objects", motions.len(), ids.len());
         return Err(Error::Argument(format!("{are}: give one for all together, or one for each")));
