@@ -58,15 +58,17 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-# The library is made once, in the profile that all tests of Rust share. What takes long is left to `make test`: valgrind, programs
-# that are installed, other libraries, further compilers.
+# The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
+# other libraries, further compilers, a browser.
+LONG := _under_|^(package|subdirectory|fetch_content|find_package|legacy_(clang_)?cxx|legacy_float|cpp_(c|g|clang)\+\+)
+LONG := $(LONG)|^(tower_|engine_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
 check:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	cargo test --locked --profile checked --lib
-	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
+	cargo test --locked --profile daily --lib --features allocator
+	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=daily -DSWIFTPROX_TEST_PEERS=OFF
 	+cmake --build $(BUILD)/check
-	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '$(LONG)'
 	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
