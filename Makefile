@@ -12,6 +12,8 @@
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
+# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers: some fifteen
+#                             minutes; benches/results/bodies.csv, docs/charts/bodies-*.svg. QUICK=--quick: seconds, build/bodies.csv
 # make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
@@ -44,11 +46,13 @@ MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
 STABILITY = benches/results/stability
 STABILITY_PAGE = $(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 DEPTHS = benches/results/depths
+BODIES = benches/results/bodies
+QUICK =
 FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -156,6 +160,13 @@ crowds:
 	    --csv benches/results/crowds.csv
 	$(DRAW) benches/plot.py benches/results/crowds.csv
 
+bodies:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
+	mkdir -p $(BUILD)
+	TIMED='$(TIMED)' scripts/bodies.sh $(if $(QUICK),$(BUILD)/bodies.csv --quick,$(BODIES).csv)
+	$(if $(QUICK),,$(DRAW) benches/bodies.py --again)
+
 depths:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
@@ -179,6 +190,7 @@ steps:
 charts:
 	@scripts/require.sh $(MATPLOTLIB)
 	$(DRAW) benches/plot.py --again
+	$(DRAW) benches/bodies.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 	$(STABILITY_PAGE)
 

@@ -1,5 +1,5 @@
-// Bullet's EPA in double precision, from its header alone: Debian's library is of single precision. Its tolerance, 1e-4, and its 64
-// vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
+// Bullet's GJK and EPA in double precision, from its header alone: Debian's library is of single precision. Its tolerance, 1e-4, and
+// its 64 vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
 
 #define BT_USE_DOUBLE_PRECISION
 #include <LinearMath/btTransform.h>
@@ -8,7 +8,7 @@
 #include <limits>
 #include <vector>
 
-#include "../hull.h"
+#include "hull.h"
 extern "C" {
 #include "peer.h"
 }
@@ -51,22 +51,46 @@ struct peer {
     unsigned last[2];
 };
 
+namespace {
+
+using Results = btGjkEpaSolver3::sResults;
+
+struct Pair {
+    Placed first, second;
+};
+
+Pair placed(peer *peer, size_t i)
+{
+    return {{peer->bodies[0], peer->poses[2 * i], &peer->last[0]}, {peer->bodies[1], peer->poses[2 * i + 1], &peer->last[1]}};
+}
+
+// The normal is in the axes of the first body, unlike the points.
+void tell(const Pair &pair, const Results &results, double *normal)
+{
+    const btVector3 turned = pair.first.at.getBasis() * results.normal;
+    for (int k = 0; k < 3; ++k) {
+        normal[k] = turned[k];
+    }
+}
+
+} // namespace
+
 extern "C" {
 
-void bullet_depth_forget(peer *peer)
+void bullet_peer_forget(peer *peer)
 {
     peer->guess = btVector3(1, 0, 0);
     peer->last[0] = peer->last[1] = 0;
 }
 
-void bullet_depth_free(peer *peer)
+void bullet_peer_free(peer *peer)
 {
     hull_free(peer->bodies[0]);
     hull_free(peer->bodies[1]);
     delete peer;
 }
 
-peer *bullet_depth_create(const peer_mesh *meshes, double)
+peer *bullet_peer_create(const peer_mesh *meshes, double)
 {
     peer *made = new peer{};
     for (int k = 0; k < 2; ++k) {
@@ -74,14 +98,14 @@ peer *bullet_depth_create(const peer_mesh *meshes, double)
         made->bodies[k] = hull_create(mesh.vertices, mesh.vertex_count, mesh.corners, mesh.triangle_count);
     }
     if (!made->bodies[0] || !made->bodies[1]) {
-        bullet_depth_free(made);
+        bullet_peer_free(made);
         return nullptr;
     }
-    bullet_depth_forget(made);
+    bullet_peer_forget(made);
     return made;
 }
 
-void bullet_depth_load(peer *peer, const double *poses, size_t count)
+void bullet_peer_load(peer *peer, const double *poses, size_t count)
 {
     peer->poses.clear();
     for (size_t i = 0; i < 2 * count; ++i) {
@@ -89,21 +113,27 @@ void bullet_depth_load(peer *peer, const double *poses, size_t count)
     }
 }
 
-double bullet_depth_ask(peer *peer, size_t i, double *normal)
+double bullet_distance(peer *peer, size_t i, double *normal)
 {
-    const Placed first{peer->bodies[0], peer->poses[2 * i], &peer->last[0]};
-    const Placed second{peer->bodies[1], peer->poses[2 * i + 1], &peer->last[1]};
-    btGjkEpaSolver3::sResults results;
-    if (btGjkEpaSolver3_Penetration(first, second, peer->guess, results)) {
+    const Pair pair = placed(peer, i);
+    Results results;
+    if (!btGjkEpaSolver3_Distance(pair.first, pair.second, peer->guess, results)) {
+        return results.status == Results::GJK_Failed ? std::numeric_limits<double>::quiet_NaN() : 0;
+    }
+    peer->guess = results.normal;
+    tell(pair, results, normal);
+    return results.distance;
+}
+
+double bullet_depth(peer *peer, size_t i, double *normal)
+{
+    const Pair pair = placed(peer, i);
+    Results results;
+    if (btGjkEpaSolver3_Penetration(pair.first, pair.second, peer->guess, results)) {
         peer->guess = results.normal;
-        // In the axes of the first body, unlike the points.
-        const btVector3 turned = first.at.getBasis() * results.normal;
-        for (int k = 0; k < 3; ++k) {
-            normal[k] = turned[k];
-        }
+        tell(pair, results, normal);
         return -results.distance;
     }
-    using Results = btGjkEpaSolver3::sResults;
     const bool failed = results.status == Results::EPA_Failed || results.status == Results::GJK_Failed;
     return failed ? std::numeric_limits<double>::quiet_NaN() : 0;
 }

@@ -15,9 +15,10 @@ struct peer {
     mjtNum *poses; /* of each geom the position, then the rotation */
 };
 
-enum { POSE = 12, FARTHEST = 100 };
+enum { POSE = 12 };
+static const double FARTHEST = 100, NEAREST = 1e-12; /* up to how far apart distances are asked for, and verdicts */
 
-void mujoco_depth_free(struct peer *peer)
+void mujoco_peer_free(struct peer *peer)
 {
     if (peer->data)
         mj_deleteData(peer->data);
@@ -46,7 +47,7 @@ static bool add_mesh(mjSpec *spec, const char *name, const struct peer_mesh *mes
     return true;
 }
 
-struct peer *mujoco_depth_create(const struct peer_mesh meshes[2], double tolerance)
+struct peer *mujoco_peer_create(const struct peer_mesh meshes[2], double tolerance)
 {
     struct peer *peer = calloc(1, sizeof *peer);
     if (!peer)
@@ -58,7 +59,7 @@ struct peer *mujoco_depth_create(const struct peer_mesh meshes[2], double tolera
     mj_deleteSpec(spec);
     peer->data = peer->model ? mj_makeData(peer->model) : NULL;
     if (!peer->data) {
-        mujoco_depth_free(peer);
+        mujoco_peer_free(peer);
         return NULL;
     }
     return peer;
@@ -76,7 +77,7 @@ static void place(const mjModel *model, int geom, const double *m, mjtNum *place
     mju_mulMatMat(placed + 3, turned, own, 3, 3, 3);
 }
 
-void mujoco_depth_load(struct peer *peer, const double *poses, size_t count)
+void mujoco_peer_load(struct peer *peer, const double *poses, size_t count)
 {
     free(peer->poses);
     peer->poses = malloc(2 * count * POSE * sizeof *peer->poses);
@@ -86,12 +87,13 @@ void mujoco_depth_load(struct peer *peer, const double *poses, size_t count)
         place(peer->model, (int)(i % 2), poses + 12 * i, peer->poses + POSE * i);
 }
 
-void mujoco_depth_forget(struct peer *peer)
+void mujoco_peer_forget(struct peer *peer)
 {
     (void)peer;
 }
 
-double mujoco_depth_ask(struct peer *peer, size_t i, double normal[3])
+/* The signed distance where it is less than `most`, else that, and along what. */
+static double ask(struct peer *peer, size_t i, double most, double normal[3])
 {
     const mjtNum *poses = peer->poses + 2 * POSE * i;
     for (int k = 0; k < 2; ++k) {
@@ -99,8 +101,26 @@ double mujoco_depth_ask(struct peer *peer, size_t i, double normal[3])
         memcpy(peer->data->geom_xmat + 9 * k, poses + POSE * k + 3, 9 * sizeof *poses);
     }
     mjtNum points[6];
-    const mjtNum distance = mj_geomDistance(peer->model, peer->data, 0, 1, FARTHEST, points);
+    const mjtNum distance = mj_geomDistance(peer->model, peer->data, 0, 1, most, points);
     for (int k = 0; k < 3; ++k)
         normal[k] = points[3 + k] - points[k];
+    return distance;
+}
+
+double mujoco_distance(struct peer *peer, size_t i, double normal[3])
+{
+    const double distance = ask(peer, i, FARTHEST, normal);
+    return distance < 0 ? 0 : distance;
+}
+
+double mujoco_verdict(struct peer *peer, size_t i, double normal[3])
+{
+    const double distance = ask(peer, i, NEAREST, normal);
+    return distance <= 0 ? 0 : distance > 0 ? INFINITY : distance;
+}
+
+double mujoco_depth(struct peer *peer, size_t i, double normal[3])
+{
+    const double distance = ask(peer, i, FARTHEST, normal);
     return distance < 0 ? -distance : distance >= 0 ? 0 : distance;
 }
