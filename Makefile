@@ -21,7 +21,7 @@
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
-# make packages               packages for Debian and Conan, tried as installed: scripts/debian.sh, scripts/conan.sh
+# make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
 # make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
@@ -216,6 +216,7 @@ packages:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	scripts/debian.sh
 	scripts/conan.sh
+	scripts/cargo_c.sh
 
 cross:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3
