@@ -166,6 +166,27 @@ impl BroadPhase {
         Ok(decisions)
     }
 
+    /// The trees, of moving pieces and of fixed ones, while each piece is in one of them, except some of those that have escaped,
+    /// and is in the boxes there unless it has escaped.
+    pub fn fitted_trees(&self, proxies: &Proxies) -> Option<&[Tree; 2]> {
+        let are_fitted = self.trees.iter().all(|tree| tree.is_fitted);
+        (self.listing == Listing::Overlaps && are_fitted && !proxies.misses_escaped).then_some(&self.trees)
+    }
+
+    /// Brings the list and both trees up to date, so that there are [fitted trees](BroadPhase::fitted_trees) and nothing has
+    /// escaped; of pairs that the program gives there are none.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
+    pub fn fit_trees(&mut self, world: &mut World, workers: &Workers) -> Result<()> {
+        self.update(world, 0.0, workers)?;
+        if world.given.is_none() {
+            self.fit_tree(false, &world.proxies)?;
+            self.fit_tree(true, &world.proxies)?;
+        }
+        Ok(())
+    }
+
     /// Brings the list up to date: all that a query with this tolerance may list are among its pairs.
     ///
     /// # Errors

@@ -11,7 +11,7 @@ use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::object_view::Objects;
 use crate::scene::world::proxies::{NewProxy, Proxies};
 use crate::scene::world::rows::Label;
-use crate::scene::world::testing::{Decided, PairFilter, Rules};
+use crate::scene::world::testing::{Decided, PairFilter, Rules, is_tested};
 use crate::shape::Shape;
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, unless the program says otherwise.
@@ -155,6 +155,20 @@ impl World {
             }
             std::cmp::Ordering::Greater => Ok([id2, id1]),
         }
+    }
+
+    /// Whether a question that changes nothing tests a pair of pieces. `moved`: one of them is elsewhere for the question, so that
+    /// both may be of fixed objects.
+    pub fn is_tested(&self, [a, b]: [usize; 2], moved: bool) -> bool {
+        let World { objects, proxies, activation, filter, given, .. } = self;
+        if !(if moved { proxies.may_meet_moved(a, b) } else { proxies.may_meet(a, b) }) {
+            return false;
+        }
+        let labels = [a.min(b), a.max(b)].map(|proxy| &proxies.labels[proxy]);
+        let [earlier, later] = labels.map(|label| label.object);
+        let is_given =
+            given.as_ref().is_none_or(|given| given.contains(&[earlier, later]) || given.contains(&[later, earlier]));
+        is_given && is_tested(objects, activation, filter.as_ref(), labels)
     }
 
     /// Whether a pair is tested when it is near, whatever the filter says.
