@@ -139,7 +139,7 @@ static void shapes()
     stopped.progress = [&reports](double) { return ++reports > 1000; };
     CHECK(Shape::try_from_points(vertices.value, stopped).status == SWIFTPROX_ERROR_CANCELLED && reports == 1);
 
-    // Shares: a copy outlives its original, what was moved away is none.
+    // Shares: a copy outlives its original, what was moved away is empty.
     Shape first = box;
     Shape second = std::move(first);
     CHECK(!first && second);

@@ -1542,7 +1542,7 @@ swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
                                           struct swiftprox_ray_answer *answer);
 
 /**
- * How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ * How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
  *
  * Experimental.
  */

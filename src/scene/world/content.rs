@@ -17,6 +17,9 @@ use crate::shape::Shape;
 /// Without a tolerance all pairs are near: so many are kept with what they remember, unless the program says otherwise.
 pub(crate) const DEFAULT_KEPT_PAIRS: u64 = 1 << 20;
 
+/// So few pairs of pieces are all near.
+const FEW_PAIRS: u64 = 16;
+
 /// Objects, where they are, and what was said on the testing of their pairs.
 #[derive(Debug)]
 pub(crate) struct World {
@@ -229,8 +232,18 @@ impl World {
 
     /// Whether all pairs may be kept.
     pub fn is_small(&self) -> bool {
+        self.pair_count() <= self.kept_pair_limit
+    }
+
+    /// Whether pairs are so few that all are kept whatever is asked.
+    pub fn has_few_pairs(&self) -> bool {
+        self.pair_count() <= FEW_PAIRS.min(self.kept_pair_limit)
+    }
+
+    /// Of two pieces, whether they may meet or not.
+    fn pair_count(&self) -> u64 {
         // At most 2³¹: the product fits.
         let count = (self.proxies.len() - self.proxies.gone) as u64;
-        count * count.saturating_sub(1) / 2 <= self.kept_pair_limit
+        count * count.saturating_sub(1) / 2
     }
 }

@@ -135,6 +135,7 @@ impl Proxies {
     }
 
     /// Puts a piece elsewhere: [`Rows::place`].
+    #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
         if self.rows().place(proxy, pose, defect, passes) {
             self.escaped.push(proxy as u32);

@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
 
     /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs. True if
     /// it has just left its box.
-    #[inline]
+    #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) -> bool {
         let at = proxy - self.first;
         let old = self.poses[at];
