@@ -176,7 +176,7 @@ impl<'a> Rows<'a> {
     pub fn refit(&mut self, proxy: usize, tolerance: f64) {
         let at = proxy - self.first;
         let motion = &mut self.motions[at];
-        let Spheres { centre, outer, .. } = self.spheres[at];
+        let outer = self.spheres[at].outer;
         let most = MOST_ROOM * outer;
         let can_move = !self.labels[at].fixed;
         let room = match motion.rate {
@@ -194,10 +194,14 @@ impl<'a> Rows<'a> {
             (false, true) => limit,
             (false, false) => NO_BOX,
         };
-        let (shape, pose) = (&self.shapes[at], &self.poses[at]);
-        let reach = shape.extent().reach(pose, outer.into());
-        self.boxes[at] = Aabb::around(centre, &reach, grown + centre_error(shape, pose));
+        self.boxes[at] = box_around(&self.shapes[at], &self.poses[at], &self.spheres[at], grown);
     }
+}
+
+/// A box around a placed shape, grown by so much on each side.
+pub(crate) fn box_around(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
+    let reach = shape.extent().reach(pose, spheres.outer.into());
+    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
 }
 
 /// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
@@ -210,8 +214,10 @@ pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool)
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
-    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
-    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
+    // A pose does not stretch the ball that is swept.
+    let swept = shape.swept_radius();
+    let outer = (polyhedron.radius * (1.0 + stretch) + error + swept) * (1.0 + 8.0 * U);
+    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error + swept) * (1.0 - 8.0 * U);
     (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
 }
 
