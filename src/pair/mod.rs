@@ -15,11 +15,13 @@ mod signed_distance;
 mod radii;
 mod swept;
 mod queries;
+mod batch;
 mod half_space;
 mod manifold;
 pub mod verify;
 
 pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
+pub use batch::{PairQuestion, batch};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};

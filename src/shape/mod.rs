@@ -10,7 +10,7 @@ use std::path::Path;
 
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, copied, found, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -288,7 +288,7 @@ impl Shape {
     /// The hull of an open surface that lies on it.
     fn of_patch(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let Some((mut patch, used)) = mesh.without_unused_vertices()? else {
-            return Err(Error::Mesh("the faces of a patch are none over its vertices".into()));
+            return Err(Error::Mesh("a face of the patch names a vertex that is not there".into()));
         };
         if patch.face_count() == 0 {
             return Err(Error::Mesh("the mesh has no faces".into()));

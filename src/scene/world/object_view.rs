@@ -8,7 +8,7 @@ use crate::base::math::Pose;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::proxies::Proxies;
-use crate::scene::world::rows::{Label, box_around};
+use crate::scene::world::rows::{Label, grown_box};
 use crate::shape::Shape;
 
 /// All of a scene.
@@ -87,7 +87,7 @@ impl<'a> Object<'a> {
     /// it is the box of its own turned box.
     pub fn world_box(&self) -> [[f64; 3]; 2] {
         let Proxies { shapes, poses, spheres, .. } = self.proxies;
-        let of_piece = |row: usize| box_around(&shapes[row], &poses[row], &spheres[row], 0.0);
+        let of_piece = |row: usize| grown_box(&shapes[row], &poses[row], &spheres[row], 0.0);
         let all = self.proxies().map(of_piece).fold(Aabb::NOWHERE, |all, piece| all.union(&piece));
         [all.lower, all.upper].map(|corner| corner.map(f64::from))
     }

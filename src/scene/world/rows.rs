@@ -24,7 +24,7 @@ const FIRST_ROOM: f32 = 0.04;
 const NO_BOX: f64 = f64::NEG_INFINITY;
 
 /// Below this lengths are taken for nothing: their squares may underflow.
-const TINY: f64 = 1e-150;
+pub(crate) const TINY: f64 = 1e-150;
 
 /// Balls about one centre: the piece is in the outer one, the inner one in the piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
 
     /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs. True if
     /// it has just left its box.
-    #[inline]
+    #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) -> bool {
         let at = proxy - self.first;
         let old = self.poses[at];
@@ -194,12 +194,12 @@ impl<'a> Rows<'a> {
             (false, true) => limit,
             (false, false) => NO_BOX,
         };
-        self.boxes[at] = box_around(&self.shapes[at], &self.poses[at], &self.spheres[at], grown);
+        self.boxes[at] = grown_box(&self.shapes[at], &self.poses[at], &self.spheres[at], grown);
     }
 }
 
-/// A box around a placed shape, grown by so much on each side.
-pub(crate) fn box_around(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
+/// A box around a placed shape and whatever is no farther from it than this; `spheres` are those of [`placed`].
+pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
     let reach = shape.extent().reach(pose, spheres.outer.into());
     Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
 }
