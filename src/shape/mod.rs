@@ -97,7 +97,7 @@ pub struct ShapeOptions {
     /// What to do with input that is not a closed convex mesh with interior.
     pub input: InputPolicy,
     /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
-    /// the rotation of a pose ([`ROTATION_LIMIT`]).
+    /// the rotation of a pose ([`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)).
     pub rotation: Matrix,
     /// See `rotation`.
     pub translation: Vector,
