@@ -613,8 +613,9 @@ swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
                                            size_t *index);
 
 /**
- * Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
- * take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
+ * Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
+ * automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
+ * or waits for that.
  *
  * `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
  * the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
@@ -900,7 +901,7 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
  * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
  * goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
- * comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+ * comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
  *
  * Stable.
  */
@@ -2226,9 +2227,9 @@ typedef struct swiftprox_scene_query {
   double relative_error;
   /**
    * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
-   * whatever the two errors say, beside what exact answers take. Pairs that levels of detail may answer with a share of it take
-   * one, all the same; others are answered as by exact queries, and so are all where the scene does not keep all pairs
-   * (swiftprox_scene_set_kept_pair_limit). Default: infinity.
+   * whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
+   * answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
+   * does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**

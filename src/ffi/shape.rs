@@ -277,8 +277,9 @@ pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
     });
 }
 
-/// Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
-/// take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
+/// Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
+/// automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
+/// or waits for that.
 ///
 /// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
 /// the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels

@@ -8,6 +8,7 @@ mod contact;
 pub mod start;
 mod config;
 mod levels;
+mod habit;
 mod cache;
 mod depth;
 mod ladder;

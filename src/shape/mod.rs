@@ -23,6 +23,7 @@ use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST
 use crate::mesh::io::read_mesh;
 use crate::mesh::{Numbers, PolygonMesh, coordinate_unit};
 use crate::polyhedron::Polyhedron;
+use crate::tables::support_map::SupportMap;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
@@ -171,8 +172,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
-/// tables of the body and of its levels and automatic levels, is all that is ever added.
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
+/// added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -182,6 +183,8 @@ pub struct Shape {
     hierarchy: OnNeed<Hierarchy>,
     /// Of the ball that is swept over the polyhedron.
     swept_radius: f64,
+    /// Its support function for approximate distances, as far as it is made.
+    support_map: SupportMap,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -399,7 +402,9 @@ impl Shape {
         let is_to_be_made = hierarchy.kind == HierarchyKind::Automatic && hierarchy.levels.is_empty();
         let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;
-        Ok(Shape { polyhedron, extent, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from), swept_radius })
+        let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
+        let support_map = SupportMap::new(&polyhedron);
+        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius })
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -467,6 +472,12 @@ impl Shape {
         &self.extent
     }
 
+    /// Its support function, as far as it is made.
+    #[inline]
+    pub(crate) fn support_map(&self) -> &SupportMap {
+        &self.support_map
+    }
+
     /// The levels of detail that are made, without P₀.
     #[inline]
     pub fn hierarchy(&self) -> &Hierarchy {
@@ -498,9 +509,9 @@ impl Shape {
         Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), progress)
     }
 
-    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables, a small part of the work
-    /// (of needles up to a third) which is not interrupted, the search for polygons on faces of many, and automatic levels. After
-    /// that no query of this shape allocates or waits, except for the integer arithmetic.
+    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables and maps of support
+    /// functions, a small part of the work (of needles up to a third) which is not interrupted, the search for polygons on faces
+    /// of many, and automatic levels. After that no query of this shape allocates or waits, except for the integer arithmetic.
     ///
     /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
     ///
@@ -517,6 +528,7 @@ impl Shape {
         progress.report(0.0)?;
         insist_on_table(&self.polyhedron)?;
         self.polyhedron.insist_on_polygon_search()?;
+        self.support_map.insist(&self.polyhedron)?;
         if self.lacks_levels() {
             progress.report(SHARE_OF_TABLE)?;
             let levels = match self.build_levels(&mut progress.part(SHARE_OF_TABLE, 1.0)) {
@@ -533,7 +545,11 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
+        size_of::<Shape>()
+            + self.extent.heap_bytes()
+            + self.polyhedron.heap_bytes()
+            + self.hierarchy().heap_bytes()
+            + self.support_map.heap_bytes()
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.

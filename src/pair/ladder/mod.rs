@@ -9,6 +9,7 @@ mod decision;
 mod level_choice;
 mod level_search;
 mod level_glance;
+mod support_glance;
 
 use crate::base::error::Result;
 use crate::base::simd::Portable;
@@ -52,10 +53,29 @@ fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
+    if pair.may_ask_support_maps() {
+        return answer_by_support_maps(pair, glances);
+    }
     if pair.may_ask_levels() {
         return answer_by_levels(pair, glances);
     }
     answer_by_bodies(pair, glances)
+}
+
+/// Maps of support functions, unless the pair does better by marching at the moment; else as without them.
+#[inline(never)]
+fn answer_by_support_maps(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+    let looks_up = pair.cache.looks_up();
+    if looks_up && pair.support_maps_answer()? {
+        return Ok(());
+    }
+    if pair.may_ask_levels() {
+        answer_by_levels(pair, glances)?
+    } else {
+        answer_by_bodies(pair, glances)?
+    }
+    pair.cache.note_marching(pair.answer.statistics.marching_steps, looks_up);
+    Ok(())
 }
 
 /// Levels of detail, where they may answer; else the bodies themselves.
