@@ -12,7 +12,7 @@ use crate::point::{PointAnswer, PointLocation, SupportVertex, locate_point, supp
 use crate::shape::Shape;
 
 /// Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
-/// that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+/// that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
 ///
 /// On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
 /// not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.

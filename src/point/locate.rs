@@ -9,7 +9,7 @@ use crate::pair::{Outcome, PairConfig, Placed, SignedDistance, SignedDistanceCac
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
 /// Where a point of the world is relative to a body: inside, on it or outside, with the distance from its surface and what of that
-/// is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+/// is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
 ///
 /// # Errors
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a point that is not finite,

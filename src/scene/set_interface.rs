@@ -9,7 +9,7 @@ use crate::ray::Ray;
 use crate::scene::door::Scene;
 use crate::scene::sets::casts::{self, SceneCastAnswer};
 use crate::scene::sets::first_hit::{self, FirstHit, PoseOrder};
-use crate::scene::sets::members::{self, ObjectSet};
+use crate::scene::sets::members::{self, Boxes, ObjectSet};
 use crate::scene::sets::nearest::{self, Against, LeastDistance};
 use crate::scene::sets::others::Others;
 use crate::scene::sets::rays::{self, RayHits, SceneRayHit};
@@ -53,9 +53,9 @@ impl Scene {
     ) -> Result<LeastDistance> {
         with_default(|| {
             let SetScratch { members, second, candidates, caches, .. } = scratch;
-            members::list(&self.world, set, members)?;
+            members::list(&self.world, set, Boxes::Made, members)?;
             if let Some(against) = against {
-                members::list(&self.world, against, second)?;
+                members::list(&self.world, against, Boxes::LeftOut, second)?;
             }
             let question = nearest::Question {
                 world: &self.world,

@@ -6,7 +6,7 @@ use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
-use crate::scene::sets::members::{self, Member, ObjectSet};
+use crate::scene::sets::members::{self, Boxes, Member, ObjectSet};
 use crate::scene::sets::nearest::signed;
 use crate::scene::sets::others::Others;
 use crate::scene::world::rows::{Spheres, are_far_apart, grown_box};
@@ -73,7 +73,7 @@ pub(crate) fn first_hit(question: Question, room: &mut Room) -> Result<FirstHit>
         tried += 1;
         let set = ObjectSet { poses: Some(&poses[time * objects..][..objects]), ..*others.set };
         let named = |error: Error| error.about(&format!("time {time} of {count}"));
-        members::list(others.world, &set, room.members).map_err(named)?;
+        members::list(others.world, &set, Boxes::Made, room.members).map_err(named)?;
         if let Some(pair) = hit(&others, room, margin)? {
             return Ok(FirstHit { time, tried, pair });
         }

@@ -30,11 +30,18 @@ pub(crate) struct Member {
 }
 
 impl Member {
-    /// A piece of the scene at a pose that is accepted.
-    pub fn new(world: &World, proxy: usize, pose: Pose) -> Member {
+    /// A piece of the scene at a pose that is accepted, or where the scene has it; its box only if that is asked for.
+    fn new(world: &World, proxy: usize, pose: Option<Pose>, boxes: Boxes) -> Member {
         let shape = &world.proxies.shapes[proxy];
-        let (spheres, _) = placed(shape, &pose, pose.rotation_defect());
-        Member { proxy: proxy as u32, pose, spheres, bounds: grown_box(shape, &pose, &spheres, 0.0) }
+        let (pose, spheres) = match pose {
+            Some(pose) => (pose, placed(shape, &pose, pose.rotation_defect()).0),
+            None => (world.proxies.poses[proxy], world.proxies.spheres[proxy]),
+        };
+        let bounds = match boxes {
+            Boxes::Made => grown_box(shape, &pose, &spheres, 0.0),
+            Boxes::LeftOut => Aabb::EVERYWHERE,
+        };
+        Member { proxy: proxy as u32, pose, spheres, bounds }
     }
 
     /// The piece where it is.
@@ -43,12 +50,19 @@ impl Member {
     }
 }
 
+/// Whether pieces get boxes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(crate) enum Boxes {
+    Made,
+    LeftOut,
+}
+
 /// Lists the pieces of a set, those of objects in their order.
 ///
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene, [`Error::Argument`] unless there is one pose for each,
 /// [`Error::Pose`] for a pose that is not accepted, [`Error::Memory`].
-pub(crate) fn list(world: &World, set: &ObjectSet, members: &mut Vec<Member>) -> Result<()> {
+pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut Vec<Member>) -> Result<()> {
     members.clear();
     let count = set.ids.len();
     if let Some(poses) = set.poses
@@ -61,22 +75,22 @@ pub(crate) fn list(world: &World, set: &ObjectSet, members: &mut Vec<Member>) ->
         let object = world.objects.get(*id).map_err(named)?;
         for (piece, proxy) in object.proxies().enumerate() {
             let pose = match set.poses {
-                None => world.proxies.poses[proxy],
+                None => None,
                 Some(poses) => {
                     let pose = &poses[k];
                     let check = |pose: &Pose| pose.check(world.rotation_limit).map_err(named);
                     check(pose)?;
                     match &object.arrangement {
-                        None => *pose,
+                        None => Some(*pose),
                         Some(arrangement) => {
                             let whole = composed(pose, &arrangement.piece_poses[piece]);
                             check(&whole)?;
-                            whole
+                            Some(whole)
                         }
                     }
                 }
             };
-            push(members, Member::new(world, proxy, pose))?;
+            push(members, Member::new(world, proxy, pose, boxes))?;
         }
     }
     Ok(())

@@ -5,7 +5,7 @@ use std::cmp::Ordering;
 use std::collections::BinaryHeap;
 
 use crate::base::error::{Result, check_range};
-use crate::base::memory::{push, push_to_heap};
+use crate::base::memory::{extend, push, push_to_heap};
 use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed};
 use crate::scene::near::tree::{Branch, Held};
 use crate::scene::search::query::PairResult;
@@ -78,6 +78,8 @@ impl Ord for Candidate {
 pub(crate) struct Candidates {
     heap: BinaryHeap<Candidate>,
     row: Vec<Candidate>,
+    /// Pieces that no tree says where they are.
+    loose: Vec<u32>,
 }
 
 /// What the first set is asked against.
@@ -140,6 +142,11 @@ impl<'a> Search<'a> {
     /// What there is to ask about at first: pairs with what is listed, and the trees.
     fn begin(&mut self) -> Result<()> {
         let Question { world, members, against, among, .. } = self.question;
+        let mut loose = std::mem::take(&mut self.candidates.loose);
+        loose.clear();
+        if let Against::Others(others) = against {
+            extend(&mut loose, others.loose().map(|other| other as u32))?;
+        }
         for (k, member) in (0..).zip(members) {
             if among {
                 let rest = (0..).zip(members).skip(k as usize + 1);
@@ -152,8 +159,8 @@ impl<'a> Search<'a> {
                 }
                 Against::Others(others) => {
                     let spheres = &world.proxies.spheres;
-                    let loose = others.loose();
-                    self.add_row(k, loose.map(|other| (Target::Piece(other as u32), other as u32, &spheres[other])))?;
+                    let all = loose.iter().map(|&other| (Target::Piece(other), other, &spheres[other as usize]));
+                    self.add_row(k, all)?;
                     for (tree, fitted) in others.trees.into_iter().flatten().enumerate() {
                         if let Some(root) = fitted.root() {
                             let bound = of_boxes(&member.bounds, fitted.bounds(root, &world.proxies.boxes));
@@ -163,6 +170,7 @@ impl<'a> Search<'a> {
                 }
             }
         }
+        self.candidates.loose = loose;
         Ok(())
     }
 
