@@ -7,8 +7,12 @@
 //! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
 //! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
 //! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
+//! | a direction | 32 | | a separating axis |
+//!
+//! Beside all but an enclosure the last vertex pair says how the axis lay, and by which way approximate queries answer.
 
 use crate::base::math::Vector;
+use crate::pair::habit::Habit;
 use crate::pair::levels::{LevelState, Leveled};
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::Pairs;
@@ -38,11 +42,15 @@ enum Content {
     Enclosure(usize),
     /// The kind of the state.
     Levels(u32),
+    /// An axis without features.
+    Direction,
 }
 
 /// What the first word of an enclosure and of features of levels have more than the number in [`Content`].
 const ENCLOSURE: u32 = 8;
 const LEVELS: u32 = 16;
+/// The first word of a direction alone.
+const DIRECTION: u32 = 32;
 
 /// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
@@ -54,6 +62,7 @@ impl PairCache {
             tag @ 1..=6 => Content::Features(tag),
             tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
             tag @ 17..=22 => Content::Levels(tag - LEVELS),
+            DIRECTION => Content::Direction,
             _ => Content::Nothing,
         }
     }
@@ -83,7 +92,7 @@ impl PairCache {
     pub(super) fn axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
         let [vertices @ [v, w], [x, y], [z, mark], _] = self.pairs;
         let is_known = (mark == AXIS)
-            & matches!(self.content(), Content::Features(_))
+            & matches!(self.content(), Content::Features(_) | Content::Direction)
             & ((v as usize) < polyhedra[0].vertices.len())
             & ((w as usize) < polyhedra[1].vertices.len());
         is_known.then_some(Axis { vertices, direction: [x, y, z].map(f32::from_bits) })
@@ -100,6 +109,49 @@ impl PairCache {
     #[inline(always)]
     pub(super) fn move_axis(&mut self, vertices: [u32; 2]) {
         self.pairs[0] = vertices;
+    }
+
+    // --- A direction, and how look-ups went --------------------------------------------------------------------------------------
+
+    /// The direction of the last approximate answer in body 1's axes, from body 2 to body 1, and how it lay.
+    #[inline(always)]
+    pub(super) fn direction(&self) -> Option<(Vector, Lean)> {
+        let [_, [x, y], [z, mark], [lean, _]] = self.pairs;
+        let is_known = (mark == AXIS) & matches!(self.content(), Content::Features(_) | Content::Direction);
+        let [x, y, z] = [x, y, z].map(|bits| f32::from_bits(bits).into());
+        is_known.then_some((Vector::new(x, y, z), Lean(f32::from_bits(lean))))
+    }
+
+    /// Instead of features, which the bodies leave behind. The vertices of the axis stay where they are: a climb starts there.
+    #[inline(always)]
+    pub(super) fn remember_direction(&mut self, direction: Vector, lean: Lean) {
+        let [[v, w], _, [_, mark], [_, habit]] = self.pairs;
+        let is_beside = matches!(self.content(), Content::Features(_) | Content::Direction);
+        let vertices = if is_beside & (mark == AXIS) { [v, w] } else { [0; 2] };
+        self.tag = DIRECTION;
+        self.remember_axis(vertices, direction);
+        self.pairs[3] = [lean.0.to_bits(), habit];
+    }
+
+    /// Whether the support functions are looked up this time, where they may be: not of bodies that intersected the last time.
+    #[inline(always)]
+    pub(super) fn looks_up(&self) -> bool {
+        !self.holds_enclosure() && Habit::of(self.pairs[3][1]).looks_up()
+    }
+
+    /// Notes that look-ups have answered, of a pair that has hardly moved since the last time or has.
+    #[inline(always)]
+    pub(super) fn note_look_ups(&mut self, is_still: bool) {
+        self.pairs[3][1] = Habit::of(self.pairs[3][1]).looked_up(is_still).word();
+    }
+
+    /// Notes how many steps marching took where look-ups might have answered, and whether they were tried in vain.
+    #[inline(always)]
+    pub(super) fn note_marching(&mut self, steps: u32, in_vain: bool) {
+        if !self.holds_enclosure() {
+            let habit = Habit::of(self.pairs[3][1]);
+            self.pairs[3][1] = if in_vain { habit.failed() } else { habit.marched(steps) }.word();
+        }
     }
 
     // --- An enclosure ------------------------------------------------------------------------------------------------------------
@@ -139,7 +191,7 @@ impl PairCache {
         let (kind, levels) = match self.content() {
             Content::Levels(kind) => (kind, self.pairs[0]),
             Content::Features(kind) => (kind, [0, 0]),
-            Content::Nothing | Content::Enclosure(_) => return None,
+            Content::Nothing | Content::Enclosure(_) | Content::Direction => return None,
         };
         let coarsest = bodies.coarsest();
         let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];
@@ -162,6 +214,24 @@ impl PairCache {
     #[inline(always)]
     pub(super) fn spent_before(&self) -> u32 {
         if self.holds_level_state() { self.pairs[1][0] } else { 0 }
+    }
+}
+
+/// How a direction lies to the line between the origins: its cosine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lean(f32);
+
+impl Lean {
+    #[inline(always)]
+    pub(super) fn of(cosine: f64) -> Lean {
+        Lean(cosine as f32)
+    }
+
+    /// Whether it lies about as it did: one direction in ten does so by chance. A NaN does not.
+    #[inline(always)]
+    pub(super) fn is_near(self, cosine: f64) -> bool {
+        const ABOUT: f64 = 0.1;
+        (cosine - f64::from(self.0)).abs() < ABOUT
     }
 }
 
