@@ -205,8 +205,8 @@ const char *swiftprox_library_status_string(swiftprox_status status);
  */
 
 /**
- * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
- * tables of the body and of its levels and automatic levels, is all that is ever added.
+ * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
+ * added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
  */
 typedef struct swiftprox_shape swiftprox_shape;
 
