@@ -21,7 +21,7 @@
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
-# make packages               packages for Debian and Conan, tried as installed: scripts/debian.sh, scripts/conan.sh
+# make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
 # make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
@@ -62,15 +62,17 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-# The library is made once, in the profile that all tests of Rust share. What takes long is left to `make test`: valgrind, programs
-# that are installed, other libraries, further compilers.
+# The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
+# other libraries, further compilers, a browser.
+LONG := _under_|^(package|subdirectory|fetch_content|find_package|legacy_(clang_)?cxx|legacy_float|cpp_(c|g|clang)\+\+)
+LONG := $(LONG)|^(tower_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
 check:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	cargo test --locked --profile checked --lib
-	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
+	cargo test --locked --profile daily --lib --features allocator
+	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=daily -DSWIFTPROX_TEST_PEERS=OFF
 	+cmake --build $(BUILD)/check
-	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '$(LONG)'
 	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
@@ -214,6 +216,7 @@ packages:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	scripts/debian.sh
 	scripts/conan.sh
+	scripts/cargo_c.sh
 
 cross:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3

@@ -225,7 +225,7 @@ def over_size(where, rows, size, title, axis):
                       for method in in_order(row["method"] for row in own)]
             panels.append(Panel(f"{query}, {motion(step)}", curves))
         made.append(Row(panels, charts.value_axis("time a query", [row["best_ns"] for row in here], charts.duration), 130))
-    x = Axis(axis, sizes[0] / 1.3, sizes[-1] * 1.3, [(n, charts.count(n if n < 2000 else 1000 * round(n / 1000))) for n in sizes])
+    x = Axis(axis, sizes[0] / 1.3, sizes[-1] * 1.3, [(n, charts.count(n if n < 1000 else 1000 * round(n / 1000))) for n in sizes])
     return Panels(title, where, x, legend_of(rows), made)
 
 
@@ -244,16 +244,23 @@ MOTIONS = {"0.1": "0.1°", "1": "1°", "10": "10°", "random": "random"}
 NAMED = 5  # bodies of a query whose ratios are the least
 
 
+def judgement(rows):
+    """How many answers were held against integers, and how they stood."""
+    own = [row for row in rows if row["method"].startswith(OWN)]
+    judged, wrong, missed = (sum(int(row[name]) for row in own) for name in ("judged", "wrong", "missed"))
+    return f"The run held {judged:,} of its answers against integers: {wrong} were wrong, and {missed} intervals missed the truth."
+
+
 def family_table(rows):
-    """Geometric means of the ratios of a family's bodies, and the least of them."""
-    rows = strongest(rows)
+    """Geometric means of the ratios of a family's bodies, and the least of them; then how certain the answers were."""
+    certain, rows = judgement(rows), strongest(rows)
     lines = ["| query | bodies | " + " | ".join(MOTIONS.values()) + " | least |", "|---|---|" + "--:|" * (len(STEPS) + 1)]
     for query in QUERIES:
         for family, name in FAMILIES.items():
             found = [ratios(of(rows, query=query, family=family), step) for step in STEPS]
             cells = [f"{geometric_mean(here):.1f}" for here in found] + [f"{min(map(min, found)):.1f}"]
             lines.append(f"| {query} | {name.replace('of 1,002 vertices', 'of 10 to 100,002 vertices')} | " + " | ".join(cells) + " |")
-    return "\n".join(lines)
+    return "\n".join(lines + ["", certain])
 
 
 def weak_table(rows):
@@ -332,8 +339,9 @@ def main():
         for name, chart in made_of(where, rows).items():
             charts.draw(chart_path(name), chart, [RESULTS])
         for path, text, tables in pages():
+            filled = with_tables(text, tables, rows)
             with open(path, "w", encoding="utf-8") as file:
-                file.write(with_tables(text, tables, rows))
+                file.write(filled)
     elif len(arguments) in (1, 2) and not arguments[0].startswith("--"):
         for name, chart in made_of(*numbers_of(arguments[0])).items():
             charts.draw(chart_path(name, *arguments[1:]), chart, arguments[:1])

@@ -1,5 +1,5 @@
-/* swiftprox-tune: plays a scene under all settings that are worth it, and says which are quickest at which accuracy. It is a user of
- * the C interface like any other. */
+/* swiftprox-tune: plays a scene under all settings that are worth it, and says which are quickest at which accuracy. It is a user
+ * of the C interface like any other. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

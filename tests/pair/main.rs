@@ -1,5 +1,6 @@
 //! Pair queries: the truth, its proof, and what an answer must not depend on.
 
+mod batch;
 mod exact_truth;
 mod flat_edges;
 mod forgery;
@@ -12,5 +13,6 @@ mod pair_truth;
 mod refused;
 mod separating_axis;
 mod stretched;
+mod support_maps;
 mod verify;
 mod witnesses;

@@ -9,6 +9,7 @@ use crate::accuracy::Accuracy;
 use crate::method::Reply;
 use crate::timing::{Time, median};
 use testkit::orbits::Step;
+use testkit::provenance::provenance;
 
 /// The methods that ratios are against: the first of them that is there.
 const PEERS: [&str; 2] = ["parry-hc", "libccd-mpr-1e-4"];
@@ -110,10 +111,7 @@ pub fn build_csv(rows: &[BuildRow]) -> String {
 
 /// Writes a CSV, its folder too, under a line that says on what it was measured.
 pub fn write(path: &Path, passes: usize, csv: &str) -> Result<(), String> {
-    let cpu_info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model_name = cpu_info.lines().find_map(|line| line.strip_prefix("model name"));
-    let cpu = model_name.map_or("unknown CPU", |rest| rest.trim_start_matches([' ', '\t', ':']));
-    let head = format!("# {cpu}, {} passes, {}\n", passes, env!("COMPILER"));
+    let head = format!("# {}, {passes} passes, {}\n", provenance(), env!("COMPILER"));
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)
         .and_then(|()| fs::write(path, head + csv))

@@ -34,7 +34,7 @@ pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
 pub use pyramid::{Failure, Pyramid, Rest};
 pub use raise::raise;
 pub use storage::{NO_TWIN, Polytope, triangle_of};
-pub use support::support;
+pub use support::{farthest, support};
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.

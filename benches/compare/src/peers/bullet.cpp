@@ -1,5 +1,5 @@
-// Bullet's GJK and EPA in double precision, from its header alone: Debian's library is of single precision. Its tolerance, 1e-4, and
-// its 64 vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
+// Bullet's GJK and EPA in double precision, from its header alone: Debian's library is of single precision. Its tolerance, 1e-4,
+// and its 64 vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
 
 #define BT_USE_DOUBLE_PRECISION
 #include <LinearMath/btTransform.h>

@@ -1,5 +1,5 @@
-// FCL's queries of convex bodies by both of its solvers: over libccd, which climbs from vertex 0 each time, and its own, which looks at
-// all vertices and is handed its last guess.
+// FCL's queries of convex bodies by both of its solvers: over libccd, which climbs from vertex 0 each time, and its own, which
+// looks at all vertices and is handed its last guess.
 
 #include <limits>
 #include <memory>
