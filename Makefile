@@ -170,7 +170,7 @@ bodies:
 depths:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
-	TIMED='$(TIMED)' scripts/depths.sh $(DEPTHS).csv $(DEPTHS)-failures.csv
+	TIMED='$(TIMED)' scripts/depths.sh $(DEPTHS).csv $(DEPTHS)-resting.csv $(DEPTHS)-failures.csv
 	$(DRAW) benches/plot.py $(DEPTHS).csv
 	$(DRAW) benches/plot.py $(DEPTHS)-failures.csv
 

@@ -14,6 +14,7 @@ mod options;
 mod parry;
 mod peers;
 mod report;
+mod resting;
 mod setting;
 mod timing;
 
@@ -47,6 +48,8 @@ fn main() -> ExitCode {
             crowd::run(&options, counts)
         } else if options.build {
             build_time::run(&options)
+        } else if options.resting {
+            resting::run(&options)
         } else if options.depth {
             depth::run(&options)
         } else {

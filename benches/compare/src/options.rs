@@ -33,6 +33,8 @@ usage: compare [options]
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
+  --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
+                    swiftprox-manifold, coal-1e-10, mujoco-1e-6, bullet-1e-4, libccd-mpr-1e-4, parry-hc
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -57,6 +59,7 @@ pub struct Options {
     pub count: usize,
     pub passes: usize,
     pub workload: Option<PathBuf>,
+    pub resting: bool,
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
@@ -87,6 +90,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         count: 3600,
         passes: 9,
         workload: None,
+        resting: false,
         build: false,
         crowd: None,
         answers: None,
@@ -122,6 +126,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--passes" => options.passes = number(&value()?)?.max(1),
             "--workload" => options.workload = Some(value()?.into()),
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
+            "--resting" => options.resting = true,
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
             "--depths" => options.depths = Some([value()?, value()?, value()?, value()?]),

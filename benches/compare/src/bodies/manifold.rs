@@ -20,6 +20,7 @@ use testkit::PosePair;
 const MOST_POINTS: usize = 4;
 
 pub struct OwnManifold {
+    name: &'static str,
     shapes: [Rc<Shape>; 2],
     config: ManifoldConfig,
     poses: Vec<[Pose; 2]>,
@@ -30,8 +31,9 @@ pub struct OwnManifold {
 }
 
 impl OwnManifold {
-    pub fn new(shapes: [&Rc<Shape>; 2]) -> OwnManifold {
+    pub fn new(name: &'static str, shapes: [&Rc<Shape>; 2]) -> OwnManifold {
         OwnManifold {
+            name,
             shapes: shapes.map(Rc::clone),
             config: ManifoldConfig { reduces: true, ..ManifoldConfig::default() },
             poses: Vec::new(),
@@ -44,7 +46,7 @@ impl OwnManifold {
 
 impl Method for OwnManifold {
     fn name(&self) -> &str {
-        "swiftprox"
+        self.name
     }
 
     fn load(&mut self, poses: &[PosePair]) {

@@ -155,7 +155,7 @@ impl Methods {
     }
 
     fn of_manifold(&self) -> [Vec<Box<dyn Method>>; 3] {
-        let mut all: Vec<Box<dyn Method>> = vec![Box::new(OwnManifold::new(self.shapes.each_ref()))];
+        let mut all: Vec<Box<dyn Method>> = vec![Box::new(OwnManifold::new(depth::ours::NAME, self.shapes.each_ref()))];
         all.extend(ParryManifold::new(&self.triangles).map(|parry| Box::new(parry) as Box<dyn Method>));
         [all, Vec::new(), Vec::new()]
     }

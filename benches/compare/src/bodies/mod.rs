@@ -2,7 +2,7 @@
 //! truth in integers.
 
 mod list;
-mod manifold;
+pub mod manifold;
 mod methods;
 mod record;
 mod truth;
