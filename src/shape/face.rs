@@ -1,7 +1,7 @@
 //! The faces of a shape, for reading: what the id of a face in an answer stands for.
 
-use super::Shape;
 use crate::polyhedron::Polyhedron;
+use crate::shape::Shape;
 
 /// A face of a shape's hull: all coplanar triangles, a convex polygon.
 #[derive(Debug, Clone, Copy)]

@@ -1,12 +1,12 @@
 //! The input transform of a shape's vertices.
 
-use super::ShapeOptions;
 use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::base::memory::{copied, with_capacity};
 use crate::base::progress::Progress;
 use crate::mesh::check_vertex;
+use crate::shape::ShapeOptions;
 
 /// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
 /// itself and 2⁻⁹⁶ of the largest term.
