@@ -3,6 +3,7 @@
 mod accuracy;
 mod answers;
 mod build_time;
+mod cast;
 #[cfg(ccd)]
 mod ccd;
 mod crowd;
@@ -46,6 +47,8 @@ fn main() -> ExitCode {
             figures::run(&options, wanted)
         } else if let Some(wanted) = &options.solids {
             solids::run(&options, wanted)
+        } else if let Some(wanted) = &options.casts {
+            cast::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {
             crowd::run(&options, counts)
         } else if options.build {

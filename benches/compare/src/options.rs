@@ -33,6 +33,8 @@ usage: compare [options]
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
+  --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
+                    rays; --count is the number of motions a scene, a quarter of that of rays
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -60,6 +62,8 @@ pub struct Options {
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
+    /// Beginnings of names; empty: all.
+    pub casts: Option<Vec<String>>,
     pub answers: Option<[String; 4]>,
     pub depths: Option<[String; 4]>,
     /// Which figures; empty: all.
@@ -89,6 +93,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         workload: None,
         build: false,
         crowd: None,
+        casts: None,
         answers: None,
         depths: None,
         figures: None,
@@ -122,6 +127,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--passes" => options.passes = number(&value()?)?.max(1),
             "--workload" => options.workload = Some(value()?.into()),
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
+            "--casts" => {
+                options.casts = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
+            }
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
             "--depths" => options.depths = Some([value()?, value()?, value()?, value()?]),
