@@ -15,16 +15,18 @@ MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example
 BOX = os.path.join(MODELS, "box.off")
 
 # Operands that are enough, and options with a value that each takes.
-OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "demo": (BOX, BOX), "tower": (MODELS,),
+OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "swiftprox-tune": ("SCENE",),
+            "demo": (BOX, BOX), "tower": (MODELS,),
             "scene": (MODELS,), "swiftprox-sweep": ("SCENE", "POSES"), "arm_rrt": (MODELS,)}
 OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
            "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
+           "swiftprox-tune": ("--query", "--tolerance", "--error", "--input", "--workers", "--passes"),
            "swiftprox-sweep": ("--out", "--share", "--margin", "--input", "--times"), "certified_edge": ("--svg",),
            "demo": ("--orbit", "--svg"), "tower": ("--svg", "--record"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
            "--margin": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
-           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many")}
+           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x")}
 
 
 def run(name, *arguments):
@@ -81,7 +83,8 @@ class CommandLines(unittest.TestCase):
 
     def test_operands_that_are_missing(self):
         self.refused("swiftprox-query", "two meshes and a pose file are needed", BOX, BOX)
-        self.refused("swiftprox-replay", "a scene is needed")
+        for player in ("swiftprox-replay", "swiftprox-tune"):
+            self.refused(player, "a scene is needed")
 
     def test_values_behind_an_equals_sign_and_operands_behind_dashes(self):
         poses = self.file("--poses", "1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 2 0 1 0 0 0 0 1 0\n")

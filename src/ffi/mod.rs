@@ -26,6 +26,7 @@ pub mod pair;
 pub mod depth;
 pub mod motion;
 pub mod ray;
+pub mod point;
 mod task_loan;
 pub mod workers;
 pub mod scene;
@@ -34,6 +35,8 @@ pub mod pose;
 pub mod query;
 pub mod filter;
 pub mod object_query;
+pub mod object_set;
+pub mod pair_batch;
 pub mod record;
 
 pub use failure::StatusCode;

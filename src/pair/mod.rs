@@ -12,11 +12,13 @@ mod cache;
 mod depth;
 mod ladder;
 mod queries;
+mod batch;
 mod signed_distance;
 mod manifold;
 pub mod verify;
 
 pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
+pub use batch::{PairQuestion, batch};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};

@@ -33,3 +33,8 @@ pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
         Ok(search::cast(body.shape.polyhedron(), body.pose, ray))
     })
 }
+
+/// The same of a ray and a pose that are accepted, in integers alone: both ends are neighbouring doubles.
+pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> RayAnswer {
+    search::cast_in_integers(body.shape.polyhedron(), body.pose, ray)
+}

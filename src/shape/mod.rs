@@ -266,7 +266,7 @@ impl Shape {
     /// The hull of an open surface that lies on it.
     fn of_patch(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let Some((mut patch, used)) = mesh.without_unused_vertices()? else {
-            return Err(Error::Mesh("the faces of a patch are none over its vertices".into()));
+            return Err(Error::Mesh("a face of the patch names a vertex that is not there".into()));
         };
         if patch.face_count() == 0 {
             return Err(Error::Mesh("the mesh has no faces".into()));

@@ -13,7 +13,9 @@ use swiftprox::ffi::level::{CMesh, LevelInfo};
 use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
 use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
+use swiftprox::ffi::object_set::{CObjectSet, CSceneRayAnswer};
 use swiftprox::ffi::pair::{CPairCache, CPairConfig};
+use swiftprox::ffi::pair_batch::CPairQuestion;
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
@@ -25,8 +27,11 @@ use swiftprox::object::ObjectId;
 use swiftprox::pair::{
     DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
 };
+use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
-use swiftprox::scene::{Contact, ObjectPair, PairResult, SceneStatistics};
+use swiftprox::scene::{
+    Contact, FirstHit, LeastDistance, ObjectPair, PairResult, SceneCastAnswer, SceneRayHit, SceneStatistics,
+};
 
 const HEADERS: [&str; 2] =
     [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
@@ -126,6 +131,8 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_ray = Ray { origin, direction, t_max },
         swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
+        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
+        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },
@@ -148,6 +155,13 @@ fn layouts() -> Vec<Layout> {
             exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
             inscribed_spheres, unmoved, out_of_reach
         },
+        swiftprox_object_set = CObjectSet { ids, count, poses, among },
+        swiftprox_least_distance = LeastDistance { lower, upper, nearest },
+        swiftprox_first_hit = FirstHit { time, tried, pair },
+        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
+        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
+        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },

@@ -2,23 +2,20 @@
 
 mod accuracy;
 mod answers;
+mod bodies;
 mod build_time;
 mod cast;
-#[cfg(ccd)]
-mod ccd;
 mod crowd;
 mod depth;
 mod distance;
-#[cfg(fcl)]
-mod fcl;
 mod figures;
 mod marches;
 mod method;
 mod options;
 mod parry;
+mod peers;
 mod report;
 mod setting;
-mod solids;
 mod timing;
 
 use std::process::ExitCode;
@@ -45,8 +42,8 @@ fn main() -> ExitCode {
         }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
-        } else if let Some(wanted) = &options.solids {
-            solids::run(&options, wanted)
+        } else if let Some(wanted) = &options.bodies {
+            bodies::run(&options, wanted)
         } else if let Some(wanted) = &options.casts {
             cast::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {

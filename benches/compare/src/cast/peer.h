@@ -8,7 +8,7 @@
 #ifndef COMPARE_CAST_PEER_H
 #define COMPARE_CAST_PEER_H
 
-#include "../depth/peer.h"
+#include "../peers/peer.h"
 
 /* The time of a motion that is free. */
 static const double FREE = 2;
