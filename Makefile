@@ -70,7 +70,7 @@ demo: build
 # The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
 # other libraries, further compilers, a browser.
 LONG := _under_|^(package|subdirectory|fetch_content|find_package|legacy_(clang_)?cxx|legacy_float|cpp_(c|g|clang)\+\+)
-LONG := $(LONG)|^(tower_|engine_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
+LONG := $(LONG)|^(tower_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
 check:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy

@@ -176,6 +176,20 @@ static void pairs()
     std::array<swiftprox_manifold_point, 8> points;
     const auto manifold = swiftprox::try_manifold({box, here}, {box, into}, manifolds, points);
     CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
+    const swiftprox_half_space ground{{0, 0, 2}, -1};
+    const auto above = swiftprox::try_half_space_distance({box, Pose::at(0, 0, 0.25)}, ground);
+    CHECK(above && above.value.lower <= 0.25 && 0.25 <= above.value.upper && above.value.normal[2] == 1);
+    const auto feet = swiftprox::try_half_space_manifold({box, here}, ground, points);
+    CHECK(feet && feet.value.point_count == 4 && feet.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+    const auto top = box.try_find_face(0);
+    CHECK(top && box.try_face(top.value).value.corners.size() == 4 && box.try_face(top.value).value.labels[0] == 0);
+    CHECK(box.try_face(6).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    swiftprox::ShapeOptions round;
+    round.input = SWIFTPROX_INPUT_HULL;
+    round.swept_radius = 0.5;
+    const std::array<double, 3> centre{};
+    const auto ball = Shape::try_from_points(swiftprox::Range<const double>(centre), round);
+    CHECK(ball && swiftprox::try_half_space_distance({ball.value, here}, {{0, 0, 1}, -2}).value.distance == 1.5);
     CHECK(swiftprox::try_distance({box, Pose(std::array<double, 12>{})}, {box, here}, cache).status == SWIFTPROX_ERROR_POSE);
     CHECK(swiftprox::try_distance({Shape(), here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
 }
@@ -311,6 +325,8 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_set_poses(moved, std::vector<Pose>(1)).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(scene.try_piece_pose(c.value, 1).value.rows() == Pose::at(10, 5, 0).rows());
     CHECK(scene.try_object_info(a.value).value.user_data == 7);
+    const auto box_of_a = scene.try_object_box(a.value);
+    CHECK(box_of_a && box_of_a.value.upper[0] - box_of_a.value.lower[0] >= 1);
     CHECK(scene.try_object_ids().value.size() == 3);
     CHECK(scene.try_piece(c.value, 1).value.get() == made.value.get());
 

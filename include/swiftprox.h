@@ -281,6 +281,13 @@ typedef struct swiftprox_shape_options {
    * only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
    */
   double face_noise;
+  /**
+   * The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
+   * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds and scenes are of the
+   * swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
+   * tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   */
+  double swept_radius;
 } swiftprox_shape_options;
 
 /**
@@ -511,6 +518,11 @@ typedef struct swiftprox_shape_info {
    * Of a body without interior the mass is spread over its area or length.
    */
   double inertia[9];
+  /**
+   * The radius of the ball that is swept over the body (swiftprox_shape_options), in the local frame; all other members are of
+   * the body without it.
+   */
+  double swept_radius;
 } swiftprox_shape_info;
 
 /**
@@ -556,9 +568,54 @@ swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *sh
                                                 uint32_t *corners,
                                                 size_t capacity);
 
+/** A face of a shape's hull: all coplanar triangles, a convex polygon. */
+typedef struct swiftprox_face {
+  /** Outward, a unit vector up to rounding, in the local frame. */
+  double normal[3];
+  /** The product of the normal with a corner, rounded: normal * x = offset in the face's plane. */
+  double offset;
+  /** How many corners the face has. */
+  size_t corner_count;
+  /** How many of the caller's polygons are merged in it, 1 at least. */
+  size_t label_count;
+} swiftprox_face;
+
 /**
- * Makes now what a query of a shape would make when it first needs it: the look-up table, and automatic levels of detail, which
- * take about twice as long as making the shape did. After that no query of this shape allocates or waits for that.
+ * Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
+ * counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
+ * are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
+ * room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
+ *
+ * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
+                                          size_t index,
+                                          struct swiftprox_face *face,
+                                          uint32_t *corners,
+                                          size_t corner_capacity,
+                                          uint32_t *labels,
+                                          size_t label_capacity);
+
+/**
+ * The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
+ * of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
+                                           uint32_t label,
+                                           size_t *index);
+
+/**
+ * Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
+ * automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
+ * or waits for that.
  *
  * `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
  * the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
@@ -727,7 +784,10 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_feature feature2;
   /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
   uint32_t proof[4][2];
-  /** How many entries of `proof` are used: 1 to 4 when intersecting, except for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES, else 0. */
+  /**
+   * How many entries of `proof` are used: 1 to 4 when intersecting, except for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES and
+   * where objects intersect by their swept radii alone, else 0.
+   */
   uint32_t proof_count;
   /** What the query did. */
   struct swiftprox_statistics statistics;
@@ -841,7 +901,7 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
  * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
  * goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
- * comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+ * comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
  *
  * Stable.
  */
@@ -1223,6 +1283,56 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
                                          struct swiftprox_manifold_point *points,
                                          size_t capacity,
                                          struct swiftprox_manifold *manifold);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_half_space Half-spaces
+ * @{
+ */
+
+/** The points x of the world with `normal` * x <= `offset`. */
+typedef struct swiftprox_half_space {
+  /** Out of the half-space; of any length but 0. */
+  double normal[3];
+  /** Where its plane is: the product of the normal with any of its points. */
+  double offset;
+} swiftprox_half_space;
+
+/**
+ * The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
+ * interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
+ * half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
+ *
+ * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_half_space_distance(const struct swiftprox_shape *shape,
+                                                    const double *pose,
+                                                    const struct swiftprox_half_space *half_space,
+                                                    struct swiftprox_signed_distance *answer);
+
+/**
+ * Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
+ * at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
+ * swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
+ *
+ * Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
+ * they were.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_half_space_manifold(const struct swiftprox_shape *shape,
+                                                    const double *pose,
+                                                    const struct swiftprox_half_space *half_space,
+                                                    const struct swiftprox_manifold_config *config,
+                                                    struct swiftprox_manifold_point *points,
+                                                    size_t capacity,
+                                                    struct swiftprox_manifold *manifold);
 
 /** @} */
 
@@ -2046,6 +2156,22 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
                                                  struct swiftprox_object_info *info);
 
 /**
+ * A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
+ * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
+ * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+ *
+ * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *scene,
+                                                struct swiftprox_object_id id,
+                                                double *lower_corner,
+                                                double *upper_corner);
+
+/**
  * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
  * the shape longer than the object. On failure `*shape` is null.
  *
@@ -2101,9 +2227,9 @@ typedef struct swiftprox_scene_query {
   double relative_error;
   /**
    * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
-   * whatever the two errors say, beside what exact answers take. Pairs that levels of detail may answer with a share of it take
-   * one, all the same; others are answered as by exact queries, and so are all where the scene does not keep all pairs
-   * (swiftprox_scene_set_kept_pair_limit). Default: infinity.
+   * whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
+   * answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
+   * does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**

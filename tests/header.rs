@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 22] = [
+const SOURCES: [&str; 23] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -17,6 +17,7 @@ const SOURCES: [&str; 22] = [
     "src/pair/depth/answer.rs",
     "src/pair/signed_distance.rs",
     "src/pair/manifold/answer.rs",
+    "src/pair/half_space.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",
     "src/ray/query.rs",

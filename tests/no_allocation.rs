@@ -26,6 +26,8 @@ fn shapes(random: &mut Random) -> Vec<Arc<Shape>> {
         assert!(!leveled.hierarchy().levels.is_empty());
         shapes.extend([plain, Arc::new(leveled)]);
     }
+    // Large enough for maps of their support functions.
+    shapes.extend([[0.6, 0.6, 0.6], [0.6, 0.6, 0.06]].map(|half| ellipsoid(random, 1_000, half, Vector::zeros())));
     // Witness points on its caps of triangles are named by a search.
     let cylinder = SOLIDS.iter().find(|solid| solid.name == "cylinder-64").unwrap().mesh(Form::Turned).unwrap();
     shapes.push(Arc::new(Shape::from_mesh(&cylinder, &ShapeOptions::default()).unwrap()));

@@ -6,7 +6,7 @@
  * `BLESS=1 cargo test --test project layout` rewrites it. A line that changes is a change of the ABI: CHANGELOG.md tells it.
  */
 
-STRUCT(swiftprox_shape_options, 160, 8)
+STRUCT(swiftprox_shape_options, 168, 8)
 MEMBER(swiftprox_shape_options, struct_size, 0, 8)
 MEMBER(swiftprox_shape_options, input, 8, 4)
 MEMBER(swiftprox_shape_options, rotation, 16, 72)
@@ -17,6 +17,7 @@ MEMBER(swiftprox_shape_options, progress, 128, 8)
 MEMBER(swiftprox_shape_options, progress_user, 136, 8)
 MEMBER(swiftprox_shape_options, tuning, 144, 8)
 MEMBER(swiftprox_shape_options, face_noise, 152, 8)
+MEMBER(swiftprox_shape_options, swept_radius, 160, 8)
 
 STRUCT(swiftprox_decomposition, 48, 8)
 MEMBER(swiftprox_decomposition, corners, 0, 8)
@@ -26,7 +27,7 @@ MEMBER(swiftprox_decomposition, capacity, 24, 8)
 MEMBER(swiftprox_decomposition, triangle_count, 32, 8)
 MEMBER(swiftprox_decomposition, piece_count, 40, 8)
 
-STRUCT(swiftprox_shape_info, 216, 8)
+STRUCT(swiftprox_shape_info, 224, 8)
 MEMBER(swiftprox_shape_info, struct_size, 0, 8)
 MEMBER(swiftprox_shape_info, dimension, 8, 4)
 MEMBER(swiftprox_shape_info, vertex_count, 16, 8)
@@ -40,6 +41,13 @@ MEMBER(swiftprox_shape_info, lower_corner, 88, 24)
 MEMBER(swiftprox_shape_info, upper_corner, 112, 24)
 MEMBER(swiftprox_shape_info, bytes, 136, 8)
 MEMBER(swiftprox_shape_info, inertia, 144, 72)
+MEMBER(swiftprox_shape_info, swept_radius, 216, 8)
+
+STRUCT(swiftprox_face, 48, 8)
+MEMBER(swiftprox_face, normal, 0, 24)
+MEMBER(swiftprox_face, offset, 24, 8)
+MEMBER(swiftprox_face, corner_count, 32, 8)
+MEMBER(swiftprox_face, label_count, 40, 8)
 
 STRUCT(swiftprox_feature, 12, 4)
 MEMBER(swiftprox_feature, kind, 0, 4)
@@ -152,6 +160,10 @@ MEMBER(swiftprox_manifold_config, struct_size, 0, 8)
 MEMBER(swiftprox_manifold_config, rotation_limit, 8, 8)
 MEMBER(swiftprox_manifold_config, margin, 16, 8)
 MEMBER(swiftprox_manifold_config, reduces, 24, 4)
+
+STRUCT(swiftprox_half_space, 32, 8)
+MEMBER(swiftprox_half_space, normal, 0, 24)
+MEMBER(swiftprox_half_space, offset, 24, 8)
 
 STRUCT(swiftprox_motion, 304, 8)
 MEMBER(swiftprox_motion, kind, 0, 4)

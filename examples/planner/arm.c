@@ -71,7 +71,8 @@ static double bend_bound(const struct arm_edge *edge, size_t last)
 /* No point of link `last` is farther from where the edge has it in real arithmetic. u is 2^-53.
  *
  * An angle from + t (to - from) errs by u|to - from| of the difference, as much of the product, and u of the sum: below
- * 3u(|from| + |to|). cos and sin err by an ulp, so by u at most: below 1.5u in the spectral norm. Products with the frame are exact.
+ * 3u(|from| + |to|). cos and sin err by an ulp, so by u at most: below 1.5u in the spectral norm. Products with the frame are
+ * exact.
  * Of x c + y s each of the three roundings is below u|(x, y)|, of the six entries below 3 sqrt(2) u in the Frobenius norm. So a
  * joint adds at most
  *

@@ -1,4 +1,4 @@
-//! Casts of any two bodies along motions of any kind: refused with a message, or answered, and then the proof is found anew, verdicts
+//! Casts of any two bodies along motions of any kind: refused with a message, or answered. Then the proof is found anew, verdicts
 //! along the motion and integers refute nothing, a damaged cache changes nothing that holds, and in the floating-point environment
 //! that the last byte chooses the bits are the same.
 #![no_main]

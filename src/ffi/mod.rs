@@ -24,6 +24,7 @@ pub mod level;
 pub mod decomposition;
 pub mod pair;
 pub mod depth;
+pub mod half_space;
 pub mod motion;
 pub mod ray;
 pub mod point;

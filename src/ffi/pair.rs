@@ -144,7 +144,7 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
 /// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
 /// unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
 /// goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
-/// comes from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+/// comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(
     shape1: *const Shape,

@@ -32,9 +32,9 @@ pub struct CSceneQuery {
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
     /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
-    /// whatever the two errors say, beside what exact answers take. Pairs that levels of detail may answer with a share of it take
-    /// one, all the same; others are answered as by exact queries, and so are all where the scene does not keep all pairs
-    /// (swiftprox_scene_set_kept_pair_limit). Default: infinity.
+    /// whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
+    /// answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
+    /// does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
     pub error_budget: f64,
     /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.

@@ -6,14 +6,20 @@
 //! | nothing | 0, or any other number | | |
 //! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
 //! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
+//! | a pyramid that proved a depth | 24 and its corners, 3 or 4; 4 more for the second triangle of its base | the apex | the base |
 //! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
+//! | a direction | 40 | | a separating axis |
+//!
+//! Beside all but an enclosure the last vertex pair says how the axis lay, and by which way approximate queries answer.
 
 use crate::base::math::Vector;
+use crate::pair::habit::Habit;
 use crate::pair::levels::{LevelState, Leveled};
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::Pairs;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Marker;
+use crate::solve::polytope::Pyramid;
 use crate::solve::separating_axis::Axis;
 use crate::solve::state::State;
 
@@ -38,11 +44,21 @@ enum Content {
     Enclosure(usize),
     /// The kind of the state.
     Levels(u32),
+    /// An axis without features.
+    Direction,
+    /// How many corners the base has, and which triangle of it the enclosure is over.
+    Pyramid(usize, usize),
 }
 
 /// What the first word of an enclosure and of features of levels have more than the number in [`Content`].
 const ENCLOSURE: u32 = 8;
 const LEVELS: u32 = 16;
+const PYRAMID: u32 = 24;
+/// The first word of a direction alone.
+const DIRECTION: u32 = 40;
+
+/// Corners of a pyramid's base that there is room for.
+const MOST_CORNERS: usize = 4;
 
 /// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
@@ -54,6 +70,9 @@ impl PairCache {
             tag @ 1..=6 => Content::Features(tag),
             tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
             tag @ 17..=22 => Content::Levels(tag - LEVELS),
+            DIRECTION => Content::Direction,
+            tag @ 27..=28 => Content::Pyramid((tag - PYRAMID) as usize, 0),
+            32 => Content::Pyramid(MOST_CORNERS, 1),
             _ => Content::Nothing,
         }
     }
@@ -83,7 +102,7 @@ impl PairCache {
     pub(super) fn axis(&self, polyhedra: [&Polyhedron; 2]) -> Option<Axis> {
         let [vertices @ [v, w], [x, y], [z, mark], _] = self.pairs;
         let is_known = (mark == AXIS)
-            & matches!(self.content(), Content::Features(_))
+            & matches!(self.content(), Content::Features(_) | Content::Direction)
             & ((v as usize) < polyhedra[0].vertices.len())
             & ((w as usize) < polyhedra[1].vertices.len());
         is_known.then_some(Axis { vertices, direction: [x, y, z].map(f32::from_bits) })
@@ -102,22 +121,90 @@ impl PairCache {
         self.pairs[0] = vertices;
     }
 
+    // --- A direction, and how look-ups went --------------------------------------------------------------------------------------
+
+    /// The direction of the last approximate answer in body 1's axes, from body 2 to body 1, and how it lay.
+    #[inline(always)]
+    pub(super) fn direction(&self) -> Option<(Vector, Lean)> {
+        let [_, [x, y], [z, mark], [lean, _]] = self.pairs;
+        let is_known = (mark == AXIS) & matches!(self.content(), Content::Features(_) | Content::Direction);
+        let [x, y, z] = [x, y, z].map(|bits| f32::from_bits(bits).into());
+        is_known.then_some((Vector::new(x, y, z), Lean(f32::from_bits(lean))))
+    }
+
+    /// Instead of features, which the bodies leave behind. The vertices of the axis stay where they are: a climb starts there.
+    #[inline(always)]
+    pub(super) fn remember_direction(&mut self, direction: Vector, lean: Lean) {
+        let [[v, w], _, [_, mark], [_, habit]] = self.pairs;
+        let is_beside = matches!(self.content(), Content::Features(_) | Content::Direction);
+        let vertices = if is_beside & (mark == AXIS) { [v, w] } else { [0; 2] };
+        self.tag = DIRECTION;
+        self.remember_axis(vertices, direction);
+        self.pairs[3] = [lean.0.to_bits(), habit];
+    }
+
+    /// Whether the support functions are looked up this time, where they may be: not of bodies that intersected the last time.
+    #[inline(always)]
+    pub(super) fn looks_up(&self) -> bool {
+        !self.holds_enclosure() && Habit::of(self.pairs[3][1]).looks_up()
+    }
+
+    /// Notes that look-ups have answered, of a pair that has hardly moved since the last time or has.
+    #[inline(always)]
+    pub(super) fn note_look_ups(&mut self, is_still: bool) {
+        self.pairs[3][1] = Habit::of(self.pairs[3][1]).looked_up(is_still).word();
+    }
+
+    /// Notes how many steps marching took where look-ups might have answered, and whether they were tried in vain.
+    #[inline(always)]
+    pub(super) fn note_marching(&mut self, steps: u32, in_vain: bool) {
+        if !self.holds_enclosure() {
+            let habit = Habit::of(self.pairs[3][1]);
+            self.pairs[3][1] = if in_vain { habit.failed() } else { habit.marched(steps) }.word();
+        }
+    }
+
     // --- An enclosure ------------------------------------------------------------------------------------------------------------
 
     /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
     pub(super) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        let Content::Enclosure(count) = self.content() else { return None };
-        let pairs = &self.pairs[..count];
+        let (mut tetrahedron, mut count) = (self.pairs, self.pairs.len());
+        match self.content() {
+            Content::Enclosure(pairs) => count = pairs,
+            Content::Pyramid(_, triangle) => {
+                let [first, ..] = self.pairs;
+                tetrahedron = [first, self.pairs[triangle + 1], self.pairs[triangle + 2], self.indices];
+            }
+            Content::Nothing | Content::Features(_) | Content::Levels(_) | Content::Direction => return None,
+        }
+        let pairs = &tetrahedron[..count];
         let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
         let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
         pairs.iter().all(known).then(|| Pairs::new(pairs))
     }
 
+    /// The pyramid that proved the last depth, be it of vertices that the bodies have or not.
+    #[inline(always)]
+    pub(super) fn pyramid(&self) -> Option<Pyramid> {
+        let Content::Pyramid(count, _) = self.content() else { return None };
+        Some(Pyramid::new(&self.pairs[..count], self.indices))
+    }
+
+    /// A pyramid, and which triangle of its base makes an enclosure with its apex; of one of many corners nothing is kept.
+    pub(super) fn remember_pyramid(&mut self, pyramid: &Pyramid, triangle: u8) {
+        let Some((base, apex)) = pyramid.plain() else { return };
+        if base.len() <= MOST_CORNERS && usize::from(triangle) + 2 < base.len() {
+            self.pairs[..base.len()].copy_from_slice(base);
+            self.indices = apex;
+            self.tag = PYRAMID + base.len() as u32 + 4 * u32::from(triangle);
+        }
+    }
+
     /// Whether it holds an enclosure, be it of vertices that the bodies have or not.
     #[inline(always)]
     pub(super) fn holds_enclosure(&self) -> bool {
-        matches!(self.content(), Content::Enclosure(_))
+        matches!(self.content(), Content::Enclosure(_) | Content::Pyramid(..))
     }
 
     pub(super) fn remember_enclosure(&mut self, pairs: &[VertexPair]) {
@@ -139,7 +226,7 @@ impl PairCache {
         let (kind, levels) = match self.content() {
             Content::Levels(kind) => (kind, self.pairs[0]),
             Content::Features(kind) => (kind, [0, 0]),
-            Content::Nothing | Content::Enclosure(_) => return None,
+            Content::Nothing | Content::Enclosure(_) | Content::Pyramid(..) | Content::Direction => return None,
         };
         let coarsest = bodies.coarsest();
         let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];
@@ -162,6 +249,24 @@ impl PairCache {
     #[inline(always)]
     pub(super) fn spent_before(&self) -> u32 {
         if self.holds_level_state() { self.pairs[1][0] } else { 0 }
+    }
+}
+
+/// How a direction lies to the line between the origins: its cosine.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Lean(f32);
+
+impl Lean {
+    #[inline(always)]
+    pub(super) fn of(cosine: f64) -> Lean {
+        Lean(cosine as f32)
+    }
+
+    /// Whether it lies about as it did: one direction in ten does so by chance. A NaN does not.
+    #[inline(always)]
+    pub(super) fn is_near(self, cosine: f64) -> bool {
+        const ABOUT: f64 = 0.1;
+        (cosine - f64::from(self.0)).abs() < ABOUT
     }
 }
 

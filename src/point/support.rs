@@ -12,7 +12,8 @@ use crate::solve::exact::body::Body;
 use crate::solve::exact::dyadic::DyadicVector;
 use crate::solve::polytope::farthest;
 
-/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes.
+/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes. A
+/// swept radius is left out: the body reaches so much farther.
 ///
 /// # Errors
 /// [`Error::Argument`] for a direction that is 0 or not finite, [`Error::Pose`] for a pose that is not accepted, as in

@@ -1,15 +1,16 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
 pub(crate) mod extent;
+mod transform;
 mod patch;
+mod face;
 pub mod file;
 
 use std::path::Path;
 
-use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, copied, found, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -20,13 +21,16 @@ use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::build::mass::inertia;
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use crate::mesh::io::read_mesh;
-use crate::mesh::{Numbers, PolygonMesh, check_vertex, coordinate_unit};
+use crate::mesh::{Numbers, PolygonMesh, coordinate_unit};
 use crate::polyhedron::Polyhedron;
+use crate::tables::support_map::SupportMap;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
+pub use face::Face;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
+use transform::transformed;
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -94,7 +98,7 @@ pub struct ShapeOptions {
     /// What to do with input that is not a closed convex mesh with interior.
     pub input: InputPolicy,
     /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
-    /// the rotation of a pose ([`ROTATION_LIMIT`]).
+    /// the rotation of a pose ([`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)).
     pub rotation: Matrix,
     /// See `rotation`.
     pub translation: Vector,
@@ -112,6 +116,10 @@ pub struct ShapeOptions {
     /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. `None`:
     /// found from the coordinates and polygons ([`default_noise`]). 0: rounding of doubles only.
     pub face_noise: Option<f64>,
+    /// The radius of a ball that is swept over the body, in the units of the input, before `scale`: a point with one is a sphere, a
+    /// segment a capsule, a body one with round edges. All answers of pairs and scenes are about the swept body; witness points are
+    /// on it, features are of the body without the ball. From 0 (the default) to [`LARGEST_SWEPT_RADIUS`].
+    pub swept_radius: f64,
 }
 
 impl Default for ShapeOptions {
@@ -125,11 +133,23 @@ impl Default for ShapeOptions {
             hierarchy: HierarchyOptions::default(),
             lookup: LookupOptions::default(),
             face_noise: None,
+            swept_radius: 0.0,
         }
     }
 }
 
+/// The largest [`ShapeOptions::swept_radius`], 2¹⁰⁰⁰: sums of a few lengths are finite.
+pub const LARGEST_SWEPT_RADIUS: f64 = f64::from_bits((1023 + 1000) << 52);
+
 impl ShapeOptions {
+    /// The radius of the ball in the local frame.
+    fn radius(&self) -> Result<f64> {
+        check_range("swept_radius", self.swept_radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
+        let radius = self.swept_radius * self.scale;
+        check_range("swept_radius times scale", radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
+        Ok(radius)
+    }
+
     /// By how much coordinates may be off in the local frame; `polygons` are over the points, all before the input transform.
     fn noise(&self, points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<f64> {
         let noise = match self.face_noise {
@@ -152,8 +172,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
-/// tables of the body and of its levels and automatic levels, is all that is ever added.
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
+/// added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -161,6 +181,10 @@ pub struct Shape {
     extent: Extent,
     /// Empty while automatic levels are not made.
     hierarchy: OnNeed<Hierarchy>,
+    /// Of the ball that is swept over the polyhedron.
+    swept_radius: f64,
+    /// Its support function for approximate distances, as far as it is made.
+    support_map: SupportMap,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -168,7 +192,8 @@ impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {
         let [levels, others] = [self.hierarchy(), other.hierarchy()];
         let are_automatic = [levels, others].map(|levels| levels.kind == HierarchyKind::Automatic);
-        self.polyhedron == other.polyhedron && (are_automatic == [true; 2] || levels == others)
+        (&self.polyhedron, self.swept_radius) == (&other.polyhedron, other.swept_radius)
+            && (are_automatic == [true; 2] || levels == others)
     }
 }
 
@@ -353,7 +378,8 @@ impl Shape {
                     .into(),
             ));
         }
-        let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
+        let Shape { polyhedron, swept_radius, .. } =
+            Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
             let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
@@ -365,18 +391,20 @@ impl Shape {
             })?);
         }
         let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
-        Shape::from_parts(polyhedron, hierarchy)
+        Shape::from_parts(polyhedron, hierarchy, swept_radius)
     }
 
     /// From parts that belong together; automatic levels that are not there are left to be made.
     ///
     /// # Errors
     /// [`Error::Memory`].
-    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Result<Shape> {
+    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy, swept_radius: f64) -> Result<Shape> {
         let is_to_be_made = hierarchy.kind == HierarchyKind::Automatic && hierarchy.levels.is_empty();
         let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;
-        Ok(Shape { polyhedron, extent, hierarchy: made.map_or_else(OnNeed::new, OnNeed::from) })
+        let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
+        let support_map = SupportMap::new(&polyhedron);
+        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius })
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -385,7 +413,7 @@ impl Shape {
     /// As [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| options.check())?;
-        let Shape { polyhedron, .. } = self;
+        let Shape { polyhedron, swept_radius, .. } = self;
         let hierarchy = match options.kind {
             HierarchyKind::Automatic => {
                 progress.report(1.0)?;
@@ -393,7 +421,7 @@ impl Shape {
             }
             _ => Hierarchy::build(&polyhedron, options, progress)?,
         };
-        Shape::from_parts(polyhedron, hierarchy)
+        Shape::from_parts(polyhedron, hierarchy, swept_radius)
     }
 
     /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are exactly
@@ -423,6 +451,13 @@ impl Shape {
         &self.polyhedron
     }
 
+    /// The radius of the ball that is swept over the polyhedron, in the local frame; see [`ShapeOptions::swept_radius`]. A pose
+    /// does not stretch it.
+    #[inline]
+    pub fn swept_radius(&self) -> f64 {
+        self.swept_radius
+    }
+
     /// The inertia tensor of a body of mass 1 and of uniform density about its centre of mass, in the axes of the local frame:
     /// symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body. Of a shape
     /// without interior the mass is spread over its area or length. Each entry is within 1e-13 of the largest, unless the body is
@@ -435,6 +470,12 @@ impl Shape {
     #[inline]
     pub(crate) fn extent(&self) -> &Extent {
         &self.extent
+    }
+
+    /// Its support function, as far as it is made.
+    #[inline]
+    pub(crate) fn support_map(&self) -> &SupportMap {
+        &self.support_map
     }
 
     /// The levels of detail that are made, without P₀.
@@ -468,9 +509,9 @@ impl Shape {
         Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), progress)
     }
 
-    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables, a small part of the work
-    /// (of needles up to a third) which is not interrupted, the search for polygons on faces of many, and automatic levels. After
-    /// that no query of this shape allocates or waits, except for the integer arithmetic.
+    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables and maps of support
+    /// functions, a small part of the work (of needles up to a third) which is not interrupted, the search for polygons on faces
+    /// of many, and automatic levels. After that no query of this shape allocates or waits, except for the integer arithmetic.
     ///
     /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
     ///
@@ -487,6 +528,7 @@ impl Shape {
         progress.report(0.0)?;
         insist_on_table(&self.polyhedron)?;
         self.polyhedron.insist_on_polygon_search()?;
+        self.support_map.insist(&self.polyhedron)?;
         if self.lacks_levels() {
             progress.report(SHARE_OF_TABLE)?;
             let levels = match self.build_levels(&mut progress.part(SHARE_OF_TABLE, 1.0)) {
@@ -503,7 +545,11 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + self.hierarchy().heap_bytes()
+        size_of::<Shape>()
+            + self.extent.heap_bytes()
+            + self.polyhedron.heap_bytes()
+            + self.hierarchy().heap_bytes()
+            + self.support_map.heap_bytes()
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
@@ -529,7 +575,7 @@ impl Shape {
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
         // Next to nothing of the time.
         polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut progress.part(share, share))?;
-        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)?
+        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC, options.radius()?)?
             .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }
 }
@@ -541,43 +587,6 @@ impl Shape {
 fn or_none(built: Result<Hierarchy>) -> Result<Hierarchy> {
     debug_assert!(matches!(built, Ok(_) | Err(Error::Memory(_))), "{built:?}");
     Ok(found(built)?.unwrap_or(Hierarchy::AUTOMATIC))
-}
-
-/// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
-/// itself and 2⁻⁹⁶ of the largest term.
-fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Vec<Vector>> {
-    let ShapeOptions { rotation, translation, scale, .. } = options;
-    if !(*scale > 0.0 && scale.is_finite()) {
-        return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
-    }
-    Pose::new(rotation, translation)
-        .check(ROTATION_LIMIT)
-        .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
-    if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
-        return copied(points);
-    }
-    let coordinate = |p: &Vector, row: usize| {
-        let mut rotated = DoubleDouble::default();
-        for column in 0..3 {
-            rotated = rotated + two_product(rotation[(row, column)], p[column]);
-        }
-        (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
-    };
-    let mut transform = |(v, p): (usize, &Vector)| {
-        progress.step(v, points.len())?;
-        check_vertex(v, p)?;
-        let image = Vector::from_fn(|row, _| coordinate(p, row));
-        if image.iter().all(|x| x.is_finite()) {
-            Ok(image)
-        } else {
-            Err(Error::Argument(format!("the input transform moves vertex {v} out of the range of doubles")))
-        }
-    };
-    let mut images = with_capacity(points.len())?;
-    for point in points.iter().enumerate() {
-        images.push(transform(point)?);
-    }
-    Ok(images)
 }
 
 /// An eighth of the diagonal of the bounding box, which cannot overflow where half of it might; 0 without points.

@@ -62,6 +62,12 @@ impl<L: Lanes> Body<'_, L> {
         z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
     }
 
+    /// The rows of R; lane 3 is unspecified.
+    #[inline(always)]
+    pub fn rows(&self) -> [L; 3] {
+        self.rows
+    }
+
     /// The columns of R.
     #[inline(always)]
     pub fn columns(&self) -> [L; 3] {

@@ -12,6 +12,8 @@ pub mod frame;
 pub mod certificate;
 pub(crate) mod separating_axis;
 #[doc(hidden)]
+pub mod support_search;
+#[doc(hidden)]
 pub mod marching;
 #[doc(hidden)]
 pub mod exact;

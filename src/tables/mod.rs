@@ -3,6 +3,7 @@
 mod options;
 pub mod tuning;
 pub mod nearest_vertex;
+pub mod support_map;
 
 use nalgebra::SymmetricEigen;
 

@@ -13,6 +13,7 @@
 //! | a jump that bodies in each other may have come apart by | from the least jump on, verdicts on plates take 69 % longer at 5° |
 //! | a turn that makes the last enclosure no hint | without it, and with jumps of 3.5, verdicts on plates take 24 % longer at 10° |
 //! | a far jump of bodies in each other | round ones at 5° to 45° save 15 to 5 of 100 instructions by the last enclosure |
+//! | maps of support functions | see `benches/NOTEBOOK.md`: which errors they answer sooner than marching does |
 //! | rounds of look-ups | plates and needles of 1:10 save four and seven steps of eight and eleven; round bodies none |
 
 /// How far a pair of round bodies with shells may have moved before it starts from them.
@@ -68,3 +69,25 @@ pub const ROUNDS_OF_PLATES: u32 = 4;
 
 /// On thin bodies of many vertices, where plates need eight steps after three rounds and six after five, and on needles.
 pub const ROUNDS_OF_FINE: u32 = 5;
+
+/// Fewest vertices, of each body of a pair, for which a map of its support function answers approximate distances.
+pub const LEAST_VERTICES_FOR_SUPPORT_MAP: usize = 500;
+
+/// From so many vertices on a body may have the finest grid of its support function.
+pub const LEAST_VERTICES_FOR_FINEST_GRID: usize = 5_000;
+
+/// The least error of a distance that grids but the finest are asked for, as a multiple of the radius.
+pub const LEAST_ERROR_OF_GRIDS: f64 = 0.008;
+
+/// The same with the finest grid.
+pub const LEAST_ERROR_OF_FINEST_GRID: f64 = 0.0025;
+
+/// A grid is fine enough if its gap is at most this part of the error in the mean of all cells, and nowhere more than the error: the
+/// rest of it pays for a direction that is not quite the best.
+pub const MEAN_GAP: f64 = 0.175;
+
+/// The same of the largest gap of the finest grid.
+pub const LARGEST_GAP_OF_FINEST: f64 = 0.5;
+
+/// No direction is stretched by less than this part of the most: beyond, the rounding of directions counts.
+pub const LEAST_STRETCH: f64 = 1.0 / 64.0;

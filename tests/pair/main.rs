@@ -13,5 +13,6 @@ mod pair_truth;
 mod refused;
 mod separating_axis;
 mod stretched;
+mod support_maps;
 mod verify;
 mod witnesses;

@@ -19,13 +19,13 @@ use swiftprox::ffi::pair_batch::CPairQuestion;
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
-use swiftprox::ffi::shape::ShapeInfo;
+use swiftprox::ffi::shape::{CFace, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{
-    DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
+    DepthAnswer, DepthStatistics, Feature, HalfSpace, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
 };
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
@@ -82,13 +82,14 @@ fn layouts() -> Vec<Layout> {
     let mut all = layouts! {
         swiftprox_shape_options = CShapeOptions {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
-            tuning, face_noise
+            tuning, face_noise, swept_radius
         },
         swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
-            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia
+            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
         },
+        swiftprox_face = CFace { normal, offset, corner_count, label_count },
         swiftprox_feature = Feature { kind, ids },
         swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },
         swiftprox_pair_answer = PairAnswer {
@@ -118,6 +119,7 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
+        swiftprox_half_space = HalfSpace { normal, offset },
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },

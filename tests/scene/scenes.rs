@@ -619,6 +619,34 @@ fn approximate_distances_and_a_budget_for_all() {
     }
 }
 
+/// Bodies without levels spend a budget, too, and an error: on maps of their support functions.
+#[test]
+fn maps_of_support_functions_spend_a_budget() {
+    let mut random = Random::new(0x3a9);
+    let shape = ellipsoid(&mut random, 600, [0.6, 0.6, 0.4], Vector::zeros());
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    for _ in 0..8 {
+        let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
+        scene.add_object(vec![shape.clone()], &options).unwrap();
+    }
+    let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
+    let budget = SceneQuery { error_budget: 1.0, ..SceneQuery::default() };
+    let error = SceneQuery { absolute_error: 0.03, ..SceneQuery::default() };
+    for (query, total) in [(budget, 1.0), (error, 28.0 * 0.03)] {
+        scene.reset_statistics();
+        let answer = scene.query_approximate_distance(&query).unwrap();
+        assert_eq!(answer.pairs.len(), 28);
+        for (pair, exact) in answer.pairs.iter().zip(&exact) {
+            let (answer, exact) = (&pair.answer, &exact.answer);
+            assert_eq!(answer.outcome, exact.outcome);
+            assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?} {exact:?}");
+        }
+        let statistics = scene.statistics();
+        assert!(statistics.error_spent <= total && statistics.error_spent > 1e-3, "{statistics:?}");
+        assert!(statistics.within_tolerance > 14 && statistics.by_level[1..].iter().all(|&count| count == 0));
+    }
+}
+
 /// A budget holds however objects move, few or all, and however little it is, and intersecting pairs take nothing of it. Answers
 /// of pairs that rest are given again beside others: their shares count still.
 #[test]

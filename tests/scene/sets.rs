@@ -560,3 +560,33 @@ fn what_is_refused_says_why() {
         assert!(kind_fits && error.message().contains(named), "{named}: {error:?}");
     }
 }
+
+/// A program with a broad phase of its own says which pairs there are; two fixed objects make one only if the question moves one.
+#[test]
+fn given_pairs_and_fixed_objects_are_heeded() {
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let cube = Arc::new(cuboid([0.5; 3]));
+    let [near, middle, far] = [0.0, 3.0, 10.0].map(|x| {
+        let options = ObjectOptions { pose: at(x, 0.0, 0.0), fixed: x > 0.0, ..ObjectOptions::default() };
+        scene.add_object(vec![cube.clone()], &options).unwrap()
+    });
+    let mut scratch = SetScratch::default();
+    let mut nearest = |scene: &Scene, id: ObjectId, pose: Option<Pose>| {
+        let poses = pose.map(|pose| [pose]);
+        let set = ObjectSet { ids: &[id], poses: poses.as_ref().map(|poses| &poses[..]), among: false };
+        scene.least_distance(&set, None, f64::INFINITY, &mut scratch).unwrap().nearest.object2
+    };
+    assert_eq!(nearest(&scene, near, None), middle);
+    assert_eq!(nearest(&scene, far, None), near);
+    assert_eq!(nearest(&scene, far, Some(at(9.0, 0.0, 0.0))), middle);
+    scene.set_pairs(Some(&[[far, near]])).unwrap();
+    for prepared in [false, true] {
+        if prepared {
+            scene.prepare().unwrap();
+        }
+        assert_eq!(nearest(&scene, near, None), far);
+        assert_eq!(nearest(&scene, middle, Some(at(3.0, 0.0, 0.0))), ObjectId::NULL);
+    }
+    scene.set_pairs(None).unwrap();
+    assert_eq!(nearest(&scene, near, None), middle);
+}

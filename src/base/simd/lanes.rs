@@ -1,10 +1,15 @@
 //! Four doubles: what a query needs of them, and plain arrays that do it on any machine.
 
 use super::Work;
+use super::twins::{PortableTwins, Twins};
 use crate::base::math::Vector;
 
 /// Four doubles. Of a vector in three dimensions lanes 0 to 2 are the components and lane 3 is unspecified.
 pub trait Lanes: Copy {
+    /// Two vectors in single precision.
+    type Twins: Twins;
+    /// Two vectors, rounded to single precision.
+    fn twins(self, second: Self) -> Self::Twins;
     /// All lanes equal.
     fn splat(x: f64) -> Self;
     /// From memory.
@@ -92,9 +97,14 @@ pub trait Lanes: Copy {
 
 /// Plain arrays, for any target.
 #[derive(Clone, Copy)]
-pub struct Portable([f64; 4]);
+pub struct Portable(pub(super) [f64; 4]);
 
 impl Lanes for Portable {
+    type Twins = PortableTwins;
+    #[inline(always)]
+    fn twins(self, second: Self) -> PortableTwins {
+        PortableTwins::rounded(self, second)
+    }
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Portable([x; 4])

@@ -22,11 +22,15 @@
 #![allow(unsafe_code)]
 
 pub mod environment;
+mod twins;
 mod lanes;
+#[cfg(target_arch = "x86_64")]
+mod wide_twins;
 #[cfg(target_arch = "x86_64")]
 mod wide;
 
 pub use lanes::{Lanes, Portable};
+pub use twins::Twins;
 
 /// Work that can run on any [`Lanes`]; its `run` is to be `#[inline(always)]`.
 pub trait Kernel {
@@ -131,6 +135,7 @@ mod tests {
             [u32; 4],
             [f64; 4],
             [f32; 2],
+            ([[f32; 8]; 12], [[f32; 2]; 2]),
         );
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> Self::Output {
@@ -149,6 +154,22 @@ mod tests {
             let mut single = [0; 4];
             L::load(&[1e300, 0.1, -1e-300, -2.5]).store_single(&mut single);
             let [.., third] = L::components(&[x, y, z, turned]);
+            let (sides, others) = (x.twins(y), L::Twins::load(&[3.0, 1.0, 4.0, 1.0], &[5.0, 9.0, 2.0, 6.0]));
+            let twins = [
+                sides,
+                others.add(sides),
+                others.sub(sides),
+                others.mul_add(sides, others).mul(L::Twins::splat(2.0, 0.5)),
+                others.negated_mul_add(sides, others),
+                others.splat_x(),
+                others.splat_y(),
+                others.splat_z(),
+                others.negate_first(),
+                others.sum(),
+                others.cross(sides),
+                L::Twins::product(&[sides, others, sides], others),
+            ]
+            .map(L::Twins::to_array);
             let chosen = [
                 quotient,
                 greater,
@@ -170,6 +191,7 @@ mod tests {
                 single,
                 L::load_single(&single).to_array(),
                 x.extreme_products(&[[*a, *b, *c], [*b, *a, *b]]),
+                (twins, [sides.dots(others), [sides.dot(others), others.swap().dot(sides)]]),
             )
         }
     }
@@ -188,6 +210,7 @@ mod tests {
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.8, [f32::INFINITY, 0.1, -0.0, -2.5].map(f32::to_bits));
         assert_eq!(expected.9, [f64::INFINITY, f64::from(0.1_f32), 0.0, -2.5]);
+        assert_eq!(expected.11.1, [[17.0, 93.0], [17.0, 29.0]]);
         assert_eq!(expected.3, 0b1100);
         assert_eq!(expected.4, [(1.0, 1), (9.0, 0)]);
         assert_eq!((expected.5, expected.6), ((16.5, 5), [false, true]));

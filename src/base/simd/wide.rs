@@ -1,5 +1,6 @@
 //! Four doubles in one register of AVX2 with FMA, and the same with AVX-512.
 
+use super::wide_twins::WideTwins;
 use super::{Features, Kernel, Lanes, Work};
 use crate::base::math::Vector;
 use std::arch::x86_64::*;
@@ -91,6 +92,12 @@ impl<const WITH_AVX512: bool> Wide<WITH_AVX512> {
 
 // SAFETY of every block below: `Wide` exists only inside `run`, whose caller has checked for AVX2 and FMA.
 impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
+    type Twins = WideTwins;
+    #[inline(always)]
+    fn twins(self, second: Self) -> WideTwins {
+        // SAFETY: see above.
+        WideTwins(unsafe { _mm256_set_m128(_mm256_cvtpd_ps(second.0), _mm256_cvtpd_ps(self.0)) })
+    }
     #[inline(always)]
     fn splat(x: f64) -> Self {
         // SAFETY: see above.

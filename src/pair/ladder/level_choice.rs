@@ -1,6 +1,7 @@
 //! Whether levels of detail may answer a query, and how near to their bodies they then have to be.
 
 use super::query::PairQuery;
+use super::support_glance;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::levels::hierarchy::HierarchyKind;
@@ -67,8 +68,15 @@ fn standing_off(shape: &Shape) -> f64 {
     5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64
 }
 
-/// From which error on levels may answer an approximate query about two bodies; infinite where they never do.
+/// From which error on an approximate query about two bodies may be answered sooner than exactly, by maps of support functions or
+/// by levels; infinite where neither ever does.
 pub(crate) fn least_error(shapes: [&Shape; 2], levels: Levels) -> f64 {
+    let of_levels = least_error_of_levels(shapes, levels);
+    if levels == Levels::Automatic { of_levels.min(support_glance::least_error(shapes)) } else { of_levels }
+}
+
+/// The same by levels alone.
+fn least_error_of_levels(shapes: [&Shape; 2], levels: Levels) -> f64 {
     let vertices = shapes.iter().map(|shape| shape.polyhedron().vertices.len()).sum::<usize>();
     let may_be_asked = match levels {
         Levels::None => false,
@@ -110,13 +118,13 @@ impl<'a> PairQuery<'a> {
         (body1.vertices.len() + body2.vertices.len() >= least) && !(self.cache.holds_enclosure() & self.asks_cache())
     }
 
-    fn shapes(&self) -> [&'a Shape; 2] {
+    pub(super) fn shapes(&self) -> [&'a Shape; 2] {
         self.bodies.map(|body| body.shape)
     }
 
     /// The error that the query may make, before anything is known but the bounding spheres.
     #[inline(always)]
-    fn surely_most_error(&self) -> f64 {
+    pub(super) fn surely_most_error(&self) -> f64 {
         let config = self.config;
         if config.relative_error > 0.0 { self.most_error(self.gap_of_spheres()) } else { config.absolute_error }
     }

@@ -9,28 +9,73 @@ mod decision;
 mod level_choice;
 mod level_search;
 mod level_glance;
+mod support_glance;
 
 use crate::base::error::Result;
 use crate::base::simd::Portable;
+use crate::base::simd::environment::{self, with_default};
+use crate::pair::answer::PairAnswer;
+use crate::pair::cache::PairCache;
+use crate::pair::config::{PairConfig, Query};
+use crate::pair::placed::Placed;
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::{Guess, start_pair};
 use crate::solve::decide::Pairs;
 use decision::Hint;
 pub(crate) use level_choice::least_error;
 use level_search::Searched;
-use query::Attempt;
-pub(super) use query::{Glances, PairQuery};
+pub(super) use query::Glances;
+use query::{Attempt, PairQuery};
+
+/// A query of two polyhedra.
+///
+/// # Errors
+/// As of [`distance`](crate::pair::distance).
+#[inline(always)]
+pub(super) fn ask(
+    query: Query,
+    glances: Glances,
+    bodies: [Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    found: &mut PairAnswer,
+) -> Result<()> {
+    let mut pair = PairQuery::new(query, &bodies, cache, config, found)?;
+    if !environment::is_default() {
+        return with_default(move || answer(&mut pair, glances));
+    }
+    answer(&mut pair, glances)
+}
 
 /// From the first rung.
 #[inline(always)]
-pub(super) fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
+    }
+    if pair.may_ask_support_maps() {
+        return answer_by_support_maps(pair, glances);
     }
     if pair.may_ask_levels() {
         return answer_by_levels(pair, glances);
     }
     answer_by_bodies(pair, glances)
+}
+
+/// Maps of support functions, unless the pair does better by marching at the moment; else as without them.
+#[inline(never)]
+fn answer_by_support_maps(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+    let looks_up = pair.cache.looks_up();
+    if looks_up && pair.support_maps_answer()? {
+        return Ok(());
+    }
+    if pair.may_ask_levels() {
+        answer_by_levels(pair, glances)?
+    } else {
+        answer_by_bodies(pair, glances)?
+    }
+    pair.cache.note_marching(pair.answer.statistics.marching_steps, looks_up);
+    Ok(())
 }
 
 /// Levels of detail, where they may answer; else the bodies themselves.
@@ -59,7 +104,10 @@ fn answer_by_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
             return Ok(());
         }
         if pair.holds_enclosure() {
-            attempt = pair.look_at_last_enclosure();
+            attempt = pair.look_at_last_pyramid();
+            if !matches!(attempt, Attempt::Answered) {
+                attempt = pair.look_at_last_enclosure();
+            }
         } else {
             attempt = pair.march_from_last_features();
         }

@@ -10,8 +10,11 @@ mod id;
 mod patch;
 mod outline;
 mod clip;
+mod overlay;
 mod places;
 mod reduction;
+mod swept;
+mod half_space;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -20,16 +23,21 @@ use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::config::PairConfig;
 use crate::pair::depth::DepthAnswer;
 use crate::pair::placed::Placed;
-use crate::pair::signed_distance::{SignedDistance, signed_distance};
+use crate::pair::queries::signed_distance;
+use crate::pair::radii::Radii;
+use crate::pair::signed_distance::SignedDistance;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::Precision;
+pub use half_space::half_space_manifold;
+pub(crate) use half_space::half_space_manifold_into;
 use id::id_of;
 use outline::{Axes, Outline};
+use overlay::FEW;
 use patch::{COINCIDENT, Facing, facing};
 use places::{Origin, View};
-use reduction::Reduction;
+use reduction::{LITTLE_ROOM, ROOM, Reduction};
 
 /// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is
 /// none.
@@ -94,7 +102,7 @@ pub(crate) fn manifold_into(
             ..PairConfig::default()
         };
         signed_distance(bodies, &mut cache.signed_distance, &within, &mut contact)?;
-        Ok(make(bodies, &mut cache.reference, config, &contact, points))
+        Ok(of_bodies(bodies, &mut cache.reference, config, &contact, points))
     })
 }
 
@@ -121,7 +129,28 @@ pub(crate) fn manifold_of(
         Known::Apart(answer) => answer.into(),
         Known::Deep(answer) => answer.into(),
     };
-    make(bodies, reference, config, &contact, points)
+    of_bodies(bodies, reference, config, &contact, points)
+}
+
+/// Of bodies over which balls are swept: that of the polyhedra, whose points are moved out to the surfaces.
+fn of_bodies(
+    bodies: [Placed; 2],
+    before: &mut Reference,
+    config: &ManifoldConfig,
+    contact: &SignedDistance,
+    points: &mut Sink,
+) -> Manifold {
+    let Some(radii) = Radii::of(&bodies) else { return make(bodies, before, config, contact, points) };
+    let poses = bodies.map(|body| body.pose);
+    let of_polyhedra = swept::contact_of_polyhedra(&radii, poses, contact);
+    let config = ManifoldConfig { margin: radii.with(config.margin), ..*config };
+    let mut write = |place: usize, point: &ManifoldPoint| {
+        (points.write)(place, &swept::point_of_bodies(&radii, poses, &contact.normal, point));
+    };
+    let mut sink = Sink { capacity: points.capacity, written: points.written, write: &mut write };
+    let manifold = make(bodies, before, &config, &of_polyhedra, &mut sink);
+    points.written = sink.written;
+    Manifold { outcome: contact.outcome, lower: contact.lower, upper: contact.upper, ..manifold }
 }
 
 /// The pair of witness points.
@@ -241,10 +270,24 @@ fn clip(
         });
     }
     let is_same = (last.body, last.patches) == (now.body, now.patches);
-    let mut reduction = Reduction::new(if is_same { last.kept } else { [0; FOUR] }, size);
+    let kept = if is_same { last.kept } else { [0; FOUR] };
+    if view.outlines.iter().all(|outline| outline.count <= FEW) {
+        reduce(&view, Reduction::<LITTLE_ROOM>::new(kept, size), &mut now.kept, points)
+    } else {
+        reduce(&view, Reduction::<ROOM>::new(kept, size), &mut now.kept, points)
+    }
+}
+
+/// Writes the points that stay, and notes them; how many there are.
+fn reduce<const N: usize>(
+    view: &View,
+    mut reduction: Reduction<N>,
+    kept: &mut [u32; FOUR],
+    points: &mut Sink,
+) -> usize {
     let found = view.visit(|place| reduction.add(place));
     let chosen;
-    (chosen, now.kept) = reduction.chosen();
+    (chosen, *kept) = reduction.chosen();
     chosen.iter().flatten().for_each(|place| points.push(|| view.point(place)));
     found
 }

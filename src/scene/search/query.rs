@@ -18,9 +18,10 @@ pub struct SceneQuery {
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed
-    /// pairs together may come to, whatever the two errors say, beside what exact answers take. Pairs that levels of detail may
-    /// answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
-    /// does not keep all pairs ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default: +∞.
+    /// pairs together may come to, whatever the two errors say, beside what exact answers take. Pairs that maps of support
+    /// functions or levels of detail may answer with a share of it take one, all the same; others are answered as by exact
+    /// queries, and so are all where the scene does not keep all pairs
+    /// ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default: +∞.
     pub error_budget: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as
     /// [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.

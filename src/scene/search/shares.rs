@@ -1,8 +1,8 @@
 //! An error budget dealt out: which pairs may take a share of it, and how large a share is.
 //!
-//! Error buys time only where levels of detail may answer, which takes bodies of many vertices and an error as large as their
-//! levels stand off. Pairs whose levels need least come first, as many as the budget suffices for; all others are asked for
-//! exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever becomes of the pairs, those
+//! Error buys time only where maps of support functions or levels of detail may answer. That takes bodies of many vertices and an
+//! error as large as maps are coarse, or as levels stand off. Pairs that need least come first, as many as the budget suffices
+//! for; all others are asked for exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever becomes of the pairs, those
 //! that take shares are no more than were counted: all of them together stay within the budget.
 
 use crate::base::error::Result;
@@ -19,12 +19,12 @@ use crate::scene::world::testing::Testing;
 pub(crate) struct Deal {
     /// What `upper − lower` of each pair with a share may come to: a power of two, so that it stays while little changes.
     pub share: f64,
-    /// The budget sufficed for all that levels may answer. Else which pairs take shares depends on all others, and answers of
+    /// The budget sufficed for all that maps or levels may answer. Else which pairs take shares depends on all others, and answers of
     /// another deal are not given again.
     pub is_for_all: bool,
 }
 
-/// What the levels of a pair need, and its place in the list.
+/// What the maps or the levels of a pair need, and its place in the list.
 pub(crate) type Need = (f64, u32);
 
 /// Says of each pair whether it takes a share. `marks` are those of the last pass that asked the same.

@@ -201,7 +201,7 @@ impl<'a> Rows<'a> {
 /// A box around a placed shape and whatever is no farther from it than this; `spheres` are those of [`placed`].
 pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
     let reach = shape.extent().reach(pose, spheres.outer.into());
-    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose))
+    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
 }
 
 /// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
@@ -214,8 +214,10 @@ pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool)
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
-    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
-    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
+    // A pose does not stretch the ball that is swept.
+    let swept = shape.swept_radius();
+    let outer = (polyhedron.radius * (1.0 + stretch) + error + swept) * (1.0 + 8.0 * U);
+    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error + swept) * (1.0 - 8.0 * U);
     (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
 }
 

@@ -1,4 +1,4 @@
-//! Rays at one body beside parry's. On 20 vertices our answers are judged by exact rationals; the peer is judged by our certain ones.
+//! Rays at one body beside parry's. On 20 vertices our answers are judged by exact rationals; the peer is judged by ours.
 
 use parry3d_f64::math::{Pose as ParryPose, Vector as ParryVector};
 use parry3d_f64::query::{Ray as ParryRay, RayCast};
