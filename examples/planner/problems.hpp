@@ -1,5 +1,5 @@
-// The two problems: an L of two plates through a window, and an arm around a post. Both say how a state of OMPL's is a place of a cell's
-// bodies, and an edge their motion.
+// The two problems: an L of two plates through a window, and an arm around a post. Both say how a state of OMPL's is a place of a
+// cell's bodies, and an edge their motion.
 #ifndef EXAMPLES_PLANNER_PROBLEMS_HPP
 #define EXAMPLES_PLANNER_PROBLEMS_HPP
 
