@@ -15,6 +15,9 @@
 # make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers: some fifteen
 #                             minutes; benches/results/bodies.csv, docs/charts/bodies-*.svg. QUICK=--quick: seconds, build/bodies.csv
 # make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
+# make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
+#                             tables of docs/motions.md
+# make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, hours of it
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
@@ -49,10 +52,12 @@ DEPTHS = benches/results/depths
 BODIES = benches/results/bodies
 QUICK =
 FIGURES = benches/results/figures
+CASTS = benches/results/casts.csv
+MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -174,6 +179,17 @@ depths:
 	$(DRAW) benches/plot.py $(DEPTHS).csv
 	$(DRAW) benches/plot.py $(DEPTHS)-failures.csv
 
+casts:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev
+	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	$(TIMED) benches/compare/target/release/compare --casts all --count 600 --passes 5 --csv $(CASTS)
+	$(DRAW) benches/casts.py $(CASTS)
+
+hard-motions:
+	@scripts/require.sh $(CC_PACKAGES)
+	cargo run --locked --release --example hard_motions -- --count $(MOTIONS) $(if $(SEED),--seed $(SEED))
+
 engines:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	-@scripts/require.sh /usr/include/bullet=libbullet-dev
@@ -192,6 +208,7 @@ charts:
 	$(DRAW) benches/plot.py --again
 	$(DRAW) benches/bodies.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
+	$(DRAW) benches/casts.py $(CASTS)
 	$(STABILITY_PAGE)
 
 cases:

@@ -17,14 +17,15 @@ BOX = os.path.join(MODELS, "box.off")
 # Operands that are enough, and options with a value that each takes.
 OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "swiftprox-tune": ("SCENE",),
             "demo": (BOX, BOX), "tower": (MODELS,),
-            "scene": (MODELS,)}
+            "scene": (MODELS,), "swiftprox-sweep": ("SCENE", "POSES"), "arm_rrt": (MODELS,)}
 OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
            "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
            "swiftprox-tune": ("--query", "--tolerance", "--error", "--input", "--workers", "--passes"),
+           "swiftprox-sweep": ("--out", "--share", "--margin", "--input", "--times"), "certified_edge": ("--svg",),
            "demo": ("--orbit", "--svg"), "tower": ("--svg", "--record"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
-           "--orbit": ("-1", "0", "x", "1e6"),
+           "--margin": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
            "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x")}
 
 
@@ -69,6 +70,8 @@ class CommandLines(unittest.TestCase):
 
     def test_missing_and_bad_values_are_named(self):
         for name, options in OPTIONS.items():
+            if name not in PROGRAMS:
+                continue  # swiftprox-sweep, where MPI is not installed
             operands = OPERANDS.get(name, ())
             for option in options:
                 self.refused(name, option + " wants a value", *operands, option)
@@ -111,7 +114,7 @@ class CommandLines(unittest.TestCase):
         self.refused("swiftprox-replay", "--verify has no meaning beside --bench", recording, "--verify", "--bench", "1")
 
     def test_files_to_be_written_are_tried_first(self):
-        for name, option in (("demo", "--svg"), ("tower", "--svg"), ("tower", "--record"), ("crowd", "--svg"),
+        for name, option in (("demo", "--svg"), ("certified_edge", "--svg"), ("tower", "--svg"), ("tower", "--record"), ("crowd", "--svg"),
                              ("swiftprox-replay", "--html")):
             for path in (os.path.join(self.folder, "none", "a.svg"), self.folder):
                 self.refused(name, path, option, path)

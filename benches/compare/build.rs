@@ -9,7 +9,7 @@ fn main() {
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
     // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    let fcl = ["src/crowd/fcl.cpp", "src/peers/fcl.cpp"];
+    let fcl = ["src/crowd/fcl.cpp", "src/peers/fcl.cpp", "src/cast/fcl.cpp"];
     Shim { peer: "fcl", sources: &fcl, flags: pkg_config("fcl", "libfcl-dev") }
         .link(cc::Build::new().cpp(true).std("c++14"));
     let ccd = pkg_config("ccd", "libccd-dev");
@@ -18,12 +18,15 @@ fn main() {
     let bullet = pkg_config("bullet", "libbullet-dev").map(|flags| Flags { link: Vec::new(), ..flags });
     Shim { peer: "bullet", sources: &["src/peers/bullet.cpp"], flags: bullet }
         .link(cc::Build::new().cpp(true).std("c++14"));
+    let bullet64 = pkg_config("bullet-float64", "libbullet-dev");
+    Shim { peer: "bullet64", sources: &["src/cast/bullet.cpp"], flags: bullet64 }
+        .link(cc::Build::new().cpp(true).std("c++14"));
     let packages = python_packages();
     let coal = packages.as_deref().and_then(coal);
     Shim { peer: "coal", sources: &["src/peers/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
     let mujoco = packages.as_deref().and_then(mujoco);
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
-    for header in ["src/peers/hull.h", "src/peers/peer.h"] {
+    for header in ["src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
         println!("cargo:rerun-if-changed={header}");
     }
 }

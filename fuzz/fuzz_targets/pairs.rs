@@ -18,7 +18,7 @@ use swiftprox::pair::{
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
 use swiftprox_fuzz::contacts;
-use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, poses};
+use swiftprox_fuzz::geometry::{any_cache, any_number, hull_options, inside, last_is_environment, points, poses};
 use testkit::bodies::Body;
 use testkit::cases::{Case, Random};
 use testkit::properties::{Placed, Session, Work};
@@ -222,18 +222,4 @@ fn check_truth(placed: &Placed, answer: &PairAnswer) {
         let points = [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
         assert!(points.into_iter().all(said), "{answer:?}\n{}", case.describe());
     }
-}
-
-/// Any words, most of them small, as kinds and indices are.
-fn any_cache(u: &mut Unstructured) -> Result<PairCache> {
-    const WORDS: usize = size_of::<PairCache>() / 4;
-    let mut words = [0_u32; WORDS];
-    for word in &mut words {
-        *word = match u.arbitrary::<u8>()? {
-            255 => u.arbitrary()?,
-            small => small.into(),
-        };
-    }
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
-    Ok(unsafe { std::mem::transmute::<[u32; WORDS], PairCache>(words) })
 }

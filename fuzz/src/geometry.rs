@@ -6,6 +6,7 @@ use nalgebra::{Quaternion, UnitQuaternion};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::PairCache;
 use swiftprox::shape::{InputPolicy, ShapeOptions};
 use swiftprox::tables::{LookupKind, LookupOptions};
 
@@ -315,6 +316,20 @@ pub fn poses(u: &mut Unstructured, points: [&[Vector]; 2]) -> Result<[Pose; 2]> 
     translation[axis] = nudged(translation[axis], u.arbitrary()?);
     translation.iter_mut().filter(|x| !x.is_finite()).for_each(|x| *x = 0.0);
     Ok([poses[0], Pose::new(&turn, &translation)])
+}
+
+/// A cache of any words, most of them small, as kinds and indices are.
+pub fn any_cache(u: &mut Unstructured) -> Result<PairCache> {
+    const WORDS: usize = size_of::<PairCache>() / 4;
+    let mut words = [0_u32; WORDS];
+    for word in &mut words {
+        *word = match u.arbitrary::<u8>()? {
+            255 => u.arbitrary()?,
+            small => small.into(),
+        };
+    }
+    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
+    Ok(unsafe { std::mem::transmute::<[u32; WORDS], PairCache>(words) })
 }
 
 /// The floating-point environment that the last byte chooses, and the bytes before it.

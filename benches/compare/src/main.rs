@@ -4,6 +4,7 @@ mod accuracy;
 mod answers;
 mod bodies;
 mod build_time;
+mod cast;
 mod crowd;
 mod depth;
 mod distance;
@@ -44,6 +45,8 @@ fn main() -> ExitCode {
             figures::run(&options, wanted)
         } else if let Some(wanted) = &options.bodies {
             bodies::run(&options, wanted)
+        } else if let Some(wanted) = &options.casts {
+            cast::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {
             crowd::run(&options, counts)
         } else if options.build {

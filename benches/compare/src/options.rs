@@ -35,6 +35,8 @@ usage: compare [options]
                     two seconds on a scene, or three steps
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
                     swiftprox-manifold, coal-1e-10, mujoco-1e-6, bullet-1e-4, libccd-mpr-1e-4, parry-hc
+  --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
+                    rays; --count is the number of motions a scene, a quarter of that of rays
   --build           time the building of shapes instead
   --answers METHOD A B POSES
                     print METHOD's answers for two meshes and a file of poses instead, in the form that
@@ -63,6 +65,8 @@ pub struct Options {
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
+    /// Beginnings of names; empty: all.
+    pub casts: Option<Vec<String>>,
     pub answers: Option<[String; 4]>,
     pub depths: Option<[String; 4]>,
     /// Which figures; empty: all.
@@ -93,6 +97,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         resting: false,
         build: false,
         crowd: None,
+        casts: None,
         answers: None,
         depths: None,
         figures: None,
@@ -127,6 +132,9 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--workload" => options.workload = Some(value()?.into()),
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
             "--resting" => options.resting = true,
+            "--casts" => {
+                options.casts = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
+            }
             "--build" => options.build = true,
             "--answers" => options.answers = Some([value()?, value()?, value()?, value()?]),
             "--depths" => options.depths = Some([value()?, value()?, value()?, value()?]),

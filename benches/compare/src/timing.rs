@@ -22,8 +22,33 @@ pub struct Time {
     pub median: f64,
 }
 
-/// Times `passes` passes over `count` loaded poses, after one pass untimed (the caller's check).
-pub fn time_methods(methods: &mut [Box<dyn Method + '_>], count: usize, passes: usize) -> Vec<Time> {
+/// What is timed: queries in passes.
+pub trait Timed {
+    /// Drops all coherence.
+    fn forget(&mut self);
+
+    /// All queries from the last to the first.
+    fn run_backwards(&mut self, count: usize);
+
+    fn run(&mut self, queries: Range<usize>);
+}
+
+impl Timed for Box<dyn Method + '_> {
+    fn forget(&mut self) {
+        (**self).forget();
+    }
+
+    fn run_backwards(&mut self, count: usize) {
+        (**self).run_backwards(count);
+    }
+
+    fn run(&mut self, queries: Range<usize>) {
+        (**self).run(queries);
+    }
+}
+
+/// Times `passes` passes over `count` loaded queries, after one pass untimed (the caller's check).
+pub fn time_methods<M: Timed>(methods: &mut [M], count: usize, passes: usize) -> Vec<Time> {
     let mut best = vec![[f64::INFINITY; CHUNKS]; methods.len()];
     let mut totals = vec![Vec::with_capacity(passes); methods.len()];
     for _ in 0..passes {
