@@ -2,14 +2,14 @@
 
 pub(crate) mod extent;
 mod patch;
+mod transform;
 pub mod file;
 
 use std::path::Path;
 
-use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, copied, found, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -20,7 +20,7 @@ use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::build::mass::inertia;
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use crate::mesh::io::read_mesh;
-use crate::mesh::{Numbers, PolygonMesh, check_vertex, coordinate_unit};
+use crate::mesh::{Numbers, PolygonMesh, coordinate_unit};
 use crate::polyhedron::Polyhedron;
 use crate::tables::support_map::SupportMap;
 pub use crate::tables::{LookupKind, LookupOptions};
@@ -28,6 +28,7 @@ use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
+use transform::{InputTransform, transformed};
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -95,7 +96,7 @@ pub struct ShapeOptions {
     /// What to do with input that is not a closed convex mesh with interior.
     pub input: InputPolicy,
     /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
-    /// the rotation of a pose ([`ROTATION_LIMIT`]).
+    /// the rotation of a pose ([`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)).
     pub rotation: Matrix,
     /// See `rotation`.
     pub translation: Vector,
@@ -131,6 +132,10 @@ impl Default for ShapeOptions {
 }
 
 impl ShapeOptions {
+    fn transform(&self) -> InputTransform {
+        InputTransform { rotation: self.rotation, translation: self.translation, scale: self.scale }
+    }
+
     /// By how much coordinates may be off in the local frame; `polygons` are over the points, all before the input transform.
     fn noise(&self, points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<f64> {
         let noise = match self.face_noise {
@@ -206,7 +211,7 @@ impl Shape {
             InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull | InputPolicy::Patch => CONVEXITY_TOLERANCE,
         };
         let mut mesh = PolygonMesh {
-            vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
+            vertices: transformed(&mesh.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?,
             indices: copied(&mesh.indices)?,
             starts: copied(&mesh.starts)?,
             single_precision: mesh.single_precision,
@@ -278,7 +283,7 @@ impl Shape {
             return Err(Error::Mesh(format!("face {f} has fewer than three corners")));
         }
         let noise = options.noise(&patch.vertices, None)?;
-        patch.vertices = transformed(&patch.vertices, options, &mut progress.part(0.0, 0.0))?;
+        patch.vertices = transformed(&patch.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?;
         let polyhedron = hull_of_patch(&patch, &used, &mut progress.part(0.0, options.share_of_body()))?;
         Shape::admitted(polyhedron, noise, options, progress)
     }
@@ -298,7 +303,7 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| {
-            let images = transformed(points, options, &mut progress.part(0.0, 0.0))?;
+            let images = transformed(points, &options.transform(), &mut progress.part(0.0, 0.0))?;
             check_points(&images)?;
             Shape::of_points(&images, options.noise(points, None)?, options, progress)
         })
@@ -359,7 +364,7 @@ impl Shape {
         let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
-            let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
+            let moved = transformed(&level.vertices, &options.transform(), &mut progress.part(0.3, 0.3));
             let in_level = |message: String| format!("level {}: {message}", i + 1);
             points.push(moved.map_err(|error| match error {
                 Error::Mesh(message) => Error::Mesh(in_level(message)),
@@ -557,43 +562,6 @@ impl Shape {
 fn or_none(built: Result<Hierarchy>) -> Result<Hierarchy> {
     debug_assert!(matches!(built, Ok(_) | Err(Error::Memory(_))), "{built:?}");
     Ok(found(built)?.unwrap_or(Hierarchy::AUTOMATIC))
-}
-
-/// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
-/// itself and 2⁻⁹⁶ of the largest term.
-fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Vec<Vector>> {
-    let ShapeOptions { rotation, translation, scale, .. } = options;
-    if !(*scale > 0.0 && scale.is_finite()) {
-        return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
-    }
-    Pose::new(rotation, translation)
-        .check(ROTATION_LIMIT)
-        .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
-    if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
-        return copied(points);
-    }
-    let coordinate = |p: &Vector, row: usize| {
-        let mut rotated = DoubleDouble::default();
-        for column in 0..3 {
-            rotated = rotated + two_product(rotation[(row, column)], p[column]);
-        }
-        (rotated * DoubleDouble::from(*scale) + translation[row].into()).hi
-    };
-    let mut transform = |(v, p): (usize, &Vector)| {
-        progress.step(v, points.len())?;
-        check_vertex(v, p)?;
-        let image = Vector::from_fn(|row, _| coordinate(p, row));
-        if image.iter().all(|x| x.is_finite()) {
-            Ok(image)
-        } else {
-            Err(Error::Argument(format!("the input transform moves vertex {v} out of the range of doubles")))
-        }
-    };
-    let mut images = with_capacity(points.len())?;
-    for point in points.iter().enumerate() {
-        images.push(transform(point)?);
-    }
-    Ok(images)
 }
 
 /// An eighth of the diagonal of the bounding box, which cannot overflow where half of it might; 0 without points.
