@@ -12,6 +12,8 @@
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
+# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers: some fifteen
+#                             minutes; benches/results/bodies.csv, docs/charts/bodies-*.svg. QUICK=--quick: seconds, build/bodies.csv
 # make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
@@ -19,7 +21,7 @@
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
-# make packages               packages for Debian and Conan, tried as installed: scripts/debian.sh, scripts/conan.sh
+# make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
 # make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
@@ -44,11 +46,13 @@ MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
 STABILITY = benches/results/stability
 STABILITY_PAGE = $(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 DEPTHS = benches/results/depths
+BODIES = benches/results/bodies
+QUICK =
 FIGURES = benches/results/figures
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds depths engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -58,15 +62,17 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
 
-# The library is made once, in the profile that all tests of Rust share. What takes long is left to `make test`: valgrind, programs
-# that are installed, other libraries, further compilers.
+# The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
+# other libraries, further compilers, a browser.
+LONG := _under_|^(package|subdirectory|fetch_content|find_package|legacy_(clang_)?cxx|legacy_float|cpp_(c|g|clang)\+\+)
+LONG := $(LONG)|^(tower_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
 check:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	cargo test --locked --profile checked --lib
-	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=checked
+	cargo test --locked --profile daily --lib --features allocator
+	cmake -S . -B $(BUILD)/check -DCMAKE_BUILD_TYPE=Release -DBUILD_TESTING=ON -DSWIFTPROX_CARGO_PROFILE=daily -DSWIFTPROX_TEST_PEERS=OFF
 	+cmake --build $(BUILD)/check
-	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|legacy_(cxx|clang|float))|^setup'
+	ctest --test-dir $(BUILD)/check --parallel 2 --output-on-failure --exclude-regex '$(LONG)'
 	scripts/lint.sh
 
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
@@ -154,6 +160,13 @@ crowds:
 	    --csv benches/results/crowds.csv
 	$(DRAW) benches/plot.py benches/results/crowds.csv
 
+bodies:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
+	mkdir -p $(BUILD)
+	TIMED='$(TIMED)' scripts/bodies.sh $(if $(QUICK),$(BUILD)/bodies.csv --quick,$(BODIES).csv)
+	$(if $(QUICK),,$(DRAW) benches/bodies.py --again)
+
 depths:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
@@ -177,6 +190,7 @@ steps:
 charts:
 	@scripts/require.sh $(MATPLOTLIB)
 	$(DRAW) benches/plot.py --again
+	$(DRAW) benches/bodies.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 	$(STABILITY_PAGE)
 
@@ -202,6 +216,7 @@ packages:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	scripts/debian.sh
 	scripts/conan.sh
+	scripts/cargo_c.sh
 
 cross:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3

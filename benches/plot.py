@@ -33,7 +33,6 @@ from rows import geometric_mean, in_order, machine, read, with_numbers
 RESULTS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "results")
 METHODS = {
     "swiftprox": Style("swiftprox, tight interval", charts.BLUE),
-    "swiftprox-verdict": Style("swiftprox, verdict bounds", charts.SKY, DASHED, "D"),
     "parry-hc": Style("parry3d-f64, hill climbing", charts.RED, marker="s"),
     "parry-hc-matrix": Style("parry3d-f64, with matrices", charts.ORANGE, DASHED, "v"),
     "parry-hc-steepest": Style("parry3d-f64, steepest climb", charts.PINK, DOTTED, "^"),

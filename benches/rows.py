@@ -22,7 +22,8 @@ def with_numbers(rows, names):
 
 
 def machine(head):
-    """On what was measured: without the compiler's flags, which stand in the CSV file."""
+    """On which machine, of which commit and when was measured, what a CSV file's first line begins with; then how, without the
+    compiler's flags."""
     return head.split(", -")[0]
 
 

@@ -1,34 +1,43 @@
 #!/usr/bin/env python3
-"""Checks that sentences of README.md and tables of docs/choosing.md that have numbers say what the CSV files of benches/results say.
+"""Checks that sentences and tables of README.md and docs/choosing.md that have numbers say what the CSV files of benches/results say.
 Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
 
-from rows import geometric_mean, read
+from rows import geometric_mean, machine, read
 
 HERE = os.path.dirname(os.path.abspath(__file__))
+
+
+SPEED, BUILD, CROWDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv"
 
 
 def rows_of(name):
     return read(os.path.join(HERE, "results", name))[1]
 
 
+def commit_of(name):
+    """As the head of a CSV file names it."""
+    head, _ = read(os.path.join(HERE, "results", name))
+    return next(part for part in machine(head[0]).split(", ") if part.startswith("commit "))
+
+
 def table_times():
-    times = [float(row["best_ms"]) for row in rows_of("figures-build.csv") if (row["n"], row["method"]) == ("1002", "table")]
+    times = [float(row["best_ms"]) for row in rows_of(BUILD) if (row["n"], row["method"]) == ("1002", "table")]
     return f"makes its look-up table: {min(times):.2f} to {max(times):.2f} ms at 1,002 vertices"
 
 
 def mesh_times():
     def between(n, digits):
-        times = [float(row["best_ms"]) for row in rows_of("figures-build.csv") if (row["n"], row["method"]) == (n, "swiftprox-mesh")]
+        times = [float(row["best_ms"]) for row in rows_of(BUILD) if (row["n"], row["method"]) == (n, "swiftprox-mesh")]
         return f"{min(times):.{digits}f} to {max(times):.{digits}f} ms"
 
-    return f"{between('1002', 1)} at 1,002 vertices, {between('10002', 0)} at 10,002"
+    return f"{between('1002', 1)} at 1,002 vertices, {between('10002', 0)} at 10,002, {between('100002', 0)} at 100,002"
 
 
 def second_thread():
     times = {}
-    for row in rows_of("crowds.csv"):
+    for row in rows_of(CROWDS):
         if row["motion"] == "all" and int(row["count"]) >= 10000:
             times.setdefault((row["bodies"], row["count"], row["query"]), {})[row["method"]] = float(row["mean_ms"])
     saved = [100 * (1 - of["swiftprox-2"] / of["swiftprox"]) for of in times.values() if "swiftprox-2" in of]
@@ -67,6 +76,20 @@ def depth_table():
     return table("vertices", lines + [("a box on a box", {step: resting if step == "0.1" else "" for step in MOTIONS})])
 
 
+def speed_table():
+    rows = rows_of(SPEED)
+    columns = [mean_ns(rows, n="1002", orbit="small", method=method) for method in ("swiftprox", "parry-hc", "fcl-1e-6")]
+    head = ["| motion a query | swiftprox | parry | FCL |", "|---|--:|--:|--:|"]
+    return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
+
+
+def commits():
+    """Tables and meshes are of the same commit as queries."""
+    if commit_of(BUILD) != commit_of(SPEED):
+        sys.exit(f"{BUILD} and {SPEED} are of different commits, which README.md takes for one")
+    return f"at {commit_of(SPEED)}", f"those of a second thread of {commit_of(CROWDS)}"
+
+
 def check(page, said):
     with open(os.path.join(HERE, "..", page), encoding="utf-8") as file:
         text = file.read()
@@ -76,7 +99,8 @@ def check(page, said):
 
 
 def main():
-    check("README.md", (table_times(), mesh_times(), second_thread()))
+    queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
+    check("README.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 

@@ -77,13 +77,15 @@ class Drawn(unittest.TestCase):
         os.remove(self.path)
         self.assert_refused(self.chart, "is missing")
 
-    def test_every_committed_chart_is_text_and_says_what_drew_it_of_what(self):
+    def test_every_committed_chart_is_text_and_says_what_drew_it_of_what_measured_where_and_when(self):
         committed = glob.glob(os.path.join(charts.FOLDER, "*.svg"))
         self.assertTrue(committed)
         for path in committed:
             self.assertTrue(charts.source(path), path)
             self.assertTrue(version_of(path), path)
             self.assertLess(os.path.getsize(path), 100_000, path)
+            with open(path) as file:
+                self.assertRegex(file.read(), r">[^<>,]+, commit [0-9a-f]{7}, \d{4}-\d\d-\d\d\b", path)
 
     @unittest.skipUnless(version_here() == version_of(SPEED), f"charts are drawn by matplotlib {version_of(SPEED)}, here is {version_here()}")
     def test_the_same_data_gives_the_same_bytes(self):

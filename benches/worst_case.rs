@@ -14,6 +14,7 @@ use swiftprox::pair::{
 };
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models;
+use testkit::provenance::provenance;
 use testkit::random::Random;
 
 const USAGE: &str = "usage: cargo bench --bench worst_case -- [--n N]... [--body NAME]... [--motion NAME]... [--queries COUNT] [--csv PATH]";
@@ -143,7 +144,7 @@ fn options() -> std::result::Result<Options, String> {
 }
 
 fn run(options: &Options) -> Result<String> {
-    let head = format!("# {}, {} queries a line, best of {REPEATS}\n{HEAD}", processor(), options.queries);
+    let head = format!("# {}, {} queries a line, best of {REPEATS}\n{HEAD}", provenance(), options.queries);
     println!("{head}");
     let mut csv = head + "\n";
     for body in &options.bodies {
@@ -163,12 +164,6 @@ fn run(options: &Options) -> Result<String> {
         }
     }
     Ok(csv)
-}
-
-fn processor() -> String {
-    let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let name = info.lines().find_map(|line| line.strip_prefix("model name")?.split_once(": "));
-    name.map_or("unknown processor".into(), |(_, name)| name.into())
 }
 
 /// A body of about `n` vertices and radius 1, or √2 for the prisms and the curve.

@@ -139,7 +139,7 @@ static void shapes()
     stopped.progress = [&reports](double) { return ++reports > 1000; };
     CHECK(Shape::try_from_points(vertices.value, stopped).status == SWIFTPROX_ERROR_CANCELLED && reports == 1);
 
-    // Shares: a copy outlives its original, what was moved away is none.
+    // Shares: a copy outlives its original, what was moved away is empty.
     Shape first = box;
     Shape second = std::move(first);
     CHECK(!first && second);
@@ -176,6 +176,20 @@ static void pairs()
     std::array<swiftprox_manifold_point, 8> points;
     const auto manifold = swiftprox::try_manifold({box, here}, {box, into}, manifolds, points);
     CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
+    const swiftprox_half_space ground{{0, 0, 2}, -1};
+    const auto above = swiftprox::try_half_space_distance({box, Pose::at(0, 0, 0.25)}, ground);
+    CHECK(above && above.value.lower <= 0.25 && 0.25 <= above.value.upper && above.value.normal[2] == 1);
+    const auto feet = swiftprox::try_half_space_manifold({box, here}, ground, points);
+    CHECK(feet && feet.value.point_count == 4 && feet.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+    const auto top = box.try_find_face(0);
+    CHECK(top && box.try_face(top.value).value.corners.size() == 4 && box.try_face(top.value).value.labels[0] == 0);
+    CHECK(box.try_face(6).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    swiftprox::ShapeOptions round;
+    round.input = SWIFTPROX_INPUT_HULL;
+    round.swept_radius = 0.5;
+    const std::array<double, 3> centre{};
+    const auto ball = Shape::try_from_points(swiftprox::Range<const double>(centre), round);
+    CHECK(ball && swiftprox::try_half_space_distance({ball.value, here}, {{0, 0, 1}, -2}).value.distance == 1.5);
     CHECK(swiftprox::try_distance({box, Pose(std::array<double, 12>{})}, {box, here}, cache).status == SWIFTPROX_ERROR_POSE);
     CHECK(swiftprox::try_distance({Shape(), here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
 }
@@ -230,6 +244,65 @@ static void rays()
     CHECK(std::strlen(swiftprox::to_string(hit.value.outcome)) > 0);
 }
 
+/* Where points are relative to a cube, and its farthest corner. */
+static void points()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    const auto beside = swiftprox::try_locate_point({box, Pose::at(1, 0, 0)}, {3, 0, 0});
+    CHECK(beside && beside.value.location == SWIFTPROX_POINT_LOCATION_OUTSIDE && beside.value.normal[0] == 1);
+    const auto corner = swiftprox::try_support({box, Pose::at(1, 0, 0)}, {1, 1, 2});
+    CHECK(corner && corner.value.world[0] == 1.5 && corner.value.world[2] == 0.5);
+    CHECK(std::strlen(swiftprox::to_string(beside.value.location)) > 0);
+}
+
+/* Questions about sets, and many pairs at once. */
+static void sets()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    auto created = swiftprox::Scene::try_create();
+    swiftprox::Scene &scene = created.value;
+    const auto here = scene.try_add(box, {});
+    swiftprox::ObjectOptions options;
+    options.pose = Pose::at(5, 0, 0);
+    const auto there = scene.try_add(box, options);
+    auto scratch = swiftprox::SetScratch::try_create();
+    CHECK(here && there && scratch);
+    CHECK(swiftprox::try_prepare(scene));
+    const std::array<swiftprox_object_id, 1> ids{here.value};
+    swiftprox::ObjectSet set;
+    set.ids = ids;
+    const auto least = swiftprox::try_least_distance(scene, set, scratch.value);
+    CHECK(least && least.value.lower <= 4 && least.value.upper >= 4);
+    const std::array<Pose, 2> poses{Pose::at(0, 3, 0), Pose::at(4.5, 0, 0)};
+    const auto hit = swiftprox::try_first_hit(scene, set, poses, scratch.value, SWIFTPROX_POSE_ORDER_IN_ORDER);
+    CHECK(hit && hit.value.time == 1);
+    const swiftprox_ray along{{-3, 0, 0}, {1, 0, 0}, 10};
+    const auto met = swiftprox::try_cast_ray(scene, along, scratch.value, SWIFTPROX_RAY_HITS_ALL);
+    CHECK(met && swiftprox::hits(met.value).size() == 2 && swiftprox::hits(met.value).begin()->object == here.value);
+    const auto motion = swiftprox::try_motion_between(Pose{}, Pose::at(8, 0, 0), {0, 0, 0}, 1);
+    const std::array<swiftprox_motion, 1> motions{motion.value.motion};
+    const auto cast = swiftprox::try_cast(scene, set, motions, scratch.value);
+    CHECK(cast && cast.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.value.pair.object2 == there.value);
+    const auto edges = swiftprox::try_cast_batch(scene, set, motions, 1, scratch.value);
+    CHECK(edges && edges.value.size() == 1 && edges.value[0].t_hi == cast.value.t_hi);
+    const std::array<Pose, 1> few{Pose{}};
+    const std::array<swiftprox_object_id, 2> both{here.value, there.value};
+    swiftprox::ObjectSet uneven;
+    uneven.ids = both;
+    uneven.poses = few;
+    CHECK(swiftprox::try_least_distance(scene, uneven, scratch.value).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    std::array<swiftprox::PairCache, 2> caches;
+    const Pose origin, beside = Pose::at(3, 0, 0);
+    const std::array<swiftprox_pair_question, 2> questions{swiftprox::question({box, origin}, {box, beside}, caches[0]),
+                                                           swiftprox::question({box, origin}, {box, origin}, caches[1])};
+    std::vector<swiftprox_pair_answer> answers;
+    CHECK(swiftprox::try_batch(SWIFTPROX_QUERY_KIND_DISTANCE, questions, answers, {}, &scene));
+    CHECK(answers.size() == 2 && answers[0].lower <= 2 && answers[0].upper >= 2);
+    CHECK(answers[1].outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+}
+
 static void scenes(const std::string &folder)
 {
     const auto made = cube();
@@ -252,6 +325,8 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_set_poses(moved, std::vector<Pose>(1)).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(scene.try_piece_pose(c.value, 1).value.rows() == Pose::at(10, 5, 0).rows());
     CHECK(scene.try_object_info(a.value).value.user_data == 7);
+    const auto box_of_a = scene.try_object_box(a.value);
+    CHECK(box_of_a && box_of_a.value.upper[0] - box_of_a.value.lower[0] >= 1);
     CHECK(scene.try_object_ids().value.size() == 3);
     CHECK(scene.try_piece(c.value, 1).value.get() == made.value.get());
 
@@ -371,7 +446,9 @@ int main(int argc, char **argv)
     pairs();
     motions();
     rays();
+    points();
     scenes(folder);
+    sets();
     mesh_readers(folder);
 #if SWIFTPROX_HAS_EXCEPTIONS
     exceptions();

@@ -7,7 +7,7 @@ PROGRAM is instructions.c, which calls `measured` for each case it prints. A cas
 instructions.csv by more than 5 %, also where it is less: then the better number is to be kept. --bless, or BLESS=1 in the
 environment, writes the numbers found instead.
 
-Counts do not depend on the machine, but for which vector units it has: the numbers are of AVX2, the most that valgrind knows.
+Counts depend on the machine's vector units alone: the numbers are of AVX2, the most that valgrind knows.
 Without it, and on other processors than x86-64, nothing is counted.
 """
 import csv

@@ -281,6 +281,13 @@ typedef struct swiftprox_shape_options {
    * only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
    */
   double face_noise;
+  /**
+   * The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
+   * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds and scenes are of the
+   * swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
+   * tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   */
+  double swept_radius;
 } swiftprox_shape_options;
 
 /**
@@ -511,6 +518,11 @@ typedef struct swiftprox_shape_info {
    * Of a body without interior the mass is spread over its area or length.
    */
   double inertia[9];
+  /**
+   * The radius of the ball that is swept over the body (swiftprox_shape_options), in the local frame; all other members are of
+   * the body without it.
+   */
+  double swept_radius;
 } swiftprox_shape_info;
 
 /**
@@ -555,6 +567,50 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *shape,
                                                 uint32_t *corners,
                                                 size_t capacity);
+
+/** A face of a shape's hull: all coplanar triangles, a convex polygon. */
+typedef struct swiftprox_face {
+  /** Outward, a unit vector up to rounding, in the local frame. */
+  double normal[3];
+  /** The product of the normal with a corner, rounded: normal * x = offset in the face's plane. */
+  double offset;
+  /** How many corners the face has. */
+  size_t corner_count;
+  /** How many of the caller's polygons are merged in it, 1 at least. */
+  size_t label_count;
+} swiftprox_face;
+
+/**
+ * Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
+ * counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
+ * are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
+ * room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
+ *
+ * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
+                                          size_t index,
+                                          struct swiftprox_face *face,
+                                          uint32_t *corners,
+                                          size_t corner_capacity,
+                                          uint32_t *labels,
+                                          size_t label_capacity);
+
+/**
+ * The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
+ * of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
+                                           uint32_t label,
+                                           size_t *index);
 
 /**
  * Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
@@ -728,7 +784,10 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_feature feature2;
   /** Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull. */
   uint32_t proof[4][2];
-  /** How many entries of `proof` are used: 1 to 4 when intersecting, except for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES, else 0. */
+  /**
+   * How many entries of `proof` are used: 1 to 4 when intersecting, except for SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES and
+   * where objects intersect by their swept radii alone, else 0.
+   */
   uint32_t proof_count;
   /** What the query did. */
   struct swiftprox_statistics statistics;
@@ -1228,6 +1287,56 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
 /** @} */
 
 /**
+ * @defgroup swiftprox_half_space Half-spaces
+ * @{
+ */
+
+/** The points x of the world with `normal` * x <= `offset`. */
+typedef struct swiftprox_half_space {
+  /** Out of the half-space; of any length but 0. */
+  double normal[3];
+  /** Where its plane is: the product of the normal with any of its points. */
+  double offset;
+} swiftprox_half_space;
+
+/**
+ * The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
+ * interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
+ * half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
+ *
+ * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_half_space_distance(const struct swiftprox_shape *shape,
+                                                    const double *pose,
+                                                    const struct swiftprox_half_space *half_space,
+                                                    struct swiftprox_signed_distance *answer);
+
+/**
+ * Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
+ * at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
+ * swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
+ *
+ * Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
+ * they were.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_half_space_manifold(const struct swiftprox_shape *shape,
+                                                    const double *pose,
+                                                    const struct swiftprox_half_space *half_space,
+                                                    const struct swiftprox_manifold_config *config,
+                                                    struct swiftprox_manifold_point *points,
+                                                    size_t capacity,
+                                                    struct swiftprox_manifold *manifold);
+
+/** @} */
+
+/**
  * @defgroup swiftprox_motion Objects that move
  * @{
  */
@@ -1543,11 +1652,101 @@ swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
                                           struct swiftprox_ray_answer *answer);
 
 /**
- * How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ * How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
  *
  * Experimental.
  */
 const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_point Points and support vertices
+ * @{
+ */
+
+/** Where a point is relative to a closed body. */
+typedef enum swiftprox_point_location SWIFTPROX_INT32 {
+  /** Nothing is said yet: the value of a fresh answer. */
+  SWIFTPROX_POINT_LOCATION_NONE = 0,
+  /** In the body's interior. A body without interior has no such point. */
+  SWIFTPROX_POINT_LOCATION_INSIDE = 1,
+  /** On its surface; of a body without interior any point of it. */
+  SWIFTPROX_POINT_LOCATION_ON = 2,
+  /** Not in the body. */
+  SWIFTPROX_POINT_LOCATION_OUTSIDE = 3
+} swiftprox_point_location;
+
+/** Where a point is relative to a body, and what of the surface is nearest. Numbers that it does not say are NaN. */
+typedef struct swiftprox_point_answer {
+  /** Certain, whatever the magnitudes. */
+  swiftprox_point_location location;
+  /** What of the body's surface holds the nearest point of it, in the caller's numbering. */
+  struct swiftprox_feature feature;
+  /** The best estimate of how far the point is from the surface, `lower <= distance <= upper`: negative inside, 0 on it. */
+  double distance;
+  /** Lower end of the rigorous interval; above 0 only outside. */
+  double lower;
+  /** Upper end of the rigorous interval; at most 0 unless outside. */
+  double upper;
+  /** The nearest point of the surface, in the body's local frame. */
+  double local[3];
+  /** The same in the world. */
+  double world[3];
+  /** Unit normal in the world: moving the point along it makes the distance grow as much. */
+  double normal[3];
+} swiftprox_point_answer;
+
+/**
+ * Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
+ * that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+ *
+ * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
+ * not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_locate_point(const struct swiftprox_shape *shape,
+                                              const double *pose,
+                                              const double *point,
+                                              struct swiftprox_point_answer *answer);
+
+/** A vertex farthest along a direction. Numbers that it does not say are NaN. */
+typedef struct swiftprox_support_vertex {
+  /** Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any. */
+  uint32_t vertex;
+  /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
+  uint32_t exact;
+  /** Where it is, in the body's local frame. */
+  double local[3];
+  /** Where it is in the world, rounded. */
+  double world[3];
+  /** `height[0]` <= direction * x <= `height[1]` for its exact place x in the world: the largest over the body. */
+  double height[2];
+} swiftprox_support_vertex;
+
+/**
+ * The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
+ * farther, whatever the magnitudes.
+ *
+ * On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_support(const struct swiftprox_shape *shape,
+                                         const double *pose,
+                                         const double *direction,
+                                         struct swiftprox_support_vertex *answer);
+
+/**
+ * A location, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ *
+ * Experimental.
+ */
+const char *swiftprox_library_point_location_string(swiftprox_point_location location);
 
 /** @} */
 
@@ -1955,6 +2154,22 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *scene,
                                                  struct swiftprox_object_id id,
                                                  struct swiftprox_object_info *info);
+
+/**
+ * A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
+ * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
+ * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+ *
+ * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *scene,
+                                                struct swiftprox_object_id id,
+                                                double *lower_corner,
+                                                double *upper_corner);
 
 /**
  * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
@@ -2533,6 +2748,292 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_set Questions about sets of objects, which threads may ask one scene at once
+ * @{
+ */
+
+/** Objects that a question is about. */
+typedef struct swiftprox_object_set {
+  /** Which, in any order. */
+  const struct swiftprox_object_id *ids;
+  /** How many. */
+  size_t count;
+  /** 12 doubles for each object: where it is for this question. Null: where the scene has it. */
+  const double *poses;
+  /** Not 0: pairs of two objects of the set are asked about, too. */
+  int32_t among;
+} swiftprox_object_set;
+
+/**
+ * Room to work in for questions about sets of objects, of any scene, for one thread at a time. It keeps what pairs remember, which
+ * changes how fast an answer comes and which of several nearest points it gives, never a verdict.
+ */
+typedef struct swiftprox_scratch swiftprox_scratch;
+
+/**
+ * Makes room to work in for questions about sets of objects; the caller owns it and gives it back with
+ * swiftprox_scratch_destroy. One thread at a time uses it, for any scenes. It keeps what pairs remember, which changes how fast
+ * an answer comes and which of several nearest points it gives, never a verdict: where bits matter, take a new one. On failure
+ * `*scratch` is null.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scratch_create(struct swiftprox_scratch **scratch);
+
+/**
+ * Gives back what swiftprox_scratch_create made, and what it owns. Null is ignored.
+ *
+ * Experimental.
+ */
+void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
+
+/**
+ * Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
+ * phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
+ * all pieces if many have.
+ *
+ * SWIFTPROX_ERROR_MEMORY: questions take longer. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
+
+/** The least distance between two sets of objects. Numbers that it does not say are NaN. */
+typedef struct swiftprox_least_distance {
+  /** The least distance is at least this, of sets that are farther apart than the cut-off that ... */
+  double lower;
+  /** ... and at most this: infinite of sets that are farther apart than the cut-off, and where no pair is tested. */
+  double upper;
+  /**
+   * A pair with that distance, object 1 of the first set; with null ids if there is none within the cut-off. Of several pairs as
+   * near, as far as doubles tell, it is any.
+   */
+  struct swiftprox_pair_result nearest;
+} swiftprox_least_distance;
+
+/**
+ * The least distance between two sets of objects, or between a set and all other objects (against is null), with its interval and
+ * a pair that has it. Of sets farther apart than cut_off (infinity: none are) no more than that is said.
+ *
+ * Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless one of
+ * the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
+ * is made for the call.
+ *
+ * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_BUSY: the
+ * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_least_distance(const struct swiftprox_scene *scene,
+                                                const struct swiftprox_object_set *set,
+                                                const struct swiftprox_object_set *against,
+                                                double cut_off,
+                                                struct swiftprox_scratch *scratch,
+                                                struct swiftprox_least_distance *answer);
+
+/** In which order times are tried. */
+typedef enum swiftprox_pose_order SWIFTPROX_INT32 {
+  /** The first, the middle, the quarters, and so on: what is found is any of those that hit, and found soonest. */
+  SWIFTPROX_POSE_ORDER_BISECTION = 0,
+  /** One after the other: what is found is the first that hits. */
+  SWIFTPROX_POSE_ORDER_IN_ORDER = 1
+} swiftprox_pose_order;
+
+/** At which of many times a set of objects meets something. */
+typedef struct swiftprox_first_hit {
+  /** The number of the time that was found to hit; how many times there are if none does. */
+  size_t time;
+  /** How many times were tried. */
+  size_t tried;
+  /**
+   * A pair that is no farther apart than the margin, object 1 of the set: of an answer the verdict and its proof, or an interval
+   * of the distance. Null ids if nothing hits.
+   */
+  struct swiftprox_pair_result pair;
+} swiftprox_first_hit;
+
+/**
+ * At which of many times a set of objects is no farther from something than margin: all other objects, and if set->among is not 0
+ * one another. poses are 12 doubles for each object at the first time, then at the second, and so on; set->poses is not looked at,
+ * nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed. Threads and scratch as of
+ * swiftprox_scene_least_distance.
+ *
+ * On failure nothing is said: time and tried are 0, the pair's ids null. Errors as of swiftprox_scene_least_distance;
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an empty set, an unknown order, and a margin that is negative, infinite or NaN.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_first_hit(const struct swiftprox_scene *scene,
+                                           const struct swiftprox_object_set *set,
+                                           const double *poses,
+                                           size_t time_count,
+                                           swiftprox_pose_order order,
+                                           double margin,
+                                           struct swiftprox_scratch *scratch,
+                                           struct swiftprox_first_hit *answer);
+
+/** What of a ray is asked. */
+typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
+  /** The first that it meets. */
+  SWIFTPROX_RAY_HITS_FIRST = 0,
+  /** All, in order. */
+  SWIFTPROX_RAY_HITS_ALL = 1,
+  /** Any, found soonest. */
+  SWIFTPROX_RAY_HITS_ANY = 2
+} swiftprox_ray_hits;
+
+/** A convex piece that a ray meets. */
+typedef struct swiftprox_scene_ray_hit {
+  /** Whose piece it is. */
+  struct swiftprox_object_id object;
+  /** The caller's own number of the object. */
+  uint64_t user_data;
+  /** Which piece. */
+  uint32_t piece;
+  /** Its place among all pieces of the scene, in order of creation, while none is removed. */
+  uint32_t row;
+  /** Where the ray meets it. */
+  struct swiftprox_ray_answer answer;
+} swiftprox_scene_ray_hit;
+
+/** What a ray met in a scene. */
+typedef struct swiftprox_scene_ray_answer {
+  /** In order of where the ray comes in. Owned by the scratch and valid until its next use. Null when count is 0. */
+  const struct swiftprox_scene_ray_hit *hits;
+  /** How many. */
+  size_t count;
+} swiftprox_scene_ray_answer;
+
+/**
+ * What a ray meets of the objects whose groups have a bit of mask (UINT32_MAX: all in some group): the first convex piece, all in
+ * order, or any, found soonest. Each as swiftprox_shape_cast_ray has it; pieces that are met at one place, as far as doubles tell,
+ * are in order of creation. Threads as of swiftprox_scene_least_distance; the scratch owns the hits and must not be null.
+ *
+ * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
+ * unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+ * SWIFTPROX_ERROR_POISONED.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_cast_ray(const struct swiftprox_scene *scene,
+                                          const struct swiftprox_ray *ray,
+                                          swiftprox_ray_hits hits,
+                                          uint32_t mask,
+                                          struct swiftprox_scratch *scratch,
+                                          struct swiftprox_scene_ray_answer *answer);
+
+/** How a cast of moving objects through a scene came out. Numbers that it does not say are NaN. */
+typedef struct swiftprox_scene_cast_answer {
+  /** Of the pair that ends it; free if all pairs are. */
+  swiftprox_cast_outcome outcome;
+  /** Certified queries made. */
+  uint32_t queries;
+  /** All pairs are farther apart than the margin from the beginning up to here: the last valid time. */
+  double t_lo;
+  /** Of a hit a time at which its pair is no farther apart than the margin, the earliest that is known. */
+  double t_hi;
+  /** Of a hit the distance of its pair at `t_hi` is at most this, of a near miss that at its own `t_lo`. */
+  double upper;
+  /** The pair that ends it, object 1 moving, with what swiftprox_cast_answer_contact says; null ids if all are free. */
+  struct swiftprox_pair_result pair;
+} swiftprox_scene_cast_answer;
+
+/**
+ * Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
+ * times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own. Pairs
+ * of two of them are asked about if set->among is not 0; set->poses is not looked at. Pairs are those that queries test; both may
+ * be fixed. config->step_budget is that of each pair; config may be null for the defaults. Threads and scratch as of
+ * swiftprox_scene_least_distance.
+ *
+ * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
+ * neither 1 nor set->count, an object's pieces have poses of their own, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an
+ * id names no object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
+ * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_POISONED.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_cast(const struct swiftprox_scene *scene,
+                                      const struct swiftprox_object_set *set,
+                                      const struct swiftprox_motion *motions,
+                                      size_t motion_count,
+                                      const struct swiftprox_cast_config *config,
+                                      struct swiftprox_scratch *scratch,
+                                      struct swiftprox_scene_cast_answer *answer);
+
+/**
+ * swiftprox_scene_cast of many edges: answers has room for edge_count. The motions of the edges stand one behind the other: one
+ * for each edge, or one for each object of the set at each edge. An edge is valid up to its answer's t_lo.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor that times set->count. Others as of
+ * swiftprox_scene_cast; the message names the edge, and that and all edges behind it have answers that are reset.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
+                                            const struct swiftprox_object_set *set,
+                                            const struct swiftprox_motion *motions,
+                                            size_t motion_count,
+                                            const struct swiftprox_cast_config *config,
+                                            struct swiftprox_scratch *scratch,
+                                            struct swiftprox_scene_cast_answer *answers,
+                                            size_t edge_count);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_batch Many pairs at once
+ * @{
+ */
+
+/** A pair to be asked. */
+typedef struct swiftprox_pair_question {
+  /** Shape 1. */
+  const struct swiftprox_shape *shape1;
+  /** Where it is, 12 doubles. */
+  const double *pose1;
+  /** Shape 2. */
+  const struct swiftprox_shape *shape2;
+  /** Where it is, 12 doubles. */
+  const double *pose2;
+  /** What this pair alone remembers; no two pairs share one. */
+  struct swiftprox_pair_cache *cache;
+} swiftprox_pair_question;
+
+/**
+ * Asks each of `count` pairs what `kind` names, into the answer at the same place. Answers and caches are bit for bit those of
+ * swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate; the memory of pairs
+ * that follow is asked for ahead. The workers of `scene` share 2,048 pairs or more; it may be null, and then the caller's thread
+ * does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
+ *
+ * A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
+ * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of
+ * range. SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is
+ * answered. SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_BUG: all answers and caches are reset.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_batch(swiftprox_query_kind kind,
+                                      const struct swiftprox_pair_question *pairs,
+                                      size_t count,
+                                      const struct swiftprox_pair_config *config,
+                                      struct swiftprox_scene *scene,
+                                      struct swiftprox_pair_answer *answers);
 
 /** @} */
 

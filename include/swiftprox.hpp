@@ -15,12 +15,15 @@
 #ifndef SWIFTPROX_HPP
 #define SWIFTPROX_HPP
 
+#include "swiftprox/batch.hpp"
 #include "swiftprox/library.hpp"
 #include "swiftprox/motion.hpp"
 #include "swiftprox/ray.hpp"
 #include "swiftprox/pair.hpp"
+#include "swiftprox/point.hpp"
 #include "swiftprox/pose.hpp"
 #include "swiftprox/scene.hpp"
+#include "swiftprox/sets.hpp"
 #include "swiftprox/shape.hpp"
 
 #endif

@@ -48,7 +48,7 @@ c++ legacy.cpp $(pkg-config --cflags --libs swiftprox-legacy) -o legacy
 cmake -S consumer -B consumer/build -DLANGUAGE=C -DHELLO=/tmp/packages/hello.c -DVERSION=0.1 -DNEXT_VERSION=0.2 -DSTATIC_LIBC=ON >/dev/null
 cmake --build consumer/build >/dev/null
 ctest --test-dir consumer/build --output-on-failure
-for tool in swiftprox-query swiftprox-replay; do $tool --version; done
+for tool in swiftprox-query swiftprox-replay swiftprox-tune; do $tool --version; done
 apt-get remove -y -qq -o Dpkg::Use-Pty=0 libswiftprox0.1 >/dev/null
 ! swiftprox-query --version 2>/dev/null
 '

@@ -11,6 +11,7 @@ if LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --inclu
 fi
 python3 benches/figures.py --check benches/results/figures-*.csv
 python3 benches/plot.py --check
+python3 benches/bodies.py --check
 python3 benches/sentences.py
 python3 benches/stability/report.py benches/results/stability.csv benches/results/stability-cost.csv docs/charts/failures.svg \
     docs/stability.md --check

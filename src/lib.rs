@@ -43,6 +43,7 @@ pub mod shape;
 pub mod pair;
 pub mod motion;
 pub mod ray;
+pub mod point;
 pub mod scene;
 #[doc(hidden)]
 pub mod ffi;

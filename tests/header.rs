@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 16] = [
+const SOURCES: [&str; 23] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -17,14 +17,21 @@ const SOURCES: [&str; 16] = [
     "src/pair/depth/answer.rs",
     "src/pair/signed_distance.rs",
     "src/pair/manifold/answer.rs",
+    "src/pair/half_space.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",
     "src/ray/query.rs",
     "src/ray/answer.rs",
+    "src/point/answer.rs",
     "src/scene/world/object.rs",
     "src/scene/search/query.rs",
     "src/scene/search/statistics.rs",
     "src/scene/search/events.rs",
+    "src/scene/sets/nearest.rs",
+    "src/scene/sets/first_hit.rs",
+    "src/scene/sets/rays.rs",
+    "src/scene/sets/casts.rs",
+    "src/scene/sets/scratch.rs",
 ];
 
 /// What stands before the declarations of swiftprox.h.

@@ -10,7 +10,7 @@
 
 int player_failed(void)
 {
-    fputs("swiftprox-replay: ", stderr);
+    fprintf(stderr, "%s: ", program_name());
     program_print_library_message();
     return FAILED;
 }
@@ -60,6 +60,7 @@ static int load_shapes(struct player *player)
     swiftprox_shape_options options;
     swiftprox_shape_options_init(&options);
     options.input = player->options->input;
+    options.tuning = player->options->shape_tuning;
     struct progress progress = progress_start();
     int result = GOOD;
     for (size_t i = 0; i < player->file.shape_count && result == GOOD; i++) {
@@ -82,6 +83,7 @@ int player_open(struct player *player, const struct player_options *options)
     player->query.distance_tolerance = options->tolerance;
     player->query.absolute_error = options->error;
     player->query.error_budget = options->budget;
+    player->query.tuning = options->tuning;
     player->query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
     if (player->is_recording) {
         return GOOD;
@@ -92,7 +94,7 @@ int player_open(struct player *player, const struct player_options *options)
     player->shapes = calloc(player->file.shape_count + 1, sizeof *player->shapes);
     player->ids = calloc(player->file.object_count + 1, sizeof *player->ids);
     if (!player->shapes || !player->ids) {
-        fputs("swiftprox-replay: no memory for so many objects\n", stderr);
+        fprintf(stderr, "%s: no memory for so many objects\n", program_name());
         return FAILED;
     }
     return load_shapes(player);

@@ -7,6 +7,7 @@
 #include <stdint.h>
 
 #include <swiftprox.h>
+#include <swiftprox_tuning.h>
 
 #include "scene_file.h"
 
@@ -21,6 +22,8 @@ struct player_options {
     double budget;      /* of all answers to a query together */
     swiftprox_input input;
     uint32_t workers;
+    const swiftprox_pair_tuning *tuning;        /* null: the automatic choice */
+    const swiftprox_shape_tuning *shape_tuning; /* of text alone; null: the automatic choice */
     bool verify; /* an answer that is not the recorded one is a failure */
 };
 

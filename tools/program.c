@@ -9,6 +9,14 @@
 
 #include <swiftprox.h>
 
+/* The program that runs. */
+static const char *name_of_program = "";
+
+const char *program_name(void)
+{
+    return name_of_program;
+}
+
 /* ---- messages ---- */
 
 int program_refuse(const struct program *program, const char *format, ...)
@@ -210,6 +218,7 @@ static bool take_operand(struct command_line *line, const char *word)
 
 bool command_line_read(struct command_line *line, int argc, char **argv, int *status)
 {
+    name_of_program = line->program->name;
     if (tells(line->program, argc, argv)) {
         *status = program_end(line->program, GOOD);
         return false;

@@ -56,6 +56,9 @@ struct command_line {
  * printed. */
 bool command_line_read(struct command_line *line, int argc, char **argv, int *status);
 
+/* The name of the program whose command line was read. */
+const char *program_name(void);
+
 /* Whether the option of this name was given. */
 bool command_line_has(const struct command_line *line, const char *name);
 

@@ -15,15 +15,17 @@ MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example
 BOX = os.path.join(MODELS, "box.off")
 
 # Operands that are enough, and options with a value that each takes.
-OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "demo": (BOX, BOX), "tower": (MODELS,),
+OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "swiftprox-tune": ("SCENE",),
+            "demo": (BOX, BOX), "tower": (MODELS,),
             "scene": (MODELS,)}
 OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
            "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
+           "swiftprox-tune": ("--query", "--tolerance", "--error", "--input", "--workers", "--passes"),
            "demo": ("--orbit", "--svg"), "tower": ("--svg", "--record"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
            "--orbit": ("-1", "0", "x", "1e6"),
-           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many")}
+           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x")}
 
 
 def run(name, *arguments):
@@ -78,7 +80,8 @@ class CommandLines(unittest.TestCase):
 
     def test_operands_that_are_missing(self):
         self.refused("swiftprox-query", "two meshes and a pose file are needed", BOX, BOX)
-        self.refused("swiftprox-replay", "a scene is needed")
+        for player in ("swiftprox-replay", "swiftprox-tune"):
+            self.refused(player, "a scene is needed")
 
     def test_values_behind_an_equals_sign_and_operands_behind_dashes(self):
         poses = self.file("--poses", "1 0 0 0 0 1 0 0 0 0 1 0 1 0 0 2 0 1 0 0 0 0 1 0\n")

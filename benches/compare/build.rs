@@ -9,21 +9,21 @@ fn main() {
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
     // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    let fcl = ["src/fcl.cpp", "src/crowd/fcl.cpp", "src/depth/fcl.cpp"];
+    let fcl = ["src/crowd/fcl.cpp", "src/peers/fcl.cpp"];
     Shim { peer: "fcl", sources: &fcl, flags: pkg_config("fcl", "libfcl-dev") }
         .link(cc::Build::new().cpp(true).std("c++14"));
     let ccd = pkg_config("ccd", "libccd-dev");
-    Shim { peer: "ccd", sources: &["src/ccd.c"], flags: ccd }.link(cc::Build::new().std("c99"));
+    Shim { peer: "ccd", sources: &["src/peers/ccd.c"], flags: ccd }.link(cc::Build::new().std("c99"));
     // Of the header alone, which is of any precision.
     let bullet = pkg_config("bullet", "libbullet-dev").map(|flags| Flags { link: Vec::new(), ..flags });
-    Shim { peer: "bullet", sources: &["src/depth/bullet.cpp"], flags: bullet }
+    Shim { peer: "bullet", sources: &["src/peers/bullet.cpp"], flags: bullet }
         .link(cc::Build::new().cpp(true).std("c++14"));
     let packages = python_packages();
     let coal = packages.as_deref().and_then(coal);
-    Shim { peer: "coal", sources: &["src/depth/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
+    Shim { peer: "coal", sources: &["src/peers/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
     let mujoco = packages.as_deref().and_then(mujoco);
-    Shim { peer: "mujoco", sources: &["src/depth/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
-    for header in ["src/hull.h", "src/depth/peer.h"] {
+    Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
+    for header in ["src/peers/hull.h", "src/peers/peer.h"] {
         println!("cargo:rerun-if-changed={header}");
     }
 }

@@ -14,7 +14,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, ".."))
 import charts  # noqa: E402
 from charts import Cell, Cells, Line  # noqa: E402
-from rows import in_order, read  # noqa: E402
+from rows import in_order, machine, read  # noqa: E402
 from stability import COUNTS, FAILURES, TIERS  # noqa: E402
 
 COLUMNS = (  # method of the chart, two lines of head; a star: verdicts only
@@ -74,7 +74,7 @@ def chart(head, rows):
         sums = [total([found[family, method] for family in here]) for method, _, _ in columns]
         lines.append(Line(name, [cell(column) for column in sums], str(sums[0]["poses"]), gap_before=name == "all", bold=name == "all"))
     legend = [(charts.GOOD, "none")] + [(colour, f"up to {100 * share:g} %") for share, colour in SHARES]
-    return Cells("Failures on hard cases", head[0].split(",")[0],
+    return Cells("Failures on hard cases", machine(head[0]),
                  "how many poses: wrong verdict, distance off by more than 1e-6 of the size (* says none), NaN, exception, crash or hang; "
                  "colour: their share", [column[1:] for column in columns], lines,
                  legend + [(charts.REFUSED, "no shape made; −n: of n poses")], 96, "poses")

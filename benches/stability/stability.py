@@ -268,7 +268,9 @@ def head(rows, methods):
     """What was run where, as comments."""
     with open("/proc/cpuinfo") as info:
         cpu = next((line.split(":")[1].strip() for line in info if line.startswith("model name")), "unknown CPU")
-    lines = ["# %s, %s, %s" % (datetime.date.today(), cpu, platform.platform())]
+    commit = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=7", "--exclude=*"], capture_output=True, text=True,
+                            cwd=os.path.dirname(os.path.abspath(__file__))).stdout.strip() or "unknown"
+    lines = ["# %s, commit %s, %s, %s" % (cpu, commit, datetime.date.today(), platform.platform())]
     for method in methods:
         said = (row.settings for (_, name), row in rows.items() if name == method.name and row.settings)
         lines.append("# %s: %s" % (method.name, next(said, "no settings said")))

@@ -16,6 +16,7 @@
 #include "SWIFT_common.h"
 #include "SWIFT_config.h"
 #include "SWIFT_fileio.h"
+#include "swift_legacy/box_pairs.h"
 #include "swift_legacy/defaults.h"
 #include "swift_legacy/part_builder.h"
 #include "swift_legacy/results.h"
@@ -228,6 +229,8 @@ private:
     swiftprox_scene_query query_; /* initialised once */
     swift_legacy::Objects objects_;
     swift_legacy::Results results_;
+    swift_legacy::BoxPairs box_pairs_;
+    bool gives_pairs_; /* the scene tests the box_pairs_, and no others */
     bool has_broad_phase_;
     swift_legacy::Convexity convexity_;
 
@@ -240,8 +243,10 @@ private:
     bool has_pair(int id1, int id2, const char* method) const;
     void check(swiftprox_status status, const char* method) const;
     bool ask(const swift_legacy::Question& question, int& num_pairs, int** oids);
+    void give_overlapping_boxes();
+    void take_near_pairs();
     void keep_overlapping_boxes();
-    const swift_legacy::Part& placed_part(uint64_t id, uint32_t piece);
+    const swift_legacy::Part& part(uint64_t id, uint32_t piece) const;
     void write_contacts(swift_legacy::IntersectingFeatures intersecting, SWIFT_Real** distances, SWIFT_Real** nearest_pts,
                         SWIFT_Real** normals, int** feature_types, int** feature_ids);
 

@@ -84,6 +84,7 @@ struct ShapeOptions {
     double scale = 1;
     double convexity_tolerance = -1;
     double face_noise = -1;
+    double swept_radius = 0;
     Progress progress{};
     ShapeTuning tuning{};
 
@@ -102,6 +103,7 @@ struct ShapeOptions {
         c.scale = scale;
         c.convexity_tolerance = convexity_tolerance;
         c.face_noise = face_noise;
+        c.swept_radius = swept_radius;
         c.progress = detail::callback_of(progress);
         c.progress_user = detail::user_of(progress);
         tuning_in_c = tuning.to_c();

@@ -101,6 +101,10 @@ inline const char *to_string(swiftprox_ray_outcome outcome) noexcept
 {
     return swiftprox_library_ray_outcome_string(outcome);
 }
+inline const char *to_string(swiftprox_point_location location) noexcept
+{
+    return swiftprox_library_point_location_string(location);
+}
 inline const char *to_string(swiftprox_depth_ending ending) noexcept
 {
     return swiftprox_library_depth_ending_string(ending);

@@ -89,6 +89,23 @@ inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache
                                             points.size(), &result.value);
     return result;
 }
+inline Result<swiftprox_signed_distance> try_half_space_distance(Placed body, const swiftprox_half_space &half_space) noexcept
+{
+    Result<swiftprox_signed_distance> result;
+    result.status = swiftprox_pair_half_space_distance(body.shape.get(), body.pose.data(), &half_space, &result.value);
+    return result;
+}
+/** Writes the points into `points`, as many as there is room for. */
+inline Result<swiftprox_manifold> try_half_space_manifold(Placed body, const swiftprox_half_space &half_space,
+                                                          Range<swiftprox_manifold_point> points,
+                                                          const ManifoldConfig &config = {}) noexcept
+{
+    const swiftprox_manifold_config c = config.to_c();
+    Result<swiftprox_manifold> result;
+    result.status = swiftprox_pair_half_space_manifold(body.shape.get(), body.pose.data(), &half_space, &c, points.data(),
+                                                       points.size(), &result.value);
+    return result;
+}
 /** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
 inline Result<void> try_verify(Placed a, Placed b, const swiftprox_pair_answer &answer) noexcept
 {
@@ -134,6 +151,15 @@ inline swiftprox_manifold manifold(Placed a, Placed b, ManifoldCache &cache, Ran
                                    const ManifoldConfig &config = {})
 {
     return take(try_manifold(a, b, cache, points, config));
+}
+inline swiftprox_signed_distance half_space_distance(Placed body, const swiftprox_half_space &half_space)
+{
+    return take(try_half_space_distance(body, half_space));
+}
+inline swiftprox_manifold half_space_manifold(Placed body, const swiftprox_half_space &half_space,
+                                              Range<swiftprox_manifold_point> points, const ManifoldConfig &config = {})
+{
+    return take(try_half_space_manifold(body, half_space, points, config));
 }
 inline void verify(Placed a, Placed b, const swiftprox_pair_answer &answer)
 {

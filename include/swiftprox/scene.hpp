@@ -75,6 +75,12 @@ inline Range<const swiftprox_object_pair> ended(const swiftprox_scene_events &ev
     return {events.ended, events.ended_count};
 }
 
+/** Corners where all coordinates are least, and greatest. */
+struct Box {
+    std::array<double, 3> lower{};
+    std::array<double, 3> upper{};
+};
+
 /** The calls of a scene that somebody else owns. */
 class SceneView
 {
@@ -210,6 +216,13 @@ class SceneView
             info->struct_size = sizeof *info;
             return swiftprox_scene_get_object_info(scene_, id, info);
         });
+    }
+    /** A box along the world's axes that contains the object. */
+    Result<Box> try_object_box(swiftprox_object_id id) const
+    {
+        Result<Box> result;
+        result.status = swiftprox_scene_get_object_box(scene_, id, result.value.lower.data(), result.value.upper.data());
+        return result;
     }
     /** A share of its own. */
     Result<Shape> try_piece(swiftprox_object_id id, std::size_t piece = 0) const
@@ -372,6 +385,7 @@ class SceneView
     void set_fixed(swiftprox_object_id id, bool fixed) { take(try_set_fixed(id, fixed)); }
     void set_user_data(swiftprox_object_id id, std::uint64_t user_data) { take(try_set_user_data(id, user_data)); }
     swiftprox_object_info object_info(swiftprox_object_id id) const { return take(try_object_info(id)); }
+    Box object_box(swiftprox_object_id id) const { return take(try_object_box(id)); }
     Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
     swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
     swiftprox_scene_answer query_tolerance(const SceneQuery &query = {}) { return take(try_query_tolerance(query)); }

@@ -14,6 +14,15 @@
 namespace swiftprox
 {
 
+/** A face of a shape's hull. */
+struct Face {
+    swiftprox_face plane;
+    /** Places in vertices(), counter-clockwise seen from outside. */
+    std::vector<std::uint32_t> corners;
+    /** The caller's polygons that are merged in it. */
+    std::vector<std::uint32_t> labels;
+};
+
 /** A share of a shape, or none. */
 class Shape
 {
@@ -129,6 +138,27 @@ class Shape
             return swiftprox_shape_copy_triangles(shape_, corners, count);
         });
     }
+    /** A face by its place, from 0 to below info().face_count. */
+    Result<Face> try_face(std::size_t index) const
+    {
+        Result<Face> result;
+        swiftprox_face &plane = result.value.plane;
+        result.status = swiftprox_shape_get_face(shape_, index, &plane, nullptr, 0, nullptr, 0);
+        if (result.status == SWIFTPROX_OK) {
+            result.value.corners.resize(plane.corner_count);
+            result.value.labels.resize(plane.label_count);
+            result.status = swiftprox_shape_get_face(shape_, index, &plane, result.value.corners.data(), plane.corner_count,
+                                                     result.value.labels.data(), plane.label_count);
+        }
+        return result;
+    }
+    /** The place of the face that an answer calls `label`. */
+    Result<std::size_t> try_find_face(std::uint32_t label) const
+    {
+        Result<std::size_t> result;
+        result.status = swiftprox_shape_find_face(shape_, label, &result.value);
+        return result;
+    }
     Result<std::vector<double>> try_level_vertices(std::size_t level) const
     {
         const Result<swiftprox_level_info> info = try_level_info(level);
@@ -171,6 +201,8 @@ class Shape
     swiftprox_level_info level_info(std::size_t level) const { return take(try_level_info(level)); }
     std::vector<double> vertices(std::vector<std::uint32_t> *labels = nullptr) const { return take(try_vertices(labels)); }
     std::vector<std::uint32_t> triangles() const { return take(try_triangles()); }
+    Face face(std::size_t index) const { return take(try_face(index)); }
+    std::size_t find_face(std::uint32_t label) const { return take(try_find_face(label)); }
     std::vector<double> level_vertices(std::size_t level) const { return take(try_level_vertices(level)); }
     std::vector<std::uint32_t> level_triangles(std::size_t level) const { return take(try_level_triangles(level)); }
 #endif

@@ -55,6 +55,22 @@ impl Error {
         }
     }
 
+    /// The same, with what it is about before the message.
+    pub(crate) fn about(mut self, what: &str) -> Error {
+        let (Error::Argument(m)
+        | Error::Pose(m)
+        | Error::Mesh(m)
+        | Error::File(m)
+        | Error::Handle(m)
+        | Error::Limit(m)
+        | Error::Memory(m)
+        | Error::Cancelled(m)
+        | Error::Unverified(m)
+        | Error::Bug(m)) = &mut self;
+        *m = format!("{what}: {m}");
+        self
+    }
+
     /// The message without the kind.
     pub fn message(&self) -> &str {
         match self {

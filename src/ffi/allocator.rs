@@ -67,7 +67,8 @@ static CURRENT: AtomicPtr<Source> = AtomicPtr::new(null_mut());
 /// Behind what a block is for stands its source, null for the system.
 pub struct Replaceable;
 
-#[cfg(feature = "allocator")]
+// A unit test is linked with the library as well, which has it.
+#[cfg(all(feature = "allocator", not(test)))]
 #[global_allocator]
 static ALLOCATOR: Replaceable = Replaceable;
 

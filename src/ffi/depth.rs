@@ -349,21 +349,10 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
                 input(shape2, "shape2")?,
                 input(pose2.cast::<Pose>(), "pose2")?,
                 exclusive(cache.cast::<ManifoldCache>(), "cache")?,
-                read_struct(config, CManifoldConfig::DEFAULT)?,
+                read_manifold_config(config)?,
             )
         };
-        let config = ManifoldConfig {
-            rotation_limit: config.rotation_limit,
-            margin: config.margin,
-            reduces: config.reduces != 0,
-        };
-        if points.is_null() && capacity > 0 {
-            return Err(Failure::null("points"));
-        }
-        // No array in memory is longer: a negative count that became a size_t, most likely.
-        if capacity > isize::MAX as usize / size_of::<ManifoldPoint>() {
-            return Err(Failure::new(StatusCode::ErrorLimit, format!("`points` cannot have {capacity} entries")));
-        }
+        room_for_points(points, capacity)?;
         let mut write = |place: usize, point: &ManifoldPoint| {
             // SAFETY: not null, and place < capacity.
             unsafe { points.add(place).write(*point) };
@@ -380,4 +369,26 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
         unsafe { reset(cache.cast::<ManifoldCache>(), manifold) };
     }
     status
+}
+
+/// The caller's configuration in Rust's terms, or the defaults for null.
+///
+/// # Safety
+/// `config` meets the header's pointer rules.
+pub(super) unsafe fn read_manifold_config(config: *const CManifoldConfig) -> Checked<ManifoldConfig> {
+    // SAFETY: by the caller.
+    let config = unsafe { read_struct(config, CManifoldConfig::DEFAULT) }?;
+    Ok(ManifoldConfig { rotation_limit: config.rotation_limit, margin: config.margin, reduces: config.reduces != 0 })
+}
+
+/// Refuses an array of points that cannot be one.
+pub(super) fn room_for_points(points: *const ManifoldPoint, capacity: usize) -> Checked<()> {
+    if points.is_null() && capacity > 0 {
+        return Err(Failure::null("points"));
+    }
+    // No array in memory is longer: a negative count that became a size_t, most likely.
+    if capacity > isize::MAX as usize / size_of::<ManifoldPoint>() {
+        return Err(Failure::new(StatusCode::ErrorLimit, format!("`points` cannot have {capacity} entries")));
+    }
+    Ok(())
 }

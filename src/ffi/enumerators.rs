@@ -4,8 +4,9 @@ use super::failure::{Checked, Failure, StatusCode};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::motion::CastOutcome;
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
+use crate::point::PointLocation;
 use crate::ray::RayOutcome;
-use crate::scene::ContactDetail;
+use crate::scene::{ContactDetail, PoseOrder, RayHits};
 use crate::shape::InputPolicy;
 
 /// An enumerator, as C passes it in `member`, one of the C type `kind`.
@@ -40,6 +41,9 @@ enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 enumerator!(RayOutcome { None, Miss, Hit, Inside });
+enumerator!(PointLocation { None, Inside, On, Outside });
+enumerator!(PoseOrder { Bisection, InOrder });
+enumerator!(RayHits { First, All, Any });
 enumerator!(CastOutcome { None, Free, Hit, Near, Budget });
 
 // Enumerators as C hands them over. In the header they bear the names of the enums, so that compilers of C and C++ see them mixed
@@ -63,6 +67,12 @@ pub type DepthEndingNumber = i32;
 pub type CastOutcomeNumber = i32;
 /// A [`RayOutcome`].
 pub type RayOutcomeNumber = i32;
+/// A [`PoseOrder`].
+pub type PoseOrderNumber = i32;
+/// A [`RayHits`].
+pub type RayHitsNumber = i32;
+/// A [`PointLocation`].
+pub type PointLocationNumber = i32;
 /// An [`InputPolicy`].
 pub type InputNumber = i32;
 /// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).

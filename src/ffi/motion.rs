@@ -10,6 +10,7 @@ use super::pointers::{exclusive, input, output};
 use super::structs::{Versioned, init_struct, read_struct};
 use crate::base::enumerator::enumerator;
 use crate::base::math::{Pose, Vector};
+use crate::base::memory::{collected, with_capacity};
 use crate::motion::{
     Callback, CastAnswer, CastConfig, CastOutcome, Clearance, ClearanceConfig, Motion, Moving, Screw, cast, clearance,
     motion_between, verify_cast,
@@ -352,6 +353,16 @@ unsafe fn with_bodies(
     run([Moving { shape: shape1, motion: &first }, Moving { shape: shape2, motion: &second }])
 }
 
+/// Runs what asks about many motions, in Rust's terms.
+pub(super) fn with_motions<T>(motions: &[CMotion], run: impl FnOnce(&[Motion]) -> Checked<T>) -> Checked<T> {
+    let poses = collected(motions.iter().map(called))?;
+    let mut read = with_capacity(motions.len())?;
+    for (k, (motion, pose)) in motions.iter().zip(&poses).enumerate() {
+        read.push(read_motion(motion, pose, &format!("motions[{k}]"))?);
+    }
+    run(&read)
+}
+
 /// The callback of a motion that has one.
 fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
     let (callback, user) = (motion.pose, motion.user);
@@ -384,7 +395,7 @@ fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: &str) 
 
 /// # Safety
 /// `config` meets the header's pointer rules.
-unsafe fn cast_config(config: *const CCastConfig) -> Checked<CastConfig> {
+pub(super) unsafe fn cast_config(config: *const CCastConfig) -> Checked<CastConfig> {
     // SAFETY: by the caller.
     let given = unsafe { read_struct(config, CCastConfig::defaults())? };
     let CCastConfig { t_begin, t_end, time_tolerance, margin, step_budget, .. } = given;

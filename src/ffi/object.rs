@@ -335,6 +335,31 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     })
 }
 
+/// A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
+/// greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
+/// piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+///
+/// SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_get_object_box(
+    scene: *const SceneHandle,
+    id: ObjectId,
+    lower_corner: *mut f64,
+    upper_corner: *mut f64,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; each has room for three numbers.
+    guard(|| unsafe {
+        output(lower_corner.cast::<[f64; 3]>(), "lower_corner", [f64::NAN; 3])?;
+        output(upper_corner.cast::<[f64; 3]>(), "upper_corner", [f64::NAN; 3])?;
+        look(scene, |scene| {
+            let [lower, upper] = scene.object(id)?.world_box();
+            output(lower_corner.cast(), "lower_corner", lower)?;
+            output(upper_corner.cast(), "upper_corner", upper)
+        })
+    })
+}
+
 /// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
 /// the shape longer than the object. On failure `*shape` is null.
 ///

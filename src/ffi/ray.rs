@@ -35,7 +35,7 @@ pub unsafe extern "C" fn swiftprox_shape_cast_ray(
     })
 }
 
-/// How a ray cast came out, in words. Never null, valid for ever; a number that is none gets a string that says so.
+/// How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_ray_outcome_string(outcome: RayOutcomeNumber) -> *const c_char {
     let string = match RayOutcome::from_number(outcome) {

@@ -4,7 +4,7 @@ use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
 use super::arrays::{copy_triangles, copy_vertices, read_arrays, read_path, read_vectors};
-use super::failure::{Checked, StatusCode};
+use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::pointers::{input, output};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
@@ -45,6 +45,9 @@ pub struct ShapeInfo {
     /// row-major, symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body.
     /// Of a body without interior the mass is spread over its area or length.
     pub inertia: [f64; 9],
+    /// The radius of the ball that is swept over the body (swiftprox_shape_options), in the local frame; all other members are of
+    /// the body without it.
+    pub swept_radius: f64,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -68,6 +71,7 @@ impl ShapeInfo {
         upper_corner: [f64::NAN; 3],
         bytes: 0,
         inertia: [f64::NAN; 9],
+        swept_radius: f64::NAN,
     };
 }
 
@@ -322,6 +326,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
             upper_corner: polyhedron.mass.upper.into(),
             bytes: shape.bytes(),
             inertia: std::array::from_fn(|k| inertia[(k / 3, k % 3)]),
+            swept_radius: shape.swept_radius(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }
@@ -372,6 +377,94 @@ pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
         let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
         // SAFETY: the header's pointer rules.
         unsafe { copy_triangles(polyhedron, corners, capacity) }
+    })
+}
+
+/// A face of a shape's hull: all coplanar triangles, a convex polygon.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CFace {
+    /// Outward, a unit vector up to rounding, in the local frame.
+    pub normal: [f64; 3],
+    /// The product of the normal with a corner, rounded: normal * x = offset in the face's plane.
+    pub offset: f64,
+    /// How many corners the face has.
+    pub corner_count: usize,
+    /// How many of the caller's polygons are merged in it, 1 at least.
+    pub label_count: usize,
+}
+
+impl CFace {
+    /// What is said of no face.
+    const UNKNOWN: CFace = CFace { normal: [f64::NAN; 3], offset: f64::NAN, corner_count: 0, label_count: 0 };
+}
+
+/// Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
+/// counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
+/// are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
+/// room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
+///
+/// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_get_face(
+    shape: *const Shape,
+    index: usize,
+    face: *mut CFace,
+    corners: *mut u32,
+    corner_capacity: usize,
+    labels: *mut u32,
+    label_capacity: usize,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { output(face, "face", CFace::UNKNOWN) }?;
+        // SAFETY: the header's pointer rules.
+        let shape = unsafe { input(shape, "shape") }?;
+        let found = shape.face(index).ok_or_else(|| {
+            let message = format!("face {index} of a shape with {} faces", shape.face_count());
+            Failure::new(StatusCode::ErrorInvalidArgument, message)
+        })?;
+        for (array, capacity, name) in [(corners, corner_capacity, "corners"), (labels, label_capacity, "labels")] {
+            if array.is_null() && capacity > 0 {
+                return Err(Failure::null(name));
+            }
+        }
+        for (place, corner) in found.corners().take(corner_capacity).enumerate() {
+            // SAFETY: not null, and place < capacity.
+            unsafe { corners.add(place).write(corner) };
+        }
+        for (place, label) in found.labels().iter().take(label_capacity).enumerate() {
+            // SAFETY: as above.
+            unsafe { labels.add(place).write(*label) };
+        }
+        let value = CFace {
+            normal: found.normal(),
+            offset: found.offset(),
+            corner_count: found.corners().len(),
+            label_count: found.labels().len(),
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe { output(face, "face", value) }
+    })
+}
+
+/// The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
+/// of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_find_face(shape: *const Shape, label: u32, index: *mut usize) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let shape = unsafe {
+            output(index, "index", usize::MAX)?;
+            input(shape, "shape")?
+        };
+        let found = shape.find_face(label).ok_or_else(|| {
+            Failure::new(StatusCode::ErrorInvalidArgument, format!("no face of the shape has the label {label}"))
+        })?;
+        // SAFETY: the header's pointer rules.
+        unsafe { output(index, "index", found) }
     })
 }
 

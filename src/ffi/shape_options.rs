@@ -47,6 +47,11 @@ pub struct CShapeOptions {
     /// (the default): found from the coordinates and polygons, at least 1e-6 of half the box's diagonal. 0: rounding of doubles
     /// only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
     pub face_noise: f64,
+    /// The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
+    /// segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds and scenes are of the
+    /// swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
+    /// tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+    pub swept_radius: f64,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -92,6 +97,7 @@ impl CShapeOptions {
         progress_user: std::ptr::null_mut(),
         tuning: std::ptr::null(),
         face_noise: -1.0,
+        swept_radius: 0.0,
     };
 
     /// The options in Rust's terms. What is left to check, the makers of shapes check.
@@ -123,6 +129,7 @@ impl CShapeOptions {
             hierarchy,
             lookup,
             face_noise: (self.face_noise >= 0.0).then_some(self.face_noise),
+            swept_radius: self.swept_radius,
         };
         Ok(Making { options, progress: self.progress, user: self.progress_user })
     }

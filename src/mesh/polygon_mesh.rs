@@ -145,8 +145,8 @@ impl PolygonMesh {
         Ok(Some((mesh, Numbers { vertices: order, faces, bare_face: None })))
     }
 
-    /// The same with those vertices alone that faces have, and the index of each here. `None` if the faces are no faces over the
-    /// vertices.
+    /// The same with those vertices alone that faces have, and the index of each here. `None` if a face names a vertex
+    /// that is not there, or the faces do not divide the indices.
     pub(crate) fn without_unused_vertices(&self) -> Result<Option<(PolygonMesh, Vec<u32>)>> {
         if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= self.vertices.len()) {
             return Ok(None);

@@ -77,6 +77,15 @@ impl Travel {
             Bend::Any(most) => most * (1.0 + 16.0 * U),
         }
     }
+
+    /// No point accelerates by more, along whatever vector.
+    pub fn most_acceleration(&self) -> f64 {
+        match self.bend {
+            Bend::None => 0.0,
+            Bend::Turn { most, .. } => most * (1.0 + 16.0 * U),
+            Bend::Any(most) => most,
+        }
+    }
 }
 
 /// No point of the body is farther from the point of its frame that the motion's pose keeps.

@@ -48,7 +48,7 @@ pub(super) fn check_times([begin, end]: [f64; 2]) -> Result<()> {
 }
 
 impl CastConfig {
-    pub(super) fn range(&self) -> [f64; 2] {
+    pub(crate) fn range(&self) -> [f64; 2] {
         [self.t_begin, self.t_end]
     }
 
@@ -56,7 +56,7 @@ impl CastConfig {
     ///
     /// # Errors
     /// [`Error::Argument`], naming the first such member.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         check_times(self.range())?;
         check_range("time_tolerance", self.time_tolerance, shortest_step(self.range())..=f64::MAX)?;
         check_range("margin", self.margin, 0.0..=f64::MAX)?;

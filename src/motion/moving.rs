@@ -6,7 +6,7 @@ use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::pair::Placed;
+use crate::pair::{Placed, Radii, sum_below};
 use crate::shape::Shape;
 
 /// A shape and how it moves.
@@ -23,6 +23,7 @@ pub(super) struct MovingPair<'a> {
     bodies: [Moving<'a>; 2],
     turns: [Turn; 2],
     travels: [Travel; 2],
+    radii: Radii,
     range: [f64; 2],
 }
 
@@ -53,7 +54,9 @@ impl<'a> MovingPair<'a> {
         };
         let (turn1, travel1) = prepare(&bodies[0]).map_err(|error| in_words(error, "object 1"))?;
         let (turn2, travel2) = prepare(&bodies[1]).map_err(|error| in_words(error, "object 2"))?;
-        Ok(MovingPair { bodies, turns: [turn1, turn2], travels: [travel1, travel2], range })
+        // A pose is one for all that is asked of the shapes alone.
+        let radii = Radii::of(&bodies.map(|body| body.shape.at(&Pose::IDENTITY))).unwrap_or(Radii::NONE);
+        Ok(MovingPair { bodies, turns: [turn1, turn2], travels: [travel1, travel2], radii, range })
     }
 
     /// # Errors
@@ -68,6 +71,11 @@ impl<'a> MovingPair<'a> {
         Ok(Moment { time, poses, rounding: (rounding(0) + rounding(1)) * (1.0 + 4.0 * U) })
     }
 
+    /// The sum of the swept radii, rounded up.
+    pub fn swept(&self) -> f64 {
+        self.radii.upper
+    }
+
     pub fn range(&self) -> [f64; 2] {
         self.range
     }
@@ -80,6 +88,7 @@ impl<'a> MovingPair<'a> {
     pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut [u32; 2]) -> f64 {
         let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
         let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
+        let gap = sum_below(gap, -self.radii.upper);
         gap - moment.rounding - U * (gap.abs() + moment.rounding)
     }
 
@@ -107,7 +116,8 @@ impl<'a> MovingPair<'a> {
     pub fn slack(&self, moment: &Moment) -> f64 {
         let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
         let apart = moment.poses[0].translation() - moment.poses[1].translation();
-        let size = body1.radius + body2.radius + body1.centre.norm() + body2.centre.norm() + apart.norm();
+        let size =
+            body1.radius + body2.radius + body1.centre.norm() + body2.centre.norm() + apart.norm() + self.swept();
         2.0 * (self.travels[0].rounding + self.travels[1].rounding) + 64.0 * U * size
     }
 

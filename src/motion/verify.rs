@@ -8,7 +8,7 @@ use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_b
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::verify::{Bounds, verify, verify_depth};
-use crate::pair::{DepthCache, Outcome, PairCache};
+use crate::pair::{DepthCache, Outcome, PairCache, sum_above};
 
 /// Steps after which a proof is given up.
 const MOST_STEPS: u32 = 1_000_000;
@@ -126,7 +126,7 @@ fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
         let bodies = pair.placed(&moment);
         let bounds = Bounds::new(bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
         // What the poses have to show for the motion, which is as far from them as they are rounded.
-        let needed = (gap + moment.rounding).next_up();
+        let needed = sum_above((gap + moment.rounding).next_up(), pair.swept());
         if !bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&step.direction), &step.direction, needed)) {
             return Err(unverified(format!("a gap of {needed:e} at time {time:?} is not proved")));
         }

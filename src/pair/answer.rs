@@ -116,7 +116,8 @@ pub struct PairAnswer {
     pub feature2: Feature,
     /// Intersecting: vertex pairs, in the caller's numbering, whose differences hold the origin in their hull.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used: 1 to 4 when intersecting, except for [`DecidedBy::InscribedSpheres`], else 0.
+    /// How many entries of `proof` are used: 1 to 4 when intersecting, except for [`DecidedBy::InscribedSpheres`] and
+    /// where objects intersect by their swept radii alone, else 0.
     pub proof_count: u32,
     /// What the query did.
     pub statistics: Statistics,

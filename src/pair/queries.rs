@@ -3,12 +3,15 @@
 use super::answer::PairAnswer;
 use super::cache::PairCache;
 use super::config::{PairConfig, Query};
-use super::ladder::{self, Glances, PairQuery};
+use super::depth::{DepthAnswer, DepthCache, DepthConfig, of_polyhedra};
+use super::ladder::{self, Glances};
 use super::placed::Placed;
+use super::radii::Radii;
+use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
+use super::swept;
 #[cfg(doc)]
-use super::{DecidedBy, Outcome, depth};
+use super::{DecidedBy, Outcome};
 use crate::base::error::Result;
-use crate::base::simd::environment::{self, with_default};
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
@@ -96,9 +99,46 @@ fn query_with(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    let mut pair = PairQuery::new(query, &bodies, cache, config, answer)?;
-    if !environment::is_default() {
-        return with_default(move || ladder::answer(&mut pair, glances));
+    if let Some(radii) = Radii::of(&bodies) {
+        return swept::query(query, bodies, &radii, cache, config, answer);
     }
-    ladder::answer(&mut pair, glances)
+    ladder::ask(query, glances, bodies, cache, config, answer)
+}
+
+/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them
+/// than a normal that separates them: [`distance`] tells how far apart they are.
+///
+/// # Errors
+/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`distance`], and
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and
+/// `cache` are as they were.
+pub fn depth(
+    bodies: [Placed; 2],
+    cache: &mut DepthCache,
+    config: &DepthConfig,
+    answer: &mut DepthAnswer,
+) -> Result<()> {
+    if let Some(radii) = Radii::of(&bodies) {
+        return swept::depth(bodies, &radii, cache, config, answer);
+    }
+    of_polyhedra(bodies, cache, config, answer)
+}
+
+/// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as
+/// [`distance`] and [`depth()`] say. Of a pair beyond `config.distance_tolerance` only `lower` is said.
+///
+/// Of `config` the tolerance, the rotation limit, the start and the levels count.
+///
+/// # Errors
+/// As of [`distance`]; then `answer` is as it was.
+pub fn signed_distance(
+    bodies: [Placed; 2],
+    cache: &mut SignedDistanceCache,
+    config: &PairConfig,
+    answer: &mut SignedDistance,
+) -> Result<()> {
+    if let Some(radii) = Radii::of(&bodies) {
+        return swept::signed_distance(bodies, &radii, cache, config, answer);
+    }
+    signed_distance::of_polyhedra(bodies, cache, config, answer)
 }

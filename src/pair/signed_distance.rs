@@ -3,10 +3,10 @@
 
 use super::answer::{Feature, Outcome, PairAnswer};
 use super::cache::PairCache;
-use super::config::PairConfig;
-use super::depth::{DepthAnswer, DepthCache, DepthConfig, depth};
+use super::config::{PairConfig, Query};
+use super::depth::{self, DepthAnswer, DepthCache, DepthConfig};
+use super::ladder::{self, Glances};
 use super::placed::Placed;
-use super::queries::distance;
 use crate::base::error::Result;
 
 /// What a pair remembers of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
@@ -83,14 +83,11 @@ impl From<&DepthAnswer> for SignedDistance {
     }
 }
 
-/// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as
-/// [`distance`] and [`depth`] say. Of a pair beyond `config.distance_tolerance` only `lower` is said.
-///
-/// Of `config` the tolerance, the rotation limit, the start and the levels count.
+/// The signed distance of two polyhedra.
 ///
 /// # Errors
-/// As of [`distance`]; then `answer` is as it was.
-pub fn signed_distance(
+/// As of [`signed_distance`](crate::pair::signed_distance).
+pub(super) fn of_polyhedra(
     bodies: [Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
@@ -104,7 +101,7 @@ pub fn signed_distance(
         return Ok(());
     }
     let mut apart = PairAnswer::default();
-    distance(bodies, &mut cache.distance, config, &mut apart)?;
+    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
     if apart.outcome == Outcome::Intersecting
         && let Some(found) = of_overlap(bodies, cache, config)?
     {
@@ -123,6 +120,6 @@ fn of_overlap(
 ) -> Result<Option<SignedDistance>> {
     let mut overlap = DepthAnswer::default();
     let config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
-    depth(bodies, &mut cache.depth, &config, &mut overlap)?;
+    depth::of_polyhedra(bodies, &mut cache.depth, &config, &mut overlap)?;
     Ok((overlap.outcome == Outcome::Intersecting).then(|| SignedDistance::from(&overlap)))
 }

@@ -303,6 +303,12 @@ impl Polyhedron {
         }
     }
 
+    /// The vertex at which a face's side begins, counter-clockwise seen from outside; `side` is less than the face's `side_count`.
+    pub fn corner(&self, face: u32, side: u32) -> u32 {
+        let edge = &self.edges[self.side(&self.faces[face as usize], side) as usize];
+        if edge.left() == face { edge.tail() } else { edge.head() }
+    }
+
     /// A vertex in the object's frame, as the caller gave it (after the input transform).
     pub fn local_position(&self, vertex: u32) -> Vector {
         self.centre + self.vertices[vertex as usize].position

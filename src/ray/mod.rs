@@ -15,7 +15,7 @@ mod search;
 pub use answer::{RayAnswer, RayOutcome};
 pub use query::Ray;
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::environment::with_default;
 use crate::pair::Placed;
@@ -24,12 +24,23 @@ use crate::pair::Placed;
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
-/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and
-/// a `t_max` that is negative or NaN.
+/// [`Error::Argument`] for an origin or a direction that is not finite, a direction of 0, a `t_max` that is negative or NaN, and a
+/// shape with a swept radius.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;
         body.pose.check(ROTATION_LIMIT)?;
+        let radius = body.shape.swept_radius();
+        if radius > 0.0 {
+            return Err(Error::Argument(format!(
+                "the shape has a swept radius of {radius:e}: rays are cast at shapes without one, a distance tells how near they pass"
+            )));
+        }
         Ok(search::cast(body.shape.polyhedron(), body.pose, ray))
     })
+}
+
+/// The same of a ray and a pose that are accepted, in integers alone: both ends are neighbouring doubles.
+pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> RayAnswer {
+    search::cast_in_integers(body.shape.polyhedron(), body.pose, ray)
 }

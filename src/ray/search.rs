@@ -45,6 +45,13 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer
     answer
 }
 
+/// The same, whatever doubles prove.
+pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
+    let mut answer = RayAnswer::default();
+    exact::cast(polyhedron, pose, ray, Line::new(polyhedron, pose, ray).as_ref(), &mut answer);
+    answer
+}
+
 fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> Proved {
     if line.passes_sphere() {
         return Proved::Miss;

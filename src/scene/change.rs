@@ -57,7 +57,7 @@ pub(crate) enum Change<'a, N: Names> {
         mask: u32,
     },
     UserData(N::Object, u64),
-    Pose(N::Object, Pose),
+    Pose(N::Object, Cow<'a, Pose>),
     Poses(Cow<'a, [N::Object]>, Cow<'a, [Pose]>),
     AllPoses(Cow<'a, [Pose]>),
     PiecePose {
@@ -103,7 +103,7 @@ impl<From: Names> Change<'_, From> {
                 Change::Groups { object: names.object(*object)?, groups: *groups, mask: *mask }
             }
             Change::UserData(object, user_data) => Change::UserData(names.object(*object)?, *user_data),
-            Change::Pose(object, pose) => Change::Pose(names.object(*object)?, *pose),
+            Change::Pose(object, pose) => Change::Pose(names.object(*object)?, Cow::Owned(**pose)),
             Change::Poses(objects, poses) => {
                 Change::Poses(all(objects, |object| names.object(*object))?, copied(poses)?.into())
             }

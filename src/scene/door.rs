@@ -69,6 +69,12 @@ impl Scene {
     /// As the method of the same name; nothing has changed then.
     #[inline(always)]
     pub(super) fn change(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
+        if self.recording.is_on() { self.apply_and_note(change) } else { self.apply(change) }
+    }
+
+    /// Out of the way of changes that are not written down: those stay where they are made.
+    #[inline(never)]
+    fn apply_and_note(&mut self, change: Change<Themselves>) -> Result<Option<ObjectId>> {
         // An object that the change removes has its number until then.
         let note = self.recording.prepare(&change, &self.world.objects);
         let added = self.apply(change)?;

@@ -1,5 +1,6 @@
 //! What a program can do to a scene and ask of it: each method makes a change or a question.
 
+use std::borrow::Cow;
 use std::io::Write;
 use std::path::Path;
 use std::sync::Arc;
@@ -110,7 +111,7 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Pose`] for a pose that is not accepted;
     /// the object then stays where it is.
     pub fn set_pose(&mut self, id: ObjectId, pose: &Pose) -> Result<()> {
-        self.doing(Change::Pose(id, *pose))
+        self.doing(Change::Pose(id, Cow::Borrowed(pose)))
     }
 
     /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts. Several threads

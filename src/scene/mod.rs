@@ -14,10 +14,12 @@
 pub(crate) mod world;
 pub(crate) mod near;
 pub(crate) mod search;
+pub(crate) mod sets;
 pub(crate) mod change;
 pub(crate) mod recording;
 mod door;
 mod interface;
+mod set_interface;
 mod replay;
 
 pub use crate::base::workers::Workers;
@@ -28,6 +30,12 @@ pub use search::query::{
     Contact, ContactDetail, ObjectPair, PairResult, SceneAnswer, SceneContacts, SceneEvents, SceneQuery,
 };
 pub use search::statistics::SceneStatistics;
+pub use sets::casts::SceneCastAnswer;
+pub use sets::first_hit::{FirstHit, PoseOrder};
+pub use sets::members::ObjectSet;
+pub use sets::nearest::LeastDistance;
+pub use sets::rays::{RayHits, SceneRayHit};
+pub use sets::scratch::SetScratch;
 pub use world::object;
 pub use world::object_view::Object;
 pub use world::testing::PairFilter;

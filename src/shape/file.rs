@@ -23,7 +23,7 @@ use crate::build::hull::{Hull, convex_hull_in_steps};
 use crate::levels::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron::lookup::Plan;
-use crate::shape::Shape;
+use crate::shape::{LARGEST_SWEPT_RADIUS, Shape};
 use crate::solve::state::FeatureId;
 use crate::tables::{LookupKind, LookupOptions, plan_lookup};
 
@@ -33,8 +33,11 @@ const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
 /// What a shape file is, in messages.
 const WHAT: &str = "the shape file";
 
-/// The version that is written, and the only one that is read.
-const VERSION: u32 = 2;
+/// The version that is written.
+const VERSION: u32 = 3;
+
+/// A version that is read, too: it has no swept radius.
+const VERSION_WITHOUT_RADIUS: u32 = 2;
 
 /// Saves a shape in a file, replacing what was there.
 ///
@@ -101,6 +104,7 @@ fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     writer.number(resolution as u32)?;
     writer.real(factor)?;
     writer.real(polyhedron.contact_faces.noise * scale)?;
+    writer.real(at_scale(shape.swept_radius(), scale)?)?;
     writer.number(hierarchy.kind as u32)?;
     let levels = if with_levels { &hierarchy.levels[..] } else { &[] };
     writer.number(levels.len() as u32)?;
@@ -140,8 +144,10 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
         return Err(Error::File("this is no shape file".into()));
     }
     let version = reader.number()?;
-    if version != VERSION {
-        return Err(Error::File(format!("a shape file of version {version}; this library reads version {VERSION}")));
+    if !(VERSION_WITHOUT_RADIUS..=VERSION).contains(&version) {
+        return Err(Error::File(format!(
+            "a shape file of version {version}; this library reads versions {VERSION_WITHOUT_RADIUS} to {VERSION}"
+        )));
     }
     let Some((content, sum)) = bytes.split_last_chunk::<8>() else {
         return damaged("it is cut off");
@@ -160,6 +166,10 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     let noise = reader.real()?;
     if !(0.0..=f64::MAX).contains(&noise) {
         return damaged("the noise of coordinates is no length");
+    }
+    let swept_radius = if version == VERSION_WITHOUT_RADIUS { 0.0 } else { reader.real()? };
+    if !(0.0..=LARGEST_SWEPT_RADIUS).contains(&swept_radius) {
+        return damaged("the swept radius is no length");
     }
     polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut bodies.part(reader.done(), reader.done()))?;
     let kind = reader.number()?;
@@ -184,7 +194,7 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
         return damaged("there is more behind its end");
     }
     let hierarchy = sound(Hierarchy::restored(&polyhedron, kind, levels, &mut progress.part(SHARE_OF_BODIES, 1.0)))?;
-    Shape::from_parts(polyhedron, hierarchy)
+    Shape::from_parts(polyhedron, hierarchy, swept_radius)
 }
 
 fn read_kind<T: Enumerator>(number: u32) -> Option<T> {

@@ -1,8 +1,9 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
 pub(crate) mod extent;
-mod patch;
 mod transform;
+mod patch;
+mod face;
 pub mod file;
 
 use std::path::Path;
@@ -26,9 +27,10 @@ use crate::tables::support_map::SupportMap;
 pub use crate::tables::{LookupKind, LookupOptions};
 use crate::tables::{insist_on_table, plan_lookup};
 use extent::Extent;
+pub use face::Face;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
-use transform::{InputTransform, transformed};
+use transform::transformed;
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -114,6 +116,10 @@ pub struct ShapeOptions {
     /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. `None`:
     /// found from the coordinates and polygons ([`default_noise`]). 0: rounding of doubles only.
     pub face_noise: Option<f64>,
+    /// The radius of a ball that is swept over the body, in the units of the input, before `scale`: a point with one is a sphere, a
+    /// segment a capsule, a body one with round edges. All answers of pairs and scenes are about the swept body; witness points are
+    /// on it, features are of the body without the ball. From 0 (the default) to [`LARGEST_SWEPT_RADIUS`].
+    pub swept_radius: f64,
 }
 
 impl Default for ShapeOptions {
@@ -127,13 +133,21 @@ impl Default for ShapeOptions {
             hierarchy: HierarchyOptions::default(),
             lookup: LookupOptions::default(),
             face_noise: None,
+            swept_radius: 0.0,
         }
     }
 }
 
+/// The largest [`ShapeOptions::swept_radius`], 2¹⁰⁰⁰: sums of a few lengths are finite.
+pub const LARGEST_SWEPT_RADIUS: f64 = f64::from_bits((1023 + 1000) << 52);
+
 impl ShapeOptions {
-    fn transform(&self) -> InputTransform {
-        InputTransform { rotation: self.rotation, translation: self.translation, scale: self.scale }
+    /// The radius of the ball in the local frame.
+    fn radius(&self) -> Result<f64> {
+        check_range("swept_radius", self.swept_radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
+        let radius = self.swept_radius * self.scale;
+        check_range("swept_radius times scale", radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
+        Ok(radius)
     }
 
     /// By how much coordinates may be off in the local frame; `polygons` are over the points, all before the input transform.
@@ -158,8 +172,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
-/// added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
+/// tables of the body and of its levels and automatic levels, is all that is ever added.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -169,6 +183,8 @@ pub struct Shape {
     hierarchy: OnNeed<Hierarchy>,
     /// Its support function for approximate distances, as far as it is made.
     support_map: SupportMap,
+    /// Of the ball that is swept over the polyhedron.
+    swept_radius: f64,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -176,7 +192,8 @@ impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {
         let [levels, others] = [self.hierarchy(), other.hierarchy()];
         let are_automatic = [levels, others].map(|levels| levels.kind == HierarchyKind::Automatic);
-        self.polyhedron == other.polyhedron && (are_automatic == [true; 2] || levels == others)
+        (&self.polyhedron, self.swept_radius) == (&other.polyhedron, other.swept_radius)
+            && (are_automatic == [true; 2] || levels == others)
     }
 }
 
@@ -211,7 +228,7 @@ impl Shape {
             InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull | InputPolicy::Patch => CONVEXITY_TOLERANCE,
         };
         let mut mesh = PolygonMesh {
-            vertices: transformed(&mesh.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?,
+            vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
             indices: copied(&mesh.indices)?,
             starts: copied(&mesh.starts)?,
             single_precision: mesh.single_precision,
@@ -274,7 +291,7 @@ impl Shape {
     /// The hull of an open surface that lies on it.
     fn of_patch(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let Some((mut patch, used)) = mesh.without_unused_vertices()? else {
-            return Err(Error::Mesh("the faces of a patch are none over its vertices".into()));
+            return Err(Error::Mesh("a face of the patch names a vertex that is not there".into()));
         };
         if patch.face_count() == 0 {
             return Err(Error::Mesh("the mesh has no faces".into()));
@@ -283,7 +300,7 @@ impl Shape {
             return Err(Error::Mesh(format!("face {f} has fewer than three corners")));
         }
         let noise = options.noise(&patch.vertices, None)?;
-        patch.vertices = transformed(&patch.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?;
+        patch.vertices = transformed(&patch.vertices, options, &mut progress.part(0.0, 0.0))?;
         let polyhedron = hull_of_patch(&patch, &used, &mut progress.part(0.0, options.share_of_body()))?;
         Shape::admitted(polyhedron, noise, options, progress)
     }
@@ -303,7 +320,7 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| {
-            let images = transformed(points, &options.transform(), &mut progress.part(0.0, 0.0))?;
+            let images = transformed(points, options, &mut progress.part(0.0, 0.0))?;
             check_points(&images)?;
             Shape::of_points(&images, options.noise(points, None)?, options, progress)
         })
@@ -361,10 +378,11 @@ impl Shape {
                     .into(),
             ));
         }
-        let Shape { polyhedron, .. } = Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
+        let Shape { polyhedron, swept_radius, .. } =
+            Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
-            let moved = transformed(&level.vertices, &options.transform(), &mut progress.part(0.3, 0.3));
+            let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
             let in_level = |message: String| format!("level {}: {message}", i + 1);
             points.push(moved.map_err(|error| match error {
                 Error::Mesh(message) => Error::Mesh(in_level(message)),
@@ -373,20 +391,20 @@ impl Shape {
             })?);
         }
         let hierarchy = Hierarchy::from_levels(&polyhedron, &points, &mut progress.part(0.3, 1.0))?;
-        Shape::from_parts(polyhedron, hierarchy)
+        Shape::from_parts(polyhedron, hierarchy, swept_radius)
     }
 
     /// From parts that belong together; automatic levels that are not there are left to be made.
     ///
     /// # Errors
     /// [`Error::Memory`].
-    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy) -> Result<Shape> {
+    pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy, swept_radius: f64) -> Result<Shape> {
         let is_to_be_made = hierarchy.kind == HierarchyKind::Automatic && hierarchy.levels.is_empty();
         let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;
         let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
         let support_map = SupportMap::new(&polyhedron);
-        Ok(Shape { polyhedron, extent, hierarchy, support_map })
+        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius })
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -395,7 +413,7 @@ impl Shape {
     /// As [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| options.check())?;
-        let Shape { polyhedron, .. } = self;
+        let Shape { polyhedron, swept_radius, .. } = self;
         let hierarchy = match options.kind {
             HierarchyKind::Automatic => {
                 progress.report(1.0)?;
@@ -403,7 +421,7 @@ impl Shape {
             }
             _ => Hierarchy::build(&polyhedron, options, progress)?,
         };
-        Shape::from_parts(polyhedron, hierarchy)
+        Shape::from_parts(polyhedron, hierarchy, swept_radius)
     }
 
     /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are exactly
@@ -431,6 +449,13 @@ impl Shape {
     #[inline]
     pub fn polyhedron(&self) -> &Polyhedron {
         &self.polyhedron
+    }
+
+    /// The radius of the ball that is swept over the polyhedron, in the local frame; see [`ShapeOptions::swept_radius`]. A pose
+    /// does not stretch it.
+    #[inline]
+    pub fn swept_radius(&self) -> f64 {
+        self.swept_radius
     }
 
     /// The inertia tensor of a body of mass 1 and of uniform density about its centre of mass, in the axes of the local frame:
@@ -520,11 +545,8 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>()
-            + self.extent.heap_bytes()
-            + self.polyhedron.heap_bytes()
-            + self.hierarchy().heap_bytes()
-            + self.support_map.heap_bytes()
+        let made = self.hierarchy().heap_bytes() + self.support_map.heap_bytes();
+        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + made
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
@@ -550,7 +572,7 @@ impl Shape {
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
         // Next to nothing of the time.
         polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut progress.part(share, share))?;
-        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC)?
+        Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC, options.radius()?)?
             .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }
 }

@@ -20,7 +20,7 @@ pub fn hull_of_patch(patch: &PolygonMesh, used: &[u32], progress: &mut Progress)
     check_points(&patch.vertices)?;
     let order = along_curve(&patch.vertices, &mut progress.part(0.0, 0.04))?;
     let Some((ordered, numbers)) = patch.in_order(order, &mut progress.part(0.04, 0.1))? else {
-        return Err(Error::Bug("the faces of a patch are none in another order".into()));
+        return Err(Error::Bug("the faces of a patch are lost in another order".into()));
     };
     let vertices = collected(numbers.vertices.iter().map(|v| used[*v as usize]))?;
     let numbers = Numbers { vertices, bare_face: Some(NO_FACE), ..numbers };

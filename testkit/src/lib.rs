@@ -8,6 +8,7 @@ pub mod files;
 pub mod hard;
 pub mod models;
 pub mod orbits;
+pub mod provenance;
 pub mod random_scene;
 pub mod shapes;
 pub mod solids;

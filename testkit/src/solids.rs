@@ -1,6 +1,7 @@
 //! Bodies as CAD systems and game engines have them: boxes, prisms, bodies of revolution. Their large faces, rims and hubs are what
 //! random ellipsoids lack. All have their centre of mass at the origin and a bounding radius of 1.
 
+use std::collections::{BTreeMap, BTreeSet};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
 use swiftprox::error::Result;
@@ -16,9 +17,12 @@ pub struct Solid {
     points: fn() -> Vec<Vector>,
 }
 
-/// How a body's coordinates came to it. Each is a triangulated hull: what a program that exports triangles hands over.
+/// How a body came to its coordinates and faces. All but the first are triangulated hulls: what a program that exports triangles
+/// hands over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Form {
+    /// As [`Form::Plain`], each plane face one polygon.
+    Polygons,
     /// Around the z axis, where caps and mantles are exactly plane.
     Plain,
     /// Turned, in doubles: they are plane up to rounding.
@@ -30,29 +34,67 @@ pub enum Form {
 }
 
 impl Form {
-    pub const ALL: [(&'static str, Form); 4] =
-        [("plain", Form::Plain), ("turned", Form::Turned), ("single", Form::Single), ("decimals", Form::Decimals)];
+    pub const ALL: [(&'static str, Form); 5] = [
+        ("polygons", Form::Polygons),
+        ("plain", Form::Plain),
+        ("turned", Form::Turned),
+        ("single", Form::Single),
+        ("decimals", Form::Decimals),
+    ];
 
     fn apply(self, point: &Vector) -> Vector {
-        if self == Form::Plain {
+        if matches!(self, Form::Plain | Form::Polygons) {
             return *point;
         }
         let turned = rotation(&Vector::new(0.48, -0.6, 0.64), 0.7) * point;
         match self {
             Form::Single => turned.map(|x| f64::from(x as f32)),
             Form::Decimals => turned.map(|x| (x * 1e6).round() / 1e6),
-            Form::Plain | Form::Turned => turned,
+            Form::Polygons | Form::Plain | Form::Turned => turned,
         }
     }
 }
 
 impl Solid {
-    /// The body as a mesh of triangles.
+    /// The body as a mesh.
     pub fn mesh(&self, form: Form) -> Result<PolygonMesh> {
         let plain = normalised(hull_mesh(&(self.points)())?);
         let points: Vec<Vector> = plain.vertices.iter().map(|point| form.apply(point)).collect();
-        hull_mesh(&points)
+        let triangles = hull_mesh(&points)?;
+        if form == Form::Polygons { with_polygons(&triangles) } else { Ok(triangles) }
     }
+}
+
+/// Normals of triangles that differ by less are those of one plane: rounding turns them by some 1e-15 over the length of an edge.
+const PLANE: f64 = 1e-9;
+
+/// The same body, triangles of one plane joined to a polygon.
+fn with_polygons(mesh: &PolygonMesh) -> Result<PolygonMesh> {
+    let normal = |f: usize| {
+        let [a, b, c] = [0, 1, 2].map(|k| mesh.vertices[mesh.face(f)[k] as usize]);
+        (b - a).cross(&(c - a)).normalize()
+    };
+    let mut planes: Vec<(Vector, Vec<usize>)> = Vec::new();
+    for f in 0..mesh.face_count() {
+        let n = normal(f);
+        // A convex body has one face to a normal.
+        match planes.iter_mut().find(|(plane, _)| (*plane - n).norm() < PLANE) {
+            Some((_, faces)) => faces.push(f),
+            None => planes.push((n, vec![f])),
+        }
+    }
+    let (mut indices, mut valences) = (Vec::new(), Vec::new());
+    for (_, faces) in planes {
+        let edges = faces.iter().flat_map(|&f| [0, 1, 2].map(|k| (mesh.face(f)[k], mesh.face(f)[(k + 1) % 3])));
+        let all: BTreeSet<(u32, u32)> = edges.collect();
+        // Of the edges that two triangles share none is left; each of the others leads to the next corner.
+        let next: BTreeMap<u32, u32> = all.iter().filter(|(a, b)| !all.contains(&(*b, *a))).copied().collect();
+        let first = *next.keys().next().expect("triangles have a border");
+        let around = std::iter::successors(Some(first), |at| next.get(at).copied().filter(|&to| to != first));
+        indices.extend(around);
+        valences.push(next.len() as u32);
+    }
+    PolygonMesh::new(mesh.vertices.clone(), indices, Some(&valences))
 }
 
 /// In the order of tables.

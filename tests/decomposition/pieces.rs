@@ -155,7 +155,7 @@ fn a_tolerance_takes_plane_faces_for_plane() {
     check_cover("gear", &turned(&gear), &tolerant);
 }
 
-/// All the same, but for the order of corners.
+/// All the same up to the order of corners.
 #[test]
 fn a_mesh_that_is_inside_out_is_turned() {
     for mesh in [l_shape(), torus(9, 6)] {

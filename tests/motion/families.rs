@@ -207,7 +207,7 @@ fn judge(case: &Case, answer: &CastAnswer, samples: u32) -> Option<String> {
                 continue;
             }
             let [_, upper] = signed_distance(case, time);
-            // At a lattice time nothing is rounded; t_lo is none.
+            // At a lattice time nothing is rounded; t_lo is not such a time.
             let allowed = if k == samples { allowed.max(1e-14 * case.shapes[0].polyhedron().radius) } else { allowed };
             if upper < least - allowed || (case.is_exact && margin == 0.0 && k < samples && upper <= 0.0) {
                 return Some(format!("at {time} they are {upper:e} apart, not {least:e}"));

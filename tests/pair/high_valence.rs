@@ -53,7 +53,7 @@ fn right_angles() -> Vec<Matrix> {
 
 #[test]
 fn the_apexes_of_two_cones_touch() {
-    // The last ones have flush edges where the axes are at right angles, but for rounding: (1, 0, 0) - (0, 0, 1) is one of each.
+    // The last ones have flush edges where the axes are at right angles up to rounding: (1, 0, 0) - (0, 0, 1) is one of each.
     for (height1, height2) in [(2.0, 2.0), (4.0, 0.5), (0.25, 2.0), (1.0, 1.0)] {
         let (cone1, cone2) = (shape(models::cone(SIDES, height1)), shape(models::cone(SIDES, height2)));
         let mut touching = 0;

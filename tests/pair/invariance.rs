@@ -109,7 +109,7 @@ fn motions_without_rounding_change_nothing() {
     assert!(translated > CASES_PER_FAMILY);
 }
 
-/// A rotation in doubles is none exactly, and what it moves is rounded: the distance may change by 1e-12·L + 2e-15·W.
+/// A rotation in doubles is not exact, and what it moves is rounded: the distance may change by 1e-12·L + 2e-15·W.
 #[test]
 fn other_rigid_motions_change_what_they_round() {
     for_every_case(0x4000, |case, answer, random| {

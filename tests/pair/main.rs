@@ -1,5 +1,6 @@
 //! Pair queries: the truth, its proof, and what an answer must not depend on.
 
+mod batch;
 mod exact_truth;
 mod flat_edges;
 mod forgery;

@@ -149,9 +149,9 @@ fn whatever_a_separated_answer_says_is_checked() {
         }),
         forgery("no feature", "has no", |a| a.feature1 = Feature::default()),
         forgery("another face", "off Feature", |a| a.feature1.ids[0] = (a.feature1.ids[0] + 1) % 6),
-        forgery("a face that is none", "has no", |a| a.feature2 = Feature { kind: FeatureKind::Face, ids: [6, 0] }),
+        forgery("an unknown face", "has no", |a| a.feature2 = Feature { kind: FeatureKind::Face, ids: [6, 0] }),
         forgery("a vertex", "off Feature", |a| a.feature1 = Feature { kind: FeatureKind::Vertex, ids: [7, 0] }),
-        forgery("a vertex that is none", "has no", |a| {
+        forgery("an unknown vertex", "has no", |a| {
             a.feature1 = Feature { kind: FeatureKind::Vertex, ids: [8, 0] };
         }),
         forgery("an edge", "off Feature", |a| a.feature2 = Feature { kind: FeatureKind::Edge, ids: [1, 3] }),
@@ -180,7 +180,7 @@ fn whatever_a_contact_says_is_checked() {
         forgery("a world point off its local one", "in the world", |a| a.world1[0] += 1e-13),
         forgery("no local point", "witness point", |a| a.local1 = NOWHERE),
         forgery("no feature", "has no", |a| a.feature2 = Feature::default()),
-        forgery("a face that is none", "has no", |a| a.feature1.ids[0] = 6),
+        forgery("an unknown face", "has no", |a| a.feature1.ids[0] = 6),
         forgery("an edge that is none", "has no", |a| {
             a.feature1 = Feature { kind: FeatureKind::Edge, ids: [0, 7] };
         }),

@@ -13,20 +13,25 @@ use swiftprox::ffi::level::{CMesh, LevelInfo};
 use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
 use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
+use swiftprox::ffi::object_set::{CObjectSet, CSceneRayAnswer};
 use swiftprox::ffi::pair::{CPairCache, CPairConfig};
+use swiftprox::ffi::pair_batch::CPairQuestion;
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
-use swiftprox::ffi::shape::ShapeInfo;
+use swiftprox::ffi::shape::{CFace, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{
-    DepthAnswer, DepthStatistics, Feature, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
+    DepthAnswer, DepthStatistics, Feature, HalfSpace, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
 };
+use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
-use swiftprox::scene::{Contact, ObjectPair, PairResult, SceneStatistics};
+use swiftprox::scene::{
+    Contact, FirstHit, LeastDistance, ObjectPair, PairResult, SceneCastAnswer, SceneRayHit, SceneStatistics,
+};
 
 const HEADERS: [&str; 2] =
     [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
@@ -77,13 +82,14 @@ fn layouts() -> Vec<Layout> {
     let mut all = layouts! {
         swiftprox_shape_options = CShapeOptions {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
-            tuning, face_noise
+            tuning, face_noise, swept_radius
         },
         swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
-            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia
+            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
         },
+        swiftprox_face = CFace { normal, offset, corner_count, label_count },
         swiftprox_feature = Feature { kind, ids },
         swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },
         swiftprox_pair_answer = PairAnswer {
@@ -113,6 +119,7 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
+        swiftprox_half_space = HalfSpace { normal, offset },
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },
@@ -126,6 +133,8 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_ray = Ray { origin, direction, t_max },
         swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
+        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
+        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },
@@ -148,6 +157,13 @@ fn layouts() -> Vec<Layout> {
             exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
             inscribed_spheres, unmoved, out_of_reach
         },
+        swiftprox_object_set = CObjectSet { ids, count, poses, among },
+        swiftprox_least_distance = LeastDistance { lower, upper, nearest },
+        swiftprox_first_hit = FirstHit { time, tried, pair },
+        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
+        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
+        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 12] = [
+const NOUNS: [&str; 13] = [
     "library",
     "mesh",
     "shape",
@@ -19,6 +19,7 @@ const NOUNS: [&str; 12] = [
     "clearance",
     "object",
     "scene",
+    "scratch",
 ];
 
 /// The shared library that this test run built, beside the test.

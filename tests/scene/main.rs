@@ -6,5 +6,6 @@ mod motions;
 mod placed;
 mod record;
 mod scenes;
+mod sets;
 mod soak;
 mod threads;

@@ -759,6 +759,37 @@ fn all_pairs_are_kept_up_to_a_limit() {
     assert!(listed.iter().all(|lists| *lists == listed[0]));
 }
 
+/// All pairs of up to six objects are near, whatever the tolerance: a look at them takes less than boxes. Of more objects, those
+/// within it.
+#[test]
+fn few_pairs_are_near_whatever_the_tolerance_and_many_are_not() {
+    let places: Vec<f64> = (0..300).map(|k| 50.0 * f64::from(k)).collect();
+    for shrinks in [false, true] {
+        let mut scene = scene();
+        let few = cubes(&mut scene, &places[..6]);
+        let looked_at = |scene: &mut Scene| {
+            scene.reset_statistics();
+            assert!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.is_empty());
+            scene.statistics().pairs
+        };
+        assert_eq!(looked_at(&mut scene), 15);
+        if shrinks {
+            scene.shrink().unwrap();
+        }
+        let many = cubes(&mut scene, &places[6..]);
+        assert_eq!(looked_at(&mut scene), 0);
+        for id in many {
+            scene.remove_object(id).unwrap();
+        }
+        assert_eq!(looked_at(&mut scene), 15);
+        // One that comes near is found in either.
+        scene.set_pose(few[5], &at(1.25, 0.0, 0.0)).unwrap();
+        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1);
+        cubes(&mut scene, &places[6..]);
+        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1);
+    }
+}
+
 /// All pairs of a few objects are kept; when they become many, only near ones are.
 #[test]
 fn a_crowd_that_grows_keeps_no_state_of_all_pairs() {

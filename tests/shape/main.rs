@@ -4,6 +4,7 @@ mod mesh_io;
 mod nearly_convex;
 mod scaled;
 mod shape_file;
+mod faces;
 mod inertia;
 mod shapes;
 mod shared_scenes;

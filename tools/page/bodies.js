@@ -4,6 +4,12 @@
 /* A body is 9 words: place, turn, colour, and its number plus 1 as a colour, by which the body under a pixel is found. */
 const BODY_WORDS = 9;
 
+/* Edges of bodies with a smaller radius in pixels would hide their faces; they appear up to twice that. */
+const LEAST_EDGED = 12;
+
+/* Triangles of all bodies up to which outlines are smooth: without a graphics card that more than doubles the time of a frame. */
+const MOST_SMOOTHED = 500000;
+
 const VERTEX_SHADER = `#version 300 es
 uniform mat4 view;
 uniform float pixels; /* of a length of 1 at a distance of 1 */
@@ -20,8 +26,9 @@ void main() {
   vec3 t = 2.0 * cross(turn.xyz, vertex);
   world = place + vertex + turn.w * t + cross(turn.xyz, t);
   gl_Position = view * vec4(world, 1.0);
-  float size = radius * pixels / max(gl_Position.w, 1e-30); /* edges of small bodies would hide them */
-  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.55, clamp(size / 12.0, 0.0, 1.0) * colour.a) : colour;
+  float size = radius * pixels / max(gl_Position.w, 1e-30);
+  float share = clamp(size / ${LEAST_EDGED}.0 - 1.0, 0.0, 1.0);
+  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.55, share * colour.a) : colour;
 }`;
 
 const FRAGMENT_SHADER = `#version 300 es
@@ -83,9 +90,17 @@ function mergeShapes(shapes) {
   return merged;
 }
 
+function countTriangles(recording) {
+  let count = 0;
+  for (let body = 0; body < recording.bodyCount; body++) {
+    count += recording.shapes[shapeOf(recording, body)].triangles.length / 3;
+  }
+  return count;
+}
+
 /* What draws with WebGL 2, or null where there is none. */
 function makeSolids(canvas, recording) {
-  const gl = canvas.getContext("webgl2", { antialias: true, alpha: false });
+  const gl = canvas.getContext("webgl2", { antialias: countTriangles(recording) < MOST_SMOOTHED, alpha: false });
   if (!gl) {
     return null;
   }
@@ -94,7 +109,7 @@ function makeSolids(canvas, recording) {
   const uniforms = Object.fromEntries(["view", "pixels", "radius", "mode", "eye", "light"].map(name => [name, uniform(name)]));
   const merged = mergeShapes(recording.shapes);
   const vertices = makeBuffer(gl, gl.ARRAY_BUFFER, merged.vertices);
-  const bodies = gl.createBuffer();
+  const bodies = gl.createBuffer(), edged = gl.createBuffer();
   const arrays = ["triangles", "edges"].map(list => {
     const array = gl.createVertexArray();
     gl.bindVertexArray(array);
@@ -108,7 +123,8 @@ function makeSolids(canvas, recording) {
     return array;
   });
   gl.bindVertexArray(null);
-  return { gl, canvas, recording, uniforms, program, parts: merged.parts, bodies, arrays, groups: [], picking: null };
+  return { gl, canvas, recording, uniforms, program, parts: merged.parts, bodies, edged, arrays, words: new Float32Array(0), groups: [],
+    picking: null };
 }
 
 /* The bodies of a step, by shape; those that are picked come last and are drawn over the others. `paintOf` gives the colour of a
@@ -138,8 +154,31 @@ function loadBodies(solids, step, paintOf, picked) {
       bytes.set([number & 255, number >> 8 & 255, number >> 16 & 255, number >> 24 & 255], 4 * (BODY_WORDS * at + 8));
     }
   }));
+  solids.words = words;
   gl.bindBuffer(gl.ARRAY_BUFFER, solids.bodies);
   gl.bufferData(gl.ARRAY_BUFFER, words, gl.DYNAMIC_DRAW);
+}
+
+/* The bodies whose edges are seen, as loadBodies has all: of a crowd from afar there are none, and lines cost more than faces. */
+function loadEdged(solids, camera) {
+  const { gl, words, recording } = solids;
+  const matrix = matrixOf(camera), pixels = pixelsOf(solids.canvas);
+  const kept = new Float32Array(words.length);
+  let at = 0;
+  const groups = solids.groups.map(group => group.map(({ shape, first, count }) => {
+    const begin = at, { radius } = recording.shapes[shape];
+    for (let body = first; body < first + count; body++) {
+      const from = BODY_WORDS * body;
+      const depth = matrix[3] * words[from] + matrix[7] * words[from + 1] + matrix[11] * words[from + 2] + matrix[15];
+      if (depth > -radius && radius * pixels > LEAST_EDGED * (depth - radius)) {
+        kept.set(words.subarray(from, from + BODY_WORDS), BODY_WORDS * at++);
+      }
+    }
+    return { shape, first: begin, count: at - begin };
+  }));
+  gl.bindBuffer(gl.ARRAY_BUFFER, solids.edged);
+  gl.bufferData(gl.ARRAY_BUFFER, kept.subarray(0, BODY_WORDS * at), gl.DYNAMIC_DRAW);
+  return groups;
 }
 
 const FACES = 0, EDGES = 1, NUMBERS = 2;
@@ -147,7 +186,7 @@ const FACES = 0, EDGES = 1, NUMBERS = 2;
 function drawGroup(solids, group, mode) {
   const { gl, uniforms, parts, recording } = solids;
   gl.bindVertexArray(solids.arrays[mode === EDGES ? 1 : 0]);
-  gl.bindBuffer(gl.ARRAY_BUFFER, solids.bodies);
+  gl.bindBuffer(gl.ARRAY_BUFFER, mode === EDGES ? solids.edged : solids.bodies);
   gl.uniform1i(uniforms.mode, mode);
   for (const { shape, first, count } of group) {
     const part = parts[shape];
@@ -165,13 +204,16 @@ function drawGroup(solids, group, mode) {
   }
 }
 
+/* The pixels of a length of 1 at a distance of 1. */
+const pixelsOf = canvas => canvas.height / 2 / Math.tan(FIELD_OF_VIEW / 2);
+
 function setView(solids, camera) {
   const { gl, uniforms } = solids;
   const { right, up, back } = axesOf(camera);
   gl.useProgram(solids.program);
   gl.viewport(0, 0, solids.canvas.width, solids.canvas.height);
   gl.uniformMatrix4fv(uniforms.view, false, matrixOf(camera));
-  gl.uniform1f(uniforms.pixels, solids.canvas.height / 2 / Math.tan(FIELD_OF_VIEW / 2));
+  gl.uniform1f(uniforms.pixels, pixelsOf(solids.canvas));
   gl.uniform3fv(uniforms.eye, add(camera.target, back, camera.distance));
   gl.uniform3fv(uniforms.light, unit(add(add(back.map(x => 0.5 * x), right, -0.5), up, 0.8)));
   gl.enable(gl.DEPTH_TEST);
@@ -187,6 +229,7 @@ function drawSolids(solids, camera, paper) {
   gl.blendFunc(gl.SRC_ALPHA, gl.ONE_MINUS_SRC_ALPHA);
   gl.enable(gl.POLYGON_OFFSET_FILL);
   gl.polygonOffset(2, 4);
+  const edged = loadEdged(solids, camera);
   solids.groups.forEach((group, isPicked) => {
     if (isPicked) {
       gl.clear(gl.DEPTH_BUFFER_BIT);
@@ -194,7 +237,7 @@ function drawSolids(solids, camera, paper) {
     gl.depthMask(!isPicked);
     drawGroup(solids, group, FACES);
     gl.depthMask(true);
-    drawGroup(solids, group, EDGES);
+    drawGroup(solids, edged[isPicked], EDGES);
   });
 }
 

@@ -300,16 +300,24 @@ function startPage(recording) {
     colours = readColours();
     refresh();
   });
-  new ResizeObserver(() => {
+  /* Whether the size of the view has changed. */
+  const fitView = () => {
     const ratio = Math.min(devicePixelRatio || 1, 2);
+    const before = [overlay.width, overlay.height];
     [camera.width, camera.height] = [Math.max(1, overlay.clientWidth), Math.max(1, overlay.clientHeight)];
-    for (const surface of [canvas, overlay]) {
-      [surface.width, surface.height] = [Math.round(camera.width * ratio), Math.round(camera.height * ratio)];
+    const size = [camera.width, camera.height].map(length => Math.round(length * ratio));
+    if (size.every((length, k) => length === before[k])) {
+      return false;
     }
-    draw();
-  }).observe(overlay);
+    for (const surface of [canvas, overlay]) {
+      [surface.width, surface.height] = size;
+    }
+    return true;
+  };
+  /* A new size empties a canvas: it is drawn at once. */
+  new ResizeObserver(() => fitView() && draw()).observe(overlay);
 
-  [camera.width, camera.height] = [Math.max(1, overlay.clientWidth), Math.max(1, overlay.clientHeight)];
+  fitView();
   frameScene(camera, recording);
   describe(recording, Boolean(solids));
   refreshPlot();

@@ -10,6 +10,7 @@ use crate::accuracy::Accuracy;
 use crate::method::{Method, replies};
 use crate::options::Options;
 use crate::parry::{Climbing, Parry, Rings};
+use crate::peers::{self, Asked};
 use crate::report::{self, Row};
 use crate::setting::{Query, setting, setting_of_pair};
 use crate::timing::{Time, time_methods};
@@ -64,11 +65,9 @@ fn methods(mesh: &PolygonMesh, options: &Options) -> Result<Vec<Box<dyn Method>>
 }
 
 fn of_intersection(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
-    Ok(vec![
-        setting("swiftprox", Query::Intersection, &shape(mesh)?, PairConfig::default()),
-        #[cfg(ccd)]
-        Box::new(crate::ccd::Mpr::new(mesh)),
-    ])
+    let mut all = vec![setting("swiftprox", Query::Intersection, &shape(mesh)?, PairConfig::default())];
+    all.extend(peers::of_names(Asked::Verdict, &["libccd-mpr-1e-4"], [mesh; 2]));
+    Ok(all)
 }
 
 /// No two that search alike follow each other: the second would find the branch predictors trained on the very poses.
@@ -82,13 +81,9 @@ fn of_distance(mesh: &PolygonMesh) -> Result<Vec<Box<dyn Method>>, String> {
         parry(Climbing::Steepest),
     ];
     debug_assert_eq!(all.len(), FIRST_TURNS);
-    for tolerance in [1e-6, 1e-10] {
-        #[cfg(fcl)]
-        match crate::fcl::Fcl::new(mesh, tolerance) {
-            Some(fcl) => all.push(Box::new(fcl)),
-            None => eprintln!("FCL refuses this model: compared without it"),
-        }
-        if tolerance == 1e-6 {
+    for peer in ["fcl-1e-6", "fcl-1e-10"] {
+        all.extend(peers::of_names(Asked::Distance, &[peer], [mesh; 2]));
+        if peer == "fcl-1e-6" {
             all.push(parry(Climbing::FirstWithMatrix));
         }
     }

@@ -331,8 +331,7 @@ fn tell(method: &mut dyn Method, poses: &[PosePair]) -> [f64; 4] {
     let replies = replies(method, poses.len());
     let share = |is: fn(&Reply) -> bool| replies.iter().filter(|reply| is(reply)).count() as f64 / poses.len() as f64;
     let steps = replies.iter().map(|reply| reply.steps).sum::<f64>() / poses.len() as f64;
-    let widths =
-        || replies.iter().filter(|reply| reply.distance > 0.0 && reply.width.is_finite()).map(|reply| reply.width);
+    let widths = || replies.iter().filter(|reply| reply.distance > 0.0 && reply.width().is_finite()).map(Reply::width);
     let width = widths().sum::<f64>() / widths().count() as f64;
     [steps, share(|reply| reply.by_levels), share(|reply| reply.fallback || reply.exact), width]
 }

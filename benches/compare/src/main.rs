@@ -2,22 +2,19 @@
 
 mod accuracy;
 mod answers;
+mod bodies;
 mod build_time;
-#[cfg(ccd)]
-mod ccd;
 mod crowd;
 mod depth;
 mod distance;
-#[cfg(fcl)]
-mod fcl;
 mod figures;
 mod marches;
 mod method;
 mod options;
 mod parry;
+mod peers;
 mod report;
 mod setting;
-mod solids;
 mod timing;
 
 use std::process::ExitCode;
@@ -44,8 +41,8 @@ fn main() -> ExitCode {
         }
         if let Some(wanted) = &options.figures {
             figures::run(&options, wanted)
-        } else if let Some(wanted) = &options.solids {
-            solids::run(&options, wanted)
+        } else if let Some(wanted) = &options.bodies {
+            bodies::run(&options, wanted)
         } else if let Some(counts) = &options.crowd {
             crowd::run(&options, counts)
         } else if options.build {

@@ -61,11 +61,10 @@ impl<const FIRST: bool> Method for Marching<FIRST> {
     }
 
     fn reply(&self) -> Reply {
-        let nothing =
-            Reply { distance: f64::NAN, width: f64::NAN, steps: 0.0, fallback: true, exact: false, by_levels: false };
+        let nothing = Reply { steps: 0.0, fallback: true, ..Reply::of(f64::NAN) };
         let reply = self.gap.map_or(nothing, |gap| Reply {
             distance: gap.distance,
-            width: gap.interval.upper - gap.interval.lower,
+            interval: [gap.interval.lower, gap.interval.upper],
             fallback: false,
             ..nothing
         });

@@ -10,8 +10,8 @@ use testkit::PosePair;
 pub struct Reply {
     /// 0 when intersecting; NaN when the method failed.
     pub distance: f64,
-    /// Width of the guaranteed interval; NaN for a method that guarantees none.
-    pub width: f64,
+    /// What is guaranteed to hold the distance; NaN for a method that guarantees nothing.
+    pub interval: [f64; 2],
     /// Work done, in the method's own unit; NaN when it does not say.
     pub steps: f64,
     /// A tier beyond the usual one had to decide.
@@ -20,6 +20,18 @@ pub struct Reply {
     pub exact: bool,
     /// Levels of detail answered.
     pub by_levels: bool,
+}
+
+impl Reply {
+    /// Of a method that says nothing else.
+    pub fn of(distance: f64) -> Reply {
+        Reply { distance, interval: [f64::NAN; 2], steps: f64::NAN, fallback: false, exact: false, by_levels: false }
+    }
+
+    /// Of the guaranteed interval; NaN where nothing is guaranteed.
+    pub fn width(&self) -> f64 {
+        self.interval[1] - self.interval[0]
+    }
 }
 
 /// A distance query with witness points, its coherence and its last answer.

@@ -18,7 +18,7 @@ usage: compare [options]
                     --without-boxes (distance)
   --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
   --methods LIST    of swiftprox, parry-hc, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
-                    of intersection, of swiftprox, libccd-mpr; answers are compared with those of the first of them;
+                    of intersection, of swiftprox, libccd-mpr-1e-4; answers are compared with those of the first of them;
                     of depth, of swiftprox, which may be asked for an error (swiftprox-1e-3), coal, mujoco, parry-hc, libccd-epa,
                     libccd-mpr, bullet, fcl, most of them with a tolerance (coal-1e-10)
   --count N         poses a scene (3600)
@@ -27,9 +27,9 @@ usage: compare [options]
   --figures LIST    time the figures of Ehmann & Lin (2000) instead: of 5 to 12, choice (the automatic choice against the
                     fixed ones), error (approximate distances), size (models of up to 200,000 triangles), or all; a
                     figure has its own sizes, orbits and steps
-  --solids LIST     time exact distance of boxes, prisms, bodies of revolution and ellipsoids whose names begin so, or all,
-                    beside parry instead; on the orbits and at the
-                    steps of those options; --meshes DIR adds the hulls of the OFF files in DIR
+  --bodies LIST     time distances, verdicts, depths and manifolds of bodies whose names begin so, or all, instead: ellipsoids,
+                    boxes, prisms, bodies of revolution, and a box beside each of those; at the steps of that option;
+                    --meshes DIR adds the hulls of the OFF files in DIR. Some of the answers are held against the truth in integers
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
@@ -65,7 +65,7 @@ pub struct Options {
     /// Which figures; empty: all.
     pub figures: Option<Vec<String>>,
     /// Beginnings of names; empty: all.
-    pub solids: Option<Vec<String>>,
+    pub bodies: Option<Vec<String>>,
     pub meshes: Option<PathBuf>,
     pub csv: Option<PathBuf>,
     pub help: bool,
@@ -92,7 +92,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         answers: None,
         depths: None,
         figures: None,
-        solids: None,
+        bodies: None,
         meshes: None,
         csv: None,
         help: false,
@@ -128,8 +128,8 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--figures" => {
                 options.figures = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
-            "--solids" => {
-                options.solids = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
+            "--bodies" => {
+                options.bodies = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
             "--meshes" => options.meshes = Some(value()?.into()),
             "--csv" => options.csv = Some(value()?.into()),

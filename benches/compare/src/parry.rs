@@ -7,6 +7,7 @@ use std::rc::Rc;
 
 use parry3d_f64::math::{Matrix3, Pose, Rotation, Vector};
 use parry3d_f64::query::details::closest_points_support_map_support_map_with_params as distance;
+use parry3d_f64::query::details::intersection_test_support_map_support_map_with_params as intersects;
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
 use parry3d_f64::shape::SupportMap;
 
@@ -227,6 +228,47 @@ impl Method for Parry {
             GJKResult::Intersection => 0.0,
             GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => f64::NAN,
         };
-        Reply { distance, width: f64::NAN, steps: f64::NAN, fallback: false, exact: false, by_levels: false }
+        Reply::of(distance)
+    }
+}
+
+/// The verdict alone, by a GJK that stops at the first direction that separates.
+pub struct Verdict {
+    pair: ClimbedPair,
+    simplex: VoronoiSimplex,
+    intersecting: bool,
+}
+
+impl Verdict {
+    pub fn new(rings: [Rc<Rings>; 2]) -> Verdict {
+        Verdict { pair: ClimbedPair::new(rings), simplex: VoronoiSimplex::new(), intersecting: false }
+    }
+}
+
+impl Method for Verdict {
+    fn name(&self) -> &str {
+        "parry-hc"
+    }
+
+    fn load(&mut self, poses: &[PosePair]) {
+        self.pair.load(poses);
+    }
+
+    fn forget(&mut self) {
+        self.pair.forget();
+    }
+
+    #[inline]
+    fn ask(&mut self, i: usize) {
+        let pose12 = self.pair.relative_pose(i);
+        let [climber1, climber2] = self.pair.climbers::<false>();
+        let (intersecting, direction) =
+            intersects(&pose12, &climber1, &climber2, &mut self.simplex, self.pair.direction);
+        self.intersecting = intersecting;
+        self.pair.direction = Some(direction);
+    }
+
+    fn reply(&self) -> Reply {
+        Reply::of(if self.intersecting { 0.0 } else { f64::INFINITY })
     }
 }

@@ -9,9 +9,10 @@ use crate::accuracy::Accuracy;
 use crate::method::Reply;
 use crate::timing::{Time, median};
 use testkit::orbits::Step;
+use testkit::provenance::provenance;
 
 /// The methods that ratios are against: the first of them that is there.
-const PEERS: [&str; 2] = ["parry-hc", "libccd-mpr"];
+const PEERS: [&str; 2] = ["parry-hc", "libccd-mpr-1e-4"];
 
 /// A method on a scene.
 pub struct Row {
@@ -39,7 +40,7 @@ impl Row {
         accuracy: Accuracy,
     ) -> Row {
         let mut widths: Vec<f64> =
-            replies.iter().filter(|r| r.distance > 0.0 && !r.width.is_nan()).map(|r| r.width).collect();
+            replies.iter().filter(|r| r.distance > 0.0 && !r.width().is_nan()).map(Reply::width).collect();
         let median_width = median(&mut widths);
         Row {
             model: model.into(),
@@ -110,10 +111,7 @@ pub fn build_csv(rows: &[BuildRow]) -> String {
 
 /// Writes a CSV, its folder too, under a line that says on what it was measured.
 pub fn write(path: &Path, passes: usize, csv: &str) -> Result<(), String> {
-    let cpu_info = fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
-    let model_name = cpu_info.lines().find_map(|line| line.strip_prefix("model name"));
-    let cpu = model_name.map_or("unknown CPU", |rest| rest.trim_start_matches([' ', '\t', ':']));
-    let head = format!("# {cpu}, {} passes, {}\n", passes, env!("COMPILER"));
+    let head = format!("# {}, {passes} passes, {}\n", provenance(), env!("COMPILER"));
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)
         .and_then(|()| fs::write(path, head + csv))
@@ -169,43 +167,6 @@ fn print_means(rows: &[&Row]) {
     }
 }
 
-/// A table with a row for each body and orbit: ns a query of the first method and how many times as long the peer takes, at each
-/// step; then the geometric means and the least of the ratios.
-pub fn print_ratios(rows: &[Row]) {
-    let steps = in_order(rows.iter().map(|r| r.step));
-    let head: Vec<String> = steps.iter().map(Step::to_string).collect();
-    println!("| body | vertices | orbit | {} |", head.join(" | "));
-    println!("|---|--:|---|{}", "--:|".repeat(steps.len()));
-    let own = rows.first().map_or("", |r| &r.method);
-    let mut ratios = vec![Vec::new(); steps.len()];
-    for (model, n, orbit) in in_order(rows.iter().map(|r| (&r.model, r.n, &r.orbit))) {
-        print!("| {model} | {n} | {orbit} |");
-        for (step, ratios) in steps.iter().zip(&mut ratios) {
-            let time = |is_own: bool| {
-                let is_here = |r: &&Row| (&r.model, r.n, &r.orbit) == (model, n, orbit) && r.step == *step;
-                rows.iter().filter(is_here).find(|r| (r.method == own) == is_own).map(|r| r.time.best)
-            };
-            match (time(true), time(false)) {
-                (Some(own), Some(peer)) => {
-                    ratios.push(peer / own);
-                    print!(" {own:.0} ({:.2}) |", peer / own);
-                }
-                (Some(own), None) => print!(" {own:.0} |"),
-                (None, _) => print!(" |"),
-            }
-        }
-        println!();
-    }
-    if ratios.iter().all(|ratios| !ratios.is_empty()) {
-        let line = |name: &str, of: &dyn Fn(&[f64]) -> f64| {
-            let cells: Vec<String> = ratios.iter().map(|ratios| format!("{:.2}", of(ratios))).collect();
-            println!("| {name} | | | {} |", cells.join(" | "));
-        };
-        line("geometric mean", &|ratios| geometric_mean(ratios.iter().copied()));
-        line("least", &|ratios| ratios.iter().copied().fold(f64::INFINITY, f64::min));
-    }
-}
-
 pub fn print_build(rows: &[BuildRow]) {
     println!("| model | vertices | method | best ms | median ms | bytes |\n|---|--:|---|--:|--:|--:|");
     for r in rows {
@@ -215,7 +176,7 @@ pub fn print_build(rows: &[BuildRow]) {
 }
 
 /// What is there, each once, in the order of its first appearance.
-fn in_order<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
+pub fn in_order<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     let mut seen = Vec::new();
     for item in items {
         if !seen.contains(&item) {
@@ -225,7 +186,7 @@ fn in_order<T: PartialEq>(items: impl Iterator<Item = T>) -> Vec<T> {
     seen
 }
 
-fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
+pub fn geometric_mean(values: impl Iterator<Item = f64>) -> f64 {
     let (mut sum, mut count) = (0.0, 0);
     for value in values {
         sum += value.ln();

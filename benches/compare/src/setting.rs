@@ -110,7 +110,7 @@ where
         let statistics = &answer.statistics;
         Reply {
             distance,
-            width: answer.upper - answer.lower,
+            interval: [answer.lower, answer.upper],
             steps: f64::from(statistics.marching_steps),
             fallback: statistics.fallback_iterations > 0,
             exact: statistics.exact_iterations > 0,

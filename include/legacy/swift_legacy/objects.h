@@ -119,12 +119,6 @@ struct Part {
         world_box.grow(enlargement());
     }
 
-    /* Half of the longest side that its box can have: the centroid is within the body. */
-    double half_side() const
-    {
-        return (box_centre == BOX_ABOUT_ORIGIN ? 1.5 : 1.0) * radius + std::max(0.0, enlargement());
-    }
-
 private:
     static void place(const double* pose, const double* v, double* image)
     {
@@ -282,20 +276,6 @@ public:
     int rank_of(int id) const
     {
         return ranks_[static_cast<std::size_t>(id)];
-    }
-
-    /* No two parts whose boxes overlap are farther apart. */
-    double farthest_with_overlapping_boxes() const
-    {
-        double half = 0;
-        for (std::size_t i = 0; i < created_.size(); ++i) {
-            const std::vector<Part>& parts = (*this)[created_[i]].parts;
-            for (std::size_t part = 0; part < parts.size(); ++part) {
-                half = std::max(half, parts[part].half_side());
-            }
-        }
-        /* Of each the diagonal, 2 * sqrt(3) * half, and more for the rounding. */
-        return 7 * half;
     }
 
 private:

@@ -5,7 +5,7 @@
 #include "../SWIFT.h"
 
 inline SWIFT_Scene::SWIFT_Scene(bool broad_phase, bool)
-    : scene_(NULL), has_broad_phase_(broad_phase), convexity_(swift_legacy::CONVEXITY_REQUIRED)
+    : scene_(NULL), gives_pairs_(false), has_broad_phase_(broad_phase), convexity_(swift_legacy::CONVEXITY_REQUIRED)
 {
     if (swiftprox_library_check_version(SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR, SWIFTPROX_VERSION_PATCH) != SWIFTPROX_OK) {
         swift_legacy::report_failure("Error (SWIFT_Scene): ");

@@ -4,6 +4,37 @@
 
 #include "../SWIFT.h"
 
+/* Has the scene test the pairs of objects whose boxes overlap. */
+inline void SWIFT_Scene::give_overlapping_boxes()
+{
+    const std::vector<int>& created = objects_.created();
+    for (std::size_t i = 0; i < created.size(); ++i) {
+        swift_legacy::Object& object = objects_[created[i]];
+        if (!object.has_boxes) {
+            swiftprox_object_info info;
+            info.struct_size = sizeof info;
+            check(swiftprox_scene_get_object_info(scene_, object.native, &info), "Query");
+            object.place_boxes(info.pose);
+        }
+    }
+    if (box_pairs_.find(objects_) || !gives_pairs_) {
+        const std::vector<swiftprox_object_id>& pairs = box_pairs_.pairs();
+        const swiftprox_status status = swiftprox_scene_set_pairs(scene_, pairs.empty() ? NULL : &pairs[0], pairs.size() / 2);
+        check(status, "Query");
+        gives_pairs_ = status == SWIFTPROX_OK;
+    }
+}
+
+/* Has the scene find near pairs itself. */
+inline void SWIFT_Scene::take_near_pairs()
+{
+    if (gives_pairs_) {
+        const swiftprox_status status = swiftprox_scene_find_pairs(scene_);
+        check(status, "Query");
+        gives_pairs_ = status != SWIFTPROX_OK;
+    }
+}
+
 /* Drops the pairs whose boxes do not overlap; those that intersect stay. */
 inline void SWIFT_Scene::keep_overlapping_boxes()
 {
@@ -11,8 +42,8 @@ inline void SWIFT_Scene::keep_overlapping_boxes()
     std::size_t kept = 0;
     for (std::size_t i = 0; i < listed.size(); ++i) {
         const swift_legacy::Found& found = *listed[i].found;
-        const swift_legacy::Part& part1 = placed_part(found.user_data1, found.piece1);
-        const swift_legacy::Part& part2 = placed_part(found.user_data2, found.piece2);
+        const swift_legacy::Part& part1 = part(found.user_data1, found.piece1);
+        const swift_legacy::Part& part2 = part(found.user_data2, found.piece2);
         if (swift_legacy::is_intersecting(found) || swift_legacy::overlap(part1.world_box, part2.world_box)) {
             listed[kept++] = listed[i];
         }
@@ -20,16 +51,10 @@ inline void SWIFT_Scene::keep_overlapping_boxes()
     listed.resize(kept);
 }
 
-/* The part of a piece, its box where the object is now. */
-inline const swift_legacy::Part& SWIFT_Scene::placed_part(uint64_t id, uint32_t piece)
+/* The part of a piece. */
+inline const swift_legacy::Part& SWIFT_Scene::part(uint64_t id, uint32_t piece) const
 {
-    swift_legacy::Object& object = objects_[static_cast<int>(id)];
-    if (!object.has_boxes) {
-        swiftprox_object_info info;
-        info.struct_size = sizeof info;
-        check(swiftprox_scene_get_object_info(scene_, object.native, &info), "Query");
-        object.place_boxes(info.pose);
-    }
+    const swift_legacy::Object& object = objects_[static_cast<int>(id)];
     return object.parts[static_cast<std::size_t>(object.part_of[piece])];
 }
 
@@ -46,7 +71,9 @@ inline bool SWIFT_Scene::ask(const swift_legacy::Question& question, int& num_pa
     const bool lists_by_boxes = has_broad_phase_ && question.tolerance > DBL_MAX;
 #endif
     if (lists_by_boxes) {
-        query_.distance_tolerance = objects_.farthest_with_overlapping_boxes();
+        give_overlapping_boxes();
+    } else {
+        take_near_pairs();
     }
     swiftprox_scene_answer answer;
     answer.pairs = NULL;

@@ -27,14 +27,11 @@ pub use cache::DepthCache;
 use cache::{MOST_TRIANGLES, MOST_VERTICES};
 use scaling::{Rescaled, is_in_scale};
 
-/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them
-/// than a normal that separates them: [`crate::pair::distance`] tells how far apart they are.
+/// How deep two polyhedra are in each other.
 ///
 /// # Errors
-/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`], and
-/// [`Error::Argument`](crate::base::error::Error::Argument) for a member of `config` that is out of range. Then `answer` and
-/// `cache` are as they were.
-pub fn depth(
+/// As of [`crate::pair::depth`].
+pub(super) fn of_polyhedra(
     bodies: [Placed; 2],
     cache: &mut DepthCache,
     config: &DepthConfig,

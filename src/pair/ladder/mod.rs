@@ -13,18 +13,43 @@ mod level_glance;
 
 use crate::base::error::Result;
 use crate::base::simd::Portable;
+use crate::base::simd::environment::{self, with_default};
+use crate::pair::answer::PairAnswer;
+use crate::pair::cache::PairCache;
+use crate::pair::config::{PairConfig, Query};
+use crate::pair::placed::Placed;
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::{Guess, start_pair};
 use crate::solve::decide::Pairs;
 use decision::Hint;
 pub(crate) use level_choice::least_error;
 use level_search::Searched;
-use query::Attempt;
-pub(super) use query::{Glances, PairQuery};
+pub(super) use query::Glances;
+use query::{Attempt, PairQuery};
+
+/// A query of two polyhedra.
+///
+/// # Errors
+/// As of [`distance`](crate::pair::distance).
+#[inline(always)]
+pub(super) fn ask(
+    query: Query,
+    glances: Glances,
+    bodies: [Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    found: &mut PairAnswer,
+) -> Result<()> {
+    let mut pair = PairQuery::new(query, &bodies, cache, config, found)?;
+    if !environment::is_default() {
+        return with_default(move || answer(&mut pair, glances));
+    }
+    answer(&mut pair, glances)
+}
 
 /// From the first rung.
 #[inline(always)]
-pub(super) fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }

@@ -12,6 +12,8 @@ mod outline;
 mod clip;
 mod places;
 mod reduction;
+mod swept;
+mod half_space;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -20,11 +22,15 @@ use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::config::PairConfig;
 use crate::pair::depth::DepthAnswer;
 use crate::pair::placed::Placed;
-use crate::pair::signed_distance::{SignedDistance, signed_distance};
+use crate::pair::queries::signed_distance;
+use crate::pair::radii::Radii;
+use crate::pair::signed_distance::SignedDistance;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::Precision;
+pub use half_space::half_space_manifold;
+pub(crate) use half_space::half_space_manifold_into;
 use id::id_of;
 use outline::{Axes, Outline};
 use patch::{COINCIDENT, Facing, facing};
@@ -94,7 +100,7 @@ pub(crate) fn manifold_into(
             ..PairConfig::default()
         };
         signed_distance(bodies, &mut cache.signed_distance, &within, &mut contact)?;
-        Ok(make(bodies, &mut cache.reference, config, &contact, points))
+        Ok(of_bodies(bodies, &mut cache.reference, config, &contact, points))
     })
 }
 
@@ -121,7 +127,28 @@ pub(crate) fn manifold_of(
         Known::Apart(answer) => answer.into(),
         Known::Deep(answer) => answer.into(),
     };
-    make(bodies, reference, config, &contact, points)
+    of_bodies(bodies, reference, config, &contact, points)
+}
+
+/// Of bodies over which balls are swept: that of the polyhedra, whose points are moved out to the surfaces.
+fn of_bodies(
+    bodies: [Placed; 2],
+    before: &mut Reference,
+    config: &ManifoldConfig,
+    contact: &SignedDistance,
+    points: &mut Sink,
+) -> Manifold {
+    let Some(radii) = Radii::of(&bodies) else { return make(bodies, before, config, contact, points) };
+    let poses = bodies.map(|body| body.pose);
+    let of_polyhedra = swept::contact_of_polyhedra(&radii, poses, contact);
+    let config = ManifoldConfig { margin: radii.with(config.margin), ..*config };
+    let mut write = |place: usize, point: &ManifoldPoint| {
+        (points.write)(place, &swept::point_of_bodies(&radii, poses, &contact.normal, point));
+    };
+    let mut sink = Sink { capacity: points.capacity, written: points.written, write: &mut write };
+    let manifold = make(bodies, before, &config, &of_polyhedra, &mut sink);
+    points.written = sink.written;
+    Manifold { outcome: contact.outcome, lower: contact.lower, upper: contact.upper, ..manifold }
 }
 
 /// The pair of witness points.

@@ -104,11 +104,7 @@ impl<'a> Outline<'a> {
     /// The vertex at a corner.
     pub fn vertex(&self, corner: usize) -> u32 {
         match self.patch {
-            Some(Patch::Merged(face)) => {
-                let record = &self.polyhedron.faces[face as usize];
-                let edge = &self.polyhedron.edges[self.polyhedron.side(record, corner as u32) as usize];
-                if edge.left() == face { edge.tail() } else { edge.head() }
-            }
+            Some(Patch::Merged(face)) => self.polyhedron.corner(face, corner as u32),
             Some(Patch::Contact(face)) => {
                 let contact = &self.polyhedron.contact_faces;
                 contact.corners[contact.faces[face as usize].first_corner as usize + corner]

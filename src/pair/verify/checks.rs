@@ -10,10 +10,11 @@ pub(super) fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) ->
         + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
 }
 
-/// What rounding may make of a length as it is checked here; `None` where sums of eight such lengths may overflow.
-pub(super) fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector) -> Option<f64> {
+/// What rounding may make of a length as it is checked here, of bodies over which balls are swept; `None` where sums of eight such
+/// lengths may overflow.
+pub(super) fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector, swept: [f64; 2]) -> Option<f64> {
     let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
-    let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres;
+    let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres + swept[0] + swept[1];
     // Some hundred operations, each with at most half the least double where its result is subnormal.
     let underflow = 128.0 * f64::from_bits(1);
     (all <= f64::MAX / 8.0).then_some(64.0 * U * all + underflow)

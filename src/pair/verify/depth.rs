@@ -5,6 +5,7 @@
 //! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as
 //! in the search.
 
+use super::apart::{check_points, verify_disjoint};
 use super::bounds::Bounds;
 use super::checks::{allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
 use super::facets;
@@ -14,9 +15,11 @@ use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::environment::with_default;
-use crate::pair::answer::Outcome;
+use crate::pair::answer::{Outcome, PairAnswer};
+use crate::pair::contact::PlacedPoints;
 use crate::pair::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
 use crate::pair::placed::Placed;
+use crate::pair::radii::{Radii, moved, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
 use std::cmp::Ordering;
@@ -43,20 +46,22 @@ use std::cmp::Ordering;
 /// As of [`super::verify`].
 pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let radii = Radii::of(&bodies);
     with_default(|| {
         poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
         if answer.outcome != Outcome::None {
             check_numbers(&answer.into())?;
         }
-        match answer.outcome {
-            Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, answer),
-            Outcome::Separated => check_separated(polyhedra, poses, answer),
+        match (answer.outcome, &radii) {
+            (Outcome::Intersecting, None) => check_overlapping(polyhedra, poses, cache, &Radii::NONE, answer),
+            (Outcome::Intersecting, Some(radii)) => check_swept(polyhedra, poses, cache, radii, answer),
+            (Outcome::Separated, radii) => check_separated(polyhedra, poses, &radii.unwrap_or(Radii::NONE), answer),
             _ => Err(Error::Argument("the answer holds no depth".into())),
         }
     })
 }
 
-fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &DepthAnswer) -> Result<()> {
+fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &DepthAnswer) -> Result<()> {
     if (answer.lower, answer.depth, answer.upper) != (0.0, 0.0, 0.0) {
         return Err(unverified("a depth of objects that are said to be separated".into()));
     }
@@ -66,21 +71,25 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Dept
     let normal = Vector::from(answer.normal);
     check_unit(&normal)?;
     let bounds = Bounds::new(polyhedra, poses);
-    if bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&normal), &normal, 0.0)) {
+    // Of bodies without radii it is more than 0 that is proved, of others more than their sum.
+    let least = if radii.upper > 0.0 { radii.upper.next_up() } else { 0.0 };
+    if bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&normal), &normal, least)) {
         return Ok(());
     }
-    if exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]).is_zero() {
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    if truth.compare_sum(&radii.each).is_le() {
         return Err(unverified("the objects have a common point".into()));
     }
     let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
-    check_normal(polyhedra, poses, &normal, &between, -allowed)
+    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
+    check_normal(polyhedra, poses, &normal, &between, radii.lower - allowed)
 }
 
 fn check_overlapping(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     cache: &DepthCache,
+    radii: &Radii,
     answer: &DepthAnswer,
 ) -> Result<()> {
     let DepthAnswer { lower, depth, upper, .. } = *answer;
@@ -91,14 +100,14 @@ fn check_overlapping(
     check_unit(&normal)?;
     let facts = Facts::new(polyhedra, poses);
     let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
+    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
     check_upper(&facts, &normal, upper, allowed)?;
     if lower > 0.0 {
         prove_lower(&facts, cache, lower)?;
     } else {
         check_position(polyhedra, poses, upper)?;
     }
-    let witnesses = witnesses(polyhedra, poses, answer);
+    let witnesses = witnesses(polyhedra, poses, radii, answer);
     // The interval is of the world, features are measured in the object's frame: no entry of RᵀR − I is beyond the limit L, so
     // |x| ≤ |R·x| / √(1 − 3L).
     let local_width = (upper - lower) / (1.0 - 3.0 * ROTATION_LIMIT).sqrt();
@@ -112,6 +121,54 @@ fn check_overlapping(
         return Ok(());
     }
     Err(unverified(format!("the witness points are {off:e} off the translation by {depth:e} along the normal")))
+}
+
+/// Of bodies over which balls are swept: the depth of the polyhedra where they have a common point, or else their distance.
+fn check_swept(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    cache: &DepthCache,
+    radii: &Radii,
+    answer: &DepthAnswer,
+) -> Result<()> {
+    let DepthAnswer { lower, depth, upper, normal, feature1, feature2, .. } = *answer;
+    if !(0.0 <= lower && lower <= depth && depth <= upper && upper < f64::INFINITY) {
+        return Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")));
+    }
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    let points = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
+    if truth.is_zero() {
+        let points = moved(&points, poses, &normal, radii.inwards());
+        let ([local1, local2], [world1, world2]) = (points.local, points.world);
+        let lower = sum_above(lower, -radii.lower).max(0.0);
+        let upper = sum_below(upper, -radii.upper);
+        let depth = clamp(depth - radii.upper, lower, upper);
+        let of_polyhedra = DepthAnswer { lower, depth, upper, local1, local2, world1, world2, ..*answer };
+        return check_overlapping(polyhedra, poses, cache, radii, &of_polyhedra);
+    }
+    match (truth.compare_sum(&radii.each), upper > 0.0) {
+        (Ordering::Greater, _) => return Err(unverified("the objects have no common point".into())),
+        (Ordering::Equal, true) => return Err(unverified("an overlap of objects that only touch".into())),
+        (Ordering::Less, false) => return Err(unverified("no overlap of objects that overlap".into())),
+        (Ordering::Equal, false) | (Ordering::Less, true) => {}
+    }
+    let ([local1, local2], [world1, world2]) = (points.local, points.world);
+    let signed = PairAnswer {
+        outcome: Outcome::Intersecting,
+        lower: -upper,
+        distance: -depth,
+        upper: -lower,
+        local1,
+        local2,
+        world1,
+        world2,
+        normal,
+        feature1,
+        feature2,
+        ..PairAnswer::UNSAID
+    };
+    let allowed = verify_disjoint(polyhedra, poses, radii, &signed)?;
+    check_points(polyhedra, poses, radii, allowed, &signed)
 }
 
 /// Of a lower end of 0 only the position is left to be proved.
@@ -147,12 +204,25 @@ fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Resu
     Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
 }
 
-fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &DepthAnswer) -> [Witness<'a>; 2] {
+fn witnesses<'a>(
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    radii: &Radii,
+    answer: &DepthAnswer,
+) -> [Witness<'a>; 2] {
     let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
     std::array::from_fn(|i| {
         let (local, world, feature) = said[i];
         let (polyhedron, pose) = (polyhedra[i], poses[i]);
-        Witness { object: i + 1, polyhedron, pose, local: local.into(), world: world.into(), feature }
+        Witness {
+            object: i + 1,
+            polyhedron,
+            pose,
+            local: local.into(),
+            world: world.into(),
+            feature,
+            moved: radii.each[i],
+        }
     })
 }
 

@@ -6,6 +6,7 @@ mod numbers;
 mod bounds;
 mod facets;
 mod witness;
+mod apart;
 mod depth;
 
 use crate::base::error::{Error, Result};
@@ -13,18 +14,20 @@ use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
+use crate::pair::radii::Radii;
 use crate::polyhedron::Polyhedron;
-use crate::solve::exact::{self, VertexPair};
+use crate::solve::exact;
+use apart::{check_points, not_in_interval, verify_disjoint, witnesses};
 pub(crate) use bounds::Bounds;
-use bounds::PointInside;
-use checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
+use checks::{allowed, between_origins, check_unit, too_large, unverified};
 pub use depth::verify_depth;
 use numbers::{are_points_said, check_numbers};
-use witness::{Witness, distance_between};
+use witness::distance_between;
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
 ///
-/// The verdict and the interval are proved for the exact objects R·v + T, with no tolerance:
+/// The verdict and the interval are proved for the exact objects R·v + T, with no tolerance; of shapes with a swept radius for
+/// those with the ball around each point:
 ///
 /// | outcome | what is proved, d the true distance |
 /// |---|---|
@@ -39,8 +42,8 @@ use witness::{Witness, distance_between};
 /// Every number that is set is finite, except an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], of separated
 /// objects of which no points are said, and of objects farther apart than the largest double.
 ///
-/// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂|). There ρ is a body's radius
-/// about its centre c, and Δ joins the centres in the world.
+/// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂| + r₁ + r₂). There ρ is a
+/// body's radius about its centre c, Δ joins the centres in the world, and r is the swept radius.
 ///
 /// | member | what is checked |
 /// |---|---|
@@ -52,7 +55,8 @@ use witness::{Witness, distance_between};
 ///
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
 /// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
-/// [`DecidedBy::InscribedSpheres`] excuses an intersection from a proof: integers decide it anew.
+/// [`DecidedBy::InscribedSpheres`] and swept radii excuse an intersection from a proof: integers decide it anew. Points on a swept
+/// body are moved back by its radius along the normal, and checked on the polyhedron.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///
@@ -66,6 +70,7 @@ pub fn verify(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 
 fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
     for pose in poses {
         pose.check(ROTATION_LIMIT)?;
     }
@@ -77,14 +82,14 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
     }
     match answer.outcome {
         Outcome::None => Err(Error::Argument("the answer holds no outcome".into())),
-        Outcome::Separated => verify_separated(polyhedra, poses, answer),
-        Outcome::Beyond => verify_beyond(polyhedra, poses, answer),
-        Outcome::Intersecting => verify_intersecting(polyhedra, poses, answer),
-        Outcome::Undecided => verify_undecided(polyhedra, poses, answer),
+        Outcome::Separated => verify_separated(polyhedra, poses, &radii, answer),
+        Outcome::Beyond => verify_beyond(polyhedra, poses, &radii, answer),
+        Outcome::Intersecting => verify_intersecting(polyhedra, poses, &radii, answer),
+        Outcome::Undecided => verify_undecided(polyhedra, poses, &radii, answer),
     }
 }
 
-fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, and one of
     // which only a separating direction is known: that says no points.
@@ -94,34 +99,24 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
             "not 0 ≤ lower ≤ distance ≤ upper < ∞, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
         )));
     }
-    let allowed = verify_disjoint(polyhedra, poses, answer)?;
+    let allowed = verify_disjoint(polyhedra, poses, radii, answer)?;
     if !are_points_said(&answer.into()) {
         return Ok(());
     }
-    let witnesses = witnesses(polyhedra, poses, answer);
-    for witness in &witnesses {
-        witness.check_point(allowed, &[])?;
-        // A point is on the surface as far as the interval tells that it is nearest.
-        witness.check_on_feature(allowed + (upper - lower))?;
-    }
-    let apart = distance_between(polyhedra, poses, &witnesses);
-    if !(apart >= lower - allowed && apart <= upper + allowed) {
-        return Err(unverified(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}]")));
-    }
-    Ok(())
+    check_points(polyhedra, poses, radii, allowed, answer)
 }
 
-fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     if !(lower >= 0.0 && distance == lower && upper == f64::INFINITY) {
         return Err(unverified(format!("not 0 ≤ lower = distance, upper = ∞: {lower:e}, {distance:e}, {upper:e}")));
     }
     check_no_points(answer)?;
-    verify_disjoint(polyhedra, poses, answer).map(|_| ())
+    verify_disjoint(polyhedra, poses, radii, answer).map(|_| ())
 }
 
 /// An interval says no more than that the objects are not farther apart.
-fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {
         return Err(unverified(format!("not 0 = lower ≤ distance ≤ upper: {lower:e}, {distance:e}, {upper:e}")));
@@ -132,79 +127,8 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &Pai
         return Ok(());
     }
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
-    if truth.compare(upper).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
-}
-
-/// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
-fn verify_disjoint(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<f64> {
-    let normal = Vector::from(answer.normal);
-    check_unit(&normal)?;
-    let proof = prove_interval(polyhedra, poses, answer);
-    if !(proof.lower && proof.upper) {
-        prove_interval_exactly(polyhedra, poses, answer, &proof.near)?;
-    }
-    let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between).ok_or_else(too_large)?;
-    if !proof.lower {
-        check_normal(polyhedra, poses, &normal, &between, answer.lower - allowed)?;
-    }
-    Ok(allowed)
-}
-
-/// What of an interval is proved, and vertex pairs near where the objects are nearest.
-struct Proof {
-    lower: bool,
-    upper: bool,
-    near: Vec<VertexPair>,
-}
-
-/// What double-double arithmetic proves of the interval of a disjoint pair: by the gap along the normal from below, from above by
-/// the witness points where they are said, else by the vertices that face each other.
-fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Proof {
-    let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
-    let Some(bounds) = Bounds::new(polyhedra, poses) else { return nothing };
-    let normal = Vector::from(answer.normal);
-    let gap = bounds.gap(&normal);
-    let witnesses = witnesses(polyhedra, poses, answer);
-    let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
-    let mut near: Vec<VertexPair> =
-        points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])).collect();
-    near.sort_unstable();
-    near.dedup();
-    Proof {
-        // A gap of 0 separates nothing.
-        lower: answer.lower > 0.0 && bounds.prove_lower(&gap, &normal, answer.lower),
-        upper: nothing.upper || bounds.prove_upper(&points, answer.upper),
-        near,
-    }
-}
-
-/// Proves the interval of a disjoint pair in integers, or refutes it.
-fn prove_interval_exactly(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    answer: &PairAnswer,
-    near: &[VertexPair],
-) -> Result<()> {
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
-    let holds = truth.compare(answer.lower).is_ge() && truth.compare(answer.upper).is_le();
-    if truth.is_zero() || !holds {
-        return Err(not_in_interval(&truth, answer));
-    }
-    let least = f64::from_bits(1);
-    if answer.outcome == Outcome::Separated && answer.lower == 0.0 && truth.compare(least).is_ge() {
-        return Err(unverified(format!("a lower end of 0, though the objects are at least {least:e} apart")));
-    }
-    Ok(())
-}
-
-fn not_in_interval(truth: &exact::ExactDistance, answer: &PairAnswer) -> Error {
-    let PairAnswer { lower: said_lower, upper: said_upper, .. } = answer;
-    let (lower, upper) = truth.bounds();
-    unverified(match truth.is_zero() {
-        true => format!("the objects intersect, they are not [{said_lower:e}, {said_upper:e}] apart"),
-        false => format!("their distance is in [{lower:e}, {upper:e}], not in [{said_lower:e}, {said_upper:e}]"),
-    })
+    let [radius1, radius2] = radii.each;
+    if truth.compare_sum(&[upper, radius1, radius2]).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
 }
 
 fn check_no_points(answer: &PairAnswer) -> Result<()> {
@@ -221,20 +145,15 @@ fn check_no_normal(answer: &PairAnswer) -> Result<()> {
     Err(unverified(format!("a normal of an answer that says no points: {:?}", answer.normal)))
 }
 
-/// What the answer says of each object.
-fn witnesses<'a>(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2], answer: &PairAnswer) -> [Witness<'a>; 2] {
-    let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
-    std::array::from_fn(|i| {
-        let (local, world, feature) = said[i];
-        let (polyhedron, pose) = (polyhedra[i], poses[i]);
-        Witness { object: i + 1, polyhedron, pose, local: local.into(), world: world.into(), feature }
-    })
-}
-
-fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+fn verify_intersecting(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    answer: &PairAnswer,
+) -> Result<()> {
     let count = answer.proof_count as usize;
-    if count == 0 && answer.decided_by == DecidedBy::InscribedSpheres {
-        return verify_without_proof(polyhedra, poses, answer);
+    if count == 0 && (answer.decided_by == DecidedBy::InscribedSpheres || radii.upper > 0.0) {
+        return verify_without_proof(polyhedra, poses, radii, answer);
     }
     if !(1..=4).contains(&count) {
         return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
@@ -258,8 +177,8 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
     if !are_points_said(&answer.into()) {
         return check_no_normal(answer);
     }
-    let witnesses = witnesses(polyhedra, poses, answer);
-    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses)).ok_or_else(too_large)?;
+    let witnesses = witnesses(polyhedra, poses, &Radii::NONE, answer);
+    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses), [0.0; 2]).ok_or_else(too_large)?;
     check_unit(&Vector::from(answer.normal))?;
     for (i, witness) in witnesses.iter().enumerate() {
         // The point is a convex combination of the proof's vertices.
@@ -274,13 +193,45 @@ fn verify_intersecting(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &
     Ok(())
 }
 
-/// Overlapping balls leave no vertex pairs as a proof: integers decide anew.
-fn verify_without_proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], answer: &PairAnswer) -> Result<()> {
+/// Overlapping balls, and swept radii, leave no vertex pairs as a proof: integers decide anew.
+fn verify_without_proof(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    answer: &PairAnswer,
+) -> Result<()> {
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));
     }
-    check_no_points(answer)?;
-    check_no_normal(answer)?;
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
-    if truth.compare(0.0).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
+    if truth.compare_sum(&radii.each).is_gt() {
+        return Err(not_in_interval(&truth, answer));
+    }
+    if are_points_said(&answer.into()) && radii.upper > 0.0 {
+        return check_common_point(polyhedra, poses, radii, answer);
+    }
+    check_no_points(answer)?;
+    check_no_normal(answer)
+}
+
+/// One point, which is no farther from either polyhedron than its radius.
+fn check_common_point(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    answer: &PairAnswer,
+) -> Result<()> {
+    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses), radii.each).ok_or_else(too_large)?;
+    check_unit(&Vector::from(answer.normal))?;
+    let mut witnesses = witnesses(polyhedra, poses, &Radii::NONE, answer);
+    for (witness, radius) in witnesses.iter_mut().zip(radii.each) {
+        witness.moved = radius;
+        witness.check_point(radius + allowed, &[])?;
+        witness.check_feature()?;
+    }
+    let apart = distance_between(polyhedra, poses, &witnesses);
+    if apart <= allowed {
+        return Ok(());
+    }
+    Err(unverified(format!("the witness points of a contact are {apart:e} apart")))
 }

@@ -23,6 +23,8 @@ pub struct Witness<'a> {
     pub world: Vector,
     /// The feature it is said to be on.
     pub feature: Feature,
+    /// How far it was moved from where it is said to be.
+    pub moved: f64,
 }
 
 impl Witness<'_> {
@@ -71,7 +73,8 @@ impl Witness<'_> {
             [*local, *world, pose.translation(), polyhedron.centre].map(|v| 0.125 * v);
         let apart = length(&(pose.rotate(&local) + translation - world));
         // Two ways to compute R·p + T, some ten roundings each, of a point between vertices that the body's size rounds; |R| ≤ 1.8.
-        let rounding = 64.0 * U * (0.125 * polyhedron.radius + length(&centre) + length(&translation));
+        let sizes = 0.125 * (polyhedron.radius + self.moved);
+        let rounding = 64.0 * U * (sizes + length(&centre) + length(&translation));
         if !(apart <= rounding + 64.0 * f64::from_bits(1)) {
             let apart = 8.0 * apart;
             return Err(unverified(format!("witness point {object} in the world is {apart:e} off the local one")));
@@ -143,12 +146,8 @@ impl Witness<'_> {
 
 /// A face as triangles from its first corner.
 fn triangles_of_face(polyhedron: &Polyhedron, face: u32) -> impl Iterator<Item = [u32; 3]> {
-    let record = &polyhedron.faces[face as usize];
-    let corner = move |side: u32| {
-        let edge = &polyhedron.edges[polyhedron.side(record, side) as usize];
-        if edge.left() == face { edge.tail() } else { edge.head() }
-    };
-    (2..record.side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
+    let corner = move |side: u32| polyhedron.corner(face, side);
+    (2..polyhedron.faces[face as usize].side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
 }
 
 fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {

@@ -36,6 +36,8 @@ pub(crate) struct BroadPhase {
     /// Whose pairs are looked for, of all pieces: less memory to read than their rows.
     is_open: Vec<bool>,
     tolerance: ListTolerance,
+    /// All pairs of few pieces are listed, whatever the tolerance.
+    lists_few: bool,
 }
 
 /// What the list holds.
@@ -72,6 +74,7 @@ impl Default for BroadPhase {
             scratch: Scratch::default(),
             is_open: Vec::new(),
             tolerance: ListTolerance::default(),
+            lists_few: false,
         }
     }
 }
@@ -135,6 +138,7 @@ impl BroadPhase {
             news: self.news,
             parents: std::mem::take(&mut self.parents),
             tolerance: ListTolerance::new(self.tolerance.value()),
+            lists_few: self.lists_few,
             ..BroadPhase::default()
         };
         Ok(())
@@ -162,12 +166,35 @@ impl BroadPhase {
         Ok(decisions)
     }
 
+    /// The trees, of moving pieces and of fixed ones, while each piece is in one of them, except some of those that have escaped,
+    /// and is in the boxes there unless it has escaped.
+    pub fn fitted_trees(&self, proxies: &Proxies) -> Option<&[Tree; 2]> {
+        let are_fitted = self.trees.iter().all(|tree| tree.is_fitted);
+        (self.listing == Listing::Overlaps && are_fitted && !proxies.misses_escaped).then_some(&self.trees)
+    }
+
+    /// Brings the list and both trees up to date, so that there are [fitted trees](BroadPhase::fitted_trees) and nothing has
+    /// escaped; of pairs that the program gives there are none.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
+    pub fn fit_trees(&mut self, world: &mut World, workers: &Workers) -> Result<()> {
+        self.update(world, 0.0, workers)?;
+        if world.given.is_none() {
+            self.fit_tree(false, &world.proxies)?;
+            self.fit_tree(true, &world.proxies)?;
+        }
+        Ok(())
+    }
+
     /// Brings the list up to date: all that a query with this tolerance may list are among its pairs.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
     #[inline]
     pub fn update(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
+        // A first look at each of few pairs takes less than boxes that follow their pieces.
+        let tolerance = if world.has_few_pairs() { f64::INFINITY } else { tolerance };
         if self.is_up_to_date(world, tolerance) { Ok(()) } else { self.catch_up(world, tolerance, workers) }
     }
 
@@ -237,7 +264,8 @@ impl BroadPhase {
     /// Makes the list hold the pairs of boxes that overlap.
     fn list_overlaps(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
         // What was kept of few objects must not be of many.
-        if self.tolerance.value() == f64::INFINITY && !world.is_small() {
+        let lists_few = std::mem::replace(&mut self.lists_few, world.has_few_pairs());
+        if self.tolerance.value() == f64::INFINITY && (!world.is_small() || lists_few && !self.lists_few) {
             self.tolerance = ListTolerance::new(tolerance);
             self.listing = Listing::OutOfDate;
         }

@@ -5,7 +5,7 @@
 //! then at most τ, and each box is grown by at least τ/2. A query with a larger tolerance has all boxes fitted anew. What else the
 //! list holds depends on how the objects came to where they are; so no answer may depend on that.
 
-mod tree;
+pub(crate) mod tree;
 mod grid;
 mod tolerance;
 pub(crate) mod candidates;

@@ -40,11 +40,17 @@ struct Node {
 
 /// A node, or with the highest bit a leaf: a proxy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-struct Branch(u32);
+pub(crate) struct Branch(u32);
 
 enum Kind {
     Node(u32),
     Leaf(u32),
+}
+
+/// What a branch holds.
+pub(crate) enum Held {
+    Proxy(u32),
+    Branches([Branch; 2]),
 }
 
 impl Branch {
@@ -165,8 +171,23 @@ impl Tree {
         }
     }
 
+    /// Where a traversal begins.
+    pub fn root(&self) -> Option<Branch> {
+        self.root
+    }
+
+    /// What a branch holds.
     #[inline(always)]
-    fn bounds<'a>(&'a self, branch: Branch, boxes: &'a [Aabb]) -> &'a Aabb {
+    pub fn held(&self, branch: Branch) -> Held {
+        match branch.kind() {
+            Kind::Leaf(proxy) => Held::Proxy(proxy),
+            Kind::Node(at) => Held::Branches(self.nodes[at as usize].children),
+        }
+    }
+
+    /// The box of a branch.
+    #[inline(always)]
+    pub fn bounds<'a>(&'a self, branch: Branch, boxes: &'a [Aabb]) -> &'a Aabb {
         match branch.kind() {
             Kind::Node(at) => &self.nodes[at as usize].bounds,
             Kind::Leaf(proxy) => &boxes[proxy as usize],

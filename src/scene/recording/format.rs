@@ -276,7 +276,7 @@ fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>
         Kind::Fixed => Change::Fixed(from.number()?, from.flag()?),
         Kind::Groups => Change::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
         Kind::UserData => Change::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
-        Kind::Pose => Change::Pose(from.number()?, from.pose()?),
+        Kind::Pose => Change::Pose(from.number()?, Cow::Owned(from.pose()?)),
         Kind::Poses => Change::Poses(from.numbers()?.into(), from.poses()?.into()),
         Kind::AllPoses => Change::AllPoses(from.poses()?.into()),
         Kind::PiecePose => Change::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? },

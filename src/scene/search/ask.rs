@@ -56,8 +56,10 @@ pub(crate) struct Search {
 #[derive(Debug, Default)]
 struct Kept {
     findings: Findings,
-    /// What it asked of all near pairs and the number of its pass, if that came to its end.
-    last: Option<(Request, u64)>,
+    /// The number of its pass over all near pairs, if that came to its end, …
+    pass: Option<u64>,
+    /// … and what it asked.
+    asked: Option<Request>,
 }
 
 /// The kinds over all pairs, whose numbers are those of their marks in the list, and one for what is asked of one body.
@@ -88,19 +90,12 @@ impl Search {
             return with_default(move || self.ask(ground, subject, kind, query));
         }
         self.latest = number_of(subject, kind);
-        let found = Request::new(kind, query).and_then(|request| match *subject {
-            Subject::AllPairs | Subject::Events => self.ask_all(ground, &request),
-            Subject::Object(id) => self.ask_object(ground, id, &request),
-            Subject::Placed(shape, pose) => {
-                pose.check(ground.world.rotation_limit)?;
-                self.ask_placed(ground, shape, &pose, &request)
-            }
-        });
+        let found = self.find(ground, subject, kind, query);
         self.stopped = matches!(found, Ok(true));
-        let Kept { findings, last } = &mut self.kept[self.latest];
+        let Kept { findings, pass, .. } = &mut self.kept[self.latest];
         if let Err(error) = found {
             findings.clear();
-            *last = None;
+            *pass = None;
             return Err(error);
         }
         if self.stopped {
@@ -112,6 +107,26 @@ impl Search {
             self.statistics.error_spent += findings.error_spent();
         }
         Ok(self.answer())
+    }
+
+    /// Fills the findings of the query's kind; true if it stopped at an intersecting pair, the last result.
+    #[inline(always)]
+    fn find(
+        &mut self,
+        ground: &mut Ground,
+        subject: &Subject<ObjectId, &Arc<Shape>>,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<bool> {
+        let request = Request::new(kind, query)?;
+        match *subject {
+            Subject::AllPairs | Subject::Events => self.ask_all(ground, &request),
+            Subject::Object(id) => self.ask_object(ground, id, &request),
+            Subject::Placed(shape, pose) => {
+                pose.check(ground.world.rotation_limit)?;
+                self.ask_placed(ground, shape, &pose, &request)
+            }
+        }
     }
 
     /// What the last query found.
@@ -136,7 +151,7 @@ impl Search {
 
     /// No answer of before is given again.
     pub fn forget(&mut self) {
-        self.kept.iter_mut().for_each(|kept| kept.last = None);
+        self.kept.iter_mut().for_each(|kept| kept.pass = None);
     }
 
     /// Gives back all room.
@@ -162,8 +177,8 @@ impl Search {
     /// What each pair may take that has a share of a budget: while nothing moves, what it was.
     fn share(&mut self, ground: &mut Ground, request: &Request, budget: f64) -> Result<f64> {
         let (proxies, list) = (&ground.world.proxies, &mut ground.near.list);
-        let last = &mut self.kept[self.latest].last;
-        if let Some((asked, pass)) = last
+        let Kept { pass, asked, .. } = &mut self.kept[self.latest];
+        if let (Some(pass), Some(asked)) = (&pass, &asked)
             && asked.error_budget == request.error_budget
             && asked.tolerance == request.tolerance
             && let Some(share) = asked.share
@@ -173,7 +188,7 @@ impl Search {
         }
         let dealt = deal(request, budget, proxies, &mut list.pairs, &list.marks[self.latest], &mut self.needs)?;
         if !dealt.is_for_all {
-            *last = None;
+            *pass = None;
         }
         Ok(dealt.share)
     }
@@ -189,8 +204,8 @@ impl Search {
                 Err(error) => return Err(error),
             }
         }
-        let Kept { findings, last } = &mut self.kept[self.latest];
-        *last = None;
+        let Kept { findings, pass, .. } = &mut self.kept[self.latest];
+        *pass = None;
         findings.begin(None);
         let (proxies, mut rules, _) = ground.world.parts();
         let pass = Pass::new(request, proxies, None);
@@ -206,10 +221,11 @@ impl Search {
     /// The same over the list. Where the last pass of the kind asked the same, it gives the answers of what rests again.
     fn pass_over_list(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
         let (kind, proxies, list) = (self.latest, &ground.world.proxies, &mut ground.near.list);
-        let Kept { findings, last } = &mut self.kept[kind];
-        let gives_again = match last.take() {
-            Some((last, pass)) if last.is_same(request) => self.before.find_moved(proxies, pass)?,
-            _ => false,
+        let Kept { findings, pass: last_pass, asked } = &mut self.kept[kind];
+        let asked_same = last_pass.take().filter(|_| asked.as_ref().is_some_and(|asked| asked.is_same(request)));
+        let gives_again = match asked_same {
+            Some(last_pass) => self.before.find_moved(proxies, last_pass)?,
+            None => false,
         };
         findings.begin(gives_again.then_some(&mut self.before));
         if request.details.is_some() {
@@ -227,7 +243,11 @@ impl Search {
             findings.join(&mut self.before)?;
         }
         if !stopped {
-            *last = Some((*request, ground.world.passes));
+            // A request is large: one that is there is not written again, unless what it says of budgets may differ.
+            if asked_same.is_none() || request.error_budget.is_some() {
+                *asked = Some(*request);
+            }
+            *last_pass = Some(ground.world.passes);
             if request.details.is_some() {
                 list.forget_depths(kind);
             }

@@ -264,6 +264,9 @@ impl<'a> Pass<'a> {
     #[inline(always)]
     fn look(&self, pair: &NearPair, statistics: &mut SceneStatistics) -> Look {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
+        if self.tolerance == f64::INFINITY {
+            return Look::Test;
+        }
         let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
         if are_far_apart(spheres1, spheres2, self.tolerance) {
             statistics.count_settled(Settled::BoundingSpheres);

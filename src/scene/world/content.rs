@@ -11,11 +11,14 @@ use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::object_view::Objects;
 use crate::scene::world::proxies::{NewProxy, Proxies};
 use crate::scene::world::rows::Label;
-use crate::scene::world::testing::{Decided, PairFilter, Rules};
+use crate::scene::world::testing::{Decided, PairFilter, Rules, is_tested};
 use crate::shape::Shape;
 
 /// Without a tolerance all pairs are near: so many are kept with what they remember, unless the program says otherwise.
 pub(crate) const DEFAULT_KEPT_PAIRS: u64 = 1 << 20;
+
+/// So few pairs of pieces are all near.
+const FEW_PAIRS: u64 = 16;
 
 /// Objects, where they are, and what was said on the testing of their pairs.
 #[derive(Debug)]
@@ -154,6 +157,20 @@ impl World {
         }
     }
 
+    /// Whether a question that changes nothing tests a pair of pieces. `moved`: one of them is elsewhere for the question, so that
+    /// both may be of fixed objects.
+    pub fn is_tested(&self, [a, b]: [usize; 2], moved: bool) -> bool {
+        let World { objects, proxies, activation, filter, given, .. } = self;
+        if !(if moved { proxies.may_meet_moved(a, b) } else { proxies.may_meet(a, b) }) {
+            return false;
+        }
+        let labels = [a.min(b), a.max(b)].map(|proxy| &proxies.labels[proxy]);
+        let [earlier, later] = labels.map(|label| label.object);
+        let is_given =
+            given.as_ref().is_none_or(|given| given.contains(&[earlier, later]) || given.contains(&[later, earlier]));
+        is_given && is_tested(objects, activation, filter.as_ref(), labels)
+    }
+
     /// Whether a pair is tested when it is near, whatever the filter says.
     ///
     /// # Errors
@@ -215,8 +232,18 @@ impl World {
 
     /// Whether all pairs may be kept.
     pub fn is_small(&self) -> bool {
+        self.pair_count() <= self.kept_pair_limit
+    }
+
+    /// Whether pairs are so few that all are kept whatever is asked.
+    pub fn has_few_pairs(&self) -> bool {
+        self.pair_count() <= FEW_PAIRS.min(self.kept_pair_limit)
+    }
+
+    /// Of two pieces, whether they may meet or not.
+    fn pair_count(&self) -> u64 {
         // At most 2³¹: the product fits.
         let count = (self.proxies.len() - self.proxies.gone) as u64;
-        count * count.saturating_sub(1) / 2 <= self.kept_pair_limit
+        count * count.saturating_sub(1) / 2
     }
 }

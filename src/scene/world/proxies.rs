@@ -135,6 +135,7 @@ impl Proxies {
     }
 
     /// Puts a piece elsewhere: [`Rows::place`].
+    #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
         if self.rows().place(proxy, pose, defect, passes) {
             self.escaped.push(proxy as u32);
@@ -157,9 +158,15 @@ impl Proxies {
     /// Whether two pieces may make a pair.
     #[inline(always)]
     pub fn may_meet(&self, a: usize, b: usize) -> bool {
+        self.may_meet_moved(a, b) & !(self.labels[a].fixed & self.labels[b].fixed)
+    }
+
+    /// The same of pieces of which one is elsewhere for a question: both may be of fixed objects.
+    #[inline(always)]
+    pub fn may_meet_moved(&self, a: usize, b: usize) -> bool {
         let [one, other] = [&self.labels[a], &self.labels[b]];
         let are_masked = (one.groups & other.mask == 0) | (other.groups & one.mask == 0);
-        (one.object != other.object) & !(one.fixed & other.fixed) & !are_masked & !self.is_gone(a) & !self.is_gone(b)
+        (one.object != other.object) & !are_masked & !self.is_gone(a) & !self.is_gone(b)
     }
 
     /// Whether the rows of pieces that are gone should be dropped.

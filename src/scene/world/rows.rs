@@ -24,7 +24,7 @@ const FIRST_ROOM: f32 = 0.04;
 const NO_BOX: f64 = f64::NEG_INFINITY;
 
 /// Below this lengths are taken for nothing: their squares may underflow.
-const TINY: f64 = 1e-150;
+pub(crate) const TINY: f64 = 1e-150;
 
 /// Balls about one centre: the piece is in the outer one, the inner one in the piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -136,7 +136,7 @@ impl<'a> Rows<'a> {
 
     /// Puts a piece elsewhere. `defect`: that of the rotation. `passes`: how many times queries have looked at the pairs. True if
     /// it has just left its box.
-    #[inline]
+    #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) -> bool {
         let at = proxy - self.first;
         let old = self.poses[at];
@@ -176,7 +176,7 @@ impl<'a> Rows<'a> {
     pub fn refit(&mut self, proxy: usize, tolerance: f64) {
         let at = proxy - self.first;
         let motion = &mut self.motions[at];
-        let Spheres { centre, outer, .. } = self.spheres[at];
+        let outer = self.spheres[at].outer;
         let most = MOST_ROOM * outer;
         let can_move = !self.labels[at].fixed;
         let room = match motion.rate {
@@ -194,10 +194,14 @@ impl<'a> Rows<'a> {
             (false, true) => limit,
             (false, false) => NO_BOX,
         };
-        let (shape, pose) = (&self.shapes[at], &self.poses[at]);
-        let reach = shape.extent().reach(pose, outer.into());
-        self.boxes[at] = Aabb::around(centre, &reach, grown + centre_error(shape, pose));
+        self.boxes[at] = grown_box(&self.shapes[at], &self.poses[at], &self.spheres[at], grown);
     }
+}
+
+/// A box around a placed shape and whatever is no farther from it than this; `spheres` are those of [`placed`].
+pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
+    let reach = shape.extent().reach(pose, spheres.outer.into());
+    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
 }
 
 /// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
@@ -210,8 +214,10 @@ pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool)
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
-    let outer = (polyhedron.radius * (1.0 + stretch) + error) * (1.0 + 8.0 * U);
-    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error) * (1.0 - 8.0 * U);
+    // A pose does not stretch the ball that is swept.
+    let swept = shape.swept_radius();
+    let outer = (polyhedron.radius * (1.0 + stretch) + error + swept) * (1.0 + 8.0 * U);
+    let inner = (shape.extent().inner_radius * (1.0 - stretch) - error + swept) * (1.0 - 8.0 * U);
     (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
 }
 

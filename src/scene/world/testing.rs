@@ -1,6 +1,9 @@
 //! Which pairs queries test: activation, and the program's own word.
 
+use std::sync::Mutex;
+
 use crate::base::error::Result;
+use crate::base::locks::{locked, unlocked};
 use crate::base::memory::push;
 use crate::base::simd::environment::with_callers;
 use crate::scene::world::activation::Activation;
@@ -19,7 +22,8 @@ pub(crate) enum Testing {
 
 /// A program's word on which pairs of objects are tested, the earlier created first.
 pub struct PairFilter {
-    filter: Box<Filter>,
+    /// Behind a lock for questions that several threads ask at once.
+    filter: Mutex<Box<Filter>>,
     /// What it has decided and is not yet written down, of a scene that is recorded.
     decided: Option<Result<Vec<Decided>>>,
 }
@@ -32,7 +36,7 @@ type Filter = dyn FnMut(ObjectId, ObjectId) -> bool + Send + Sync;
 impl PairFilter {
     /// A filter that calls a function.
     pub fn new(filter: impl FnMut(ObjectId, ObjectId) -> bool + Send + Sync + 'static) -> PairFilter {
-        PairFilter { filter: Box::new(filter), decided: None }
+        PairFilter { filter: Mutex::new(Box::new(filter)), decided: None }
     }
 
     /// Whether it remembers what it decides.
@@ -47,13 +51,20 @@ impl PairFilter {
 
     fn accepts(&mut self, pair: [ObjectId; 2]) -> bool {
         let [object1, object2] = pair;
-        let accepts = with_callers(|| (self.filter)(object1, object2));
+        let filter = unlocked(&mut self.filter);
+        let accepts = with_callers(|| filter(object1, object2));
         if let Some(Ok(decided)) = &mut self.decided
             && let Err(error) = push(decided, (pair, accepts))
         {
             self.decided = Some(Err(error));
         }
         accepts
+    }
+
+    /// What it says of a pair, for a question that is not written down.
+    fn asked(&self, [object1, object2]: [ObjectId; 2]) -> bool {
+        let mut filter = locked(&self.filter);
+        with_callers(|| filter(object1, object2))
     }
 }
 
@@ -97,4 +108,16 @@ impl Rules<'_> {
             _ => Testing::Inactive,
         }
     }
+}
+
+/// Whether questions that change nothing test a pair of objects, the earlier created first.
+pub(crate) fn is_tested(
+    objects: &ObjectTable,
+    activation: &Activation,
+    filter: Option<&PairFilter>,
+    labels: [&Label; 2],
+) -> bool {
+    let rules = Rules { objects, activation, filter: None };
+    rules.active(labels) == Testing::Active
+        && filter.is_none_or(|filter| filter.asked(labels.map(|label| label.object)))
 }

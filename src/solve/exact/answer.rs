@@ -78,23 +78,64 @@ impl ExactDistance {
         if other == f64::INFINITY {
             return Ordering::Less;
         }
-        let (mantissa, exponent) = decode(other);
-        if self.is_zero() || mantissa == 0 {
-            return (!self.is_zero()).cmp(&(mantissa != 0));
+        self.compare_sum(&[other])
+    }
+
+    /// The same against a sum of finite doubles.
+    pub fn compare_sum(&self, parts: &[f64]) -> Ordering {
+        let (sum, exponent) = exact_sum(parts);
+        if sum < IBig::ZERO {
+            return Ordering::Greater;
         }
-        let mantissa = IBig::from(mantissa);
-        let (mut own, mut others) = (&self.height * &self.height, &mantissa * &mantissa * &self.square);
+        if self.is_zero() || sum.is_zero() {
+            return (!self.is_zero()).cmp(&!sum.is_zero());
+        }
+        let ([own, others], _) = self.squares(&sum, exponent);
+        own.cmp(&others)
+    }
+
+    /// By how much the distance exceeds a sum of doubles that are not negative: doubles below and above, both at least 0. `None`
+    /// where it does not.
+    pub fn excess(&self, parts: &[f64]) -> Option<(f64, f64)> {
+        let (sum, exponent) = exact_sum(parts);
+        if self.is_zero() {
+            return None;
+        }
+        let ([own, others], exponent) = self.squares(&sum, exponent);
+        if own <= others {
+            return None;
+        }
+        // d − s = (d² − s²)/(d + s), where nothing cancels any more: both parts of the sum are rounded, and the sum, and the
+        // quotient.
+        let (lower, upper) = bounds_of_quotient_by_root(&(own - others), &(&self.square * &self.square), exponent);
+        let (nearest, farthest) = self.bounds();
+        let least = parts.iter().fold(nearest, |sum, part| (sum + part).next_down());
+        let most = parts.iter().fold(farthest, |sum, part| (sum + part).next_up());
+        Some(((lower / most).next_down().max(0.0), (upper / least).next_up()))
+    }
+
+    /// The squares of the distance and of sum·2^exponent, both times the square of the direction, over one power of two.
+    fn squares(&self, sum: &IBig, exponent: i32) -> ([IBig; 2], i32) {
+        let (mut own, mut others) = (&self.height * &self.height, sum * sum * &self.square);
         let shift = 2 * self.exponent.abs_diff(exponent) as usize;
         if self.exponent > exponent {
             own <<= shift;
         } else {
             others <<= shift;
         }
-        own.cmp(&others)
+        ([own, others], 2 * self.exponent.min(exponent))
     }
 
     /// The doubles next to it, below and above; both the same when it is one.
     pub fn bounds(&self) -> (f64, f64) {
         if self.is_zero() { (0.0, 0.0) } else { bounds_of_quotient_by_root(&self.height, &self.square, self.exponent) }
     }
+}
+
+/// The sum of finite doubles, as an integer times a power of two.
+fn exact_sum(parts: &[f64]) -> (IBig, i32) {
+    let decoded = || parts.iter().map(|part| decode(*part));
+    let exponent = decoded().filter(|(mantissa, _)| *mantissa != 0).map(|(_, exponent)| exponent).min().unwrap_or(0);
+    let sum = decoded().filter(|(mantissa, _)| *mantissa != 0);
+    (sum.map(|(mantissa, own)| IBig::from(mantissa) << (own - exponent) as usize).sum(), exponent)
 }

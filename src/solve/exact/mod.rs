@@ -16,12 +16,14 @@ mod answer;
 mod minkowski;
 mod boundary;
 mod differences;
+mod half_space;
 
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 pub use answer::{ExactAnswer, ExactDistance};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
 pub use differences::Differences;
+pub use half_space::{Lowest, lowest};
 use minkowski::MinkowskiDifference;
 pub use simplex::VertexPair;
 use simplex::nearest_of_hull;

@@ -30,6 +30,7 @@ use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
 pub use storage::{NO_TWIN, Polytope, triangle_of};
+pub use support::farthest;
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.

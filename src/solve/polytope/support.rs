@@ -52,9 +52,10 @@ pub fn support<L: Lanes>(
     Support { pair: [vertex1, vertex2], position: position.to_array(), value, excess, upper }
 }
 
-/// A vertex farthest along a direction of about unit length, and how much farther the body may reach.
+/// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is the farthest
+/// for sure. The direction may be off by 6.2u.
 #[inline(always)]
-fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
+pub fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
     if polyhedron.vertices.len() <= FEW {
         return farthest_of_all(polyhedron, &towards.to_vector());
     }

@@ -66,7 +66,7 @@ impl<'a> Judge<'a> {
                     return Some("the proof proves nothing");
                 }
             }
-            Outcome::Undecided if lower > 0.0 => return Some("a verdict that is none"),
+            Outcome::Undecided if lower > 0.0 => return Some("no verdict, with a lower end above 0"),
             Outcome::Beyond if upper < f64::INFINITY || distance > lower => return Some("more than a lower end"),
             Outcome::Separated | Outcome::Beyond if self.truth.intersecting() => return Some("they intersect"),
             _ => {}

@@ -30,7 +30,7 @@ fn no_number_may_be_none() {
                     let mut forged = answer;
                     let (what, number) = members(&mut forged).swap_remove(member);
                     let before = std::mem::replace(number, put);
-                    // What is not said stays so. Where no points are said the upper end may be open: that is true of any pair.
+                    // NaN in place of NaN is no forgery. Without points the upper end may be open: that is true of any pair.
                     let is_same = before == put || before.is_nan() && put.is_nan();
                     let may_be_open = forged.outcome == Outcome::Undecided
                         || forged.outcome == Outcome::Separated && forged.local1[0].is_nan();

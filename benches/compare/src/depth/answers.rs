@@ -10,10 +10,11 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, Outcome, Placed, depth};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
+use super::ours;
 use super::parry::Contact;
-use super::{ours, peers};
 use crate::method::Method;
 use crate::parry::Rings;
+use crate::peers::{self, Asked};
 use crate::setting::poses_of;
 use testkit::PosePair;
 use testkit::files::read_poses;
@@ -33,7 +34,8 @@ pub fn run([method, a, b, poses]: &[String; 4]) -> Result<(), String> {
         let mut parry = Contact::new(hulls.each_ref().map(|hull| Rc::new(Rings::new(hull))));
         answer_all(&mut parry, bodies, &poses, |parry| parry.normal());
     } else {
-        let peer = peers::named(method, bodies).ok_or_else(|| format!("{method}: not there, or refuses a body"))?;
+        let peer = peers::named(Asked::Depth, method, bodies)
+            .ok_or_else(|| format!("{method}: not there, or refuses a body"))?;
         answer_all(&mut { peer }, bodies, &poses, |peer| peer.normal());
     }
     Ok(())

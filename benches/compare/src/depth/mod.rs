@@ -4,9 +4,8 @@
 //! is outside of it.
 
 pub mod answers;
-mod ours;
-mod parry;
-mod peers;
+pub mod ours;
+pub mod parry;
 
 use std::fmt::Write;
 use std::rc::Rc;
@@ -20,6 +19,7 @@ use swiftprox::verify::verify_depth;
 use crate::method::{Method, Reply, replies};
 use crate::options::Options;
 use crate::parry::Rings;
+use crate::peers::{self, Asked};
 use crate::setting::poses_of;
 use crate::timing::{Time, median, time_methods};
 use crate::{model, motion, report};
@@ -29,7 +29,25 @@ use testkit::orbits::pose_pair;
 use testkit::random::rotation;
 
 /// The errors that this library is asked for, besides the narrowest provable interval.
-const ERRORS: [f64; 5] = [1e-8, 1e-6, 1e-4, 1e-3, 1e-2];
+pub const ERRORS: [f64; 5] = [1e-8, 1e-6, 1e-4, 1e-3, 1e-2];
+
+/// Those that this library is to be held against.
+pub const STRONGEST: [&str; 2] = ["coal-1e-10", "mujoco-1e-6"];
+
+/// Further tolerances, and further libraries; the default of each is among them.
+pub const OTHERS: [&str; 11] = [
+    "coal-1e-6",
+    "coal-1e-4",
+    "coal-1e-3",
+    "coal-1e-2",
+    "mujoco-1e-10",
+    "libccd-epa-1e-4",
+    "libccd-epa-1e-10",
+    "libccd-mpr-1e-4",
+    "bullet-1e-4",
+    "fcl-1e-6",
+    "fcl-1e-10",
+];
 
 pub fn run(options: &Options) -> Result<(), String> {
     let mut rows = Vec::new();
@@ -71,7 +89,7 @@ fn resting(count: usize) -> Vec<PosePair> {
 }
 
 /// Peers are given triangles.
-fn triangulated(mesh: &PolygonMesh) -> swiftprox::error::Result<PolygonMesh> {
+pub fn triangulated(mesh: &PolygonMesh) -> swiftprox::error::Result<PolygonMesh> {
     let faces = (0..mesh.face_count()).map(|f| mesh.face(f));
     let triangles = faces.flat_map(|face| (2..face.len()).flat_map(move |k| [face[0], face[k - 1], face[k]]));
     PolygonMesh::new(mesh.vertices.clone(), triangles.collect(), None)
@@ -91,12 +109,12 @@ impl Compared {
         let shape = Rc::new(Shape::from_mesh(mesh, &ShapeOptions::default()).map_err(|e| e.to_string())?);
         let mesh = &triangulated(mesh).map_err(|e| e.to_string())?;
         let rings = Rc::new(Rings::new(mesh));
-        let mut first: Vec<Box<dyn Method>> = vec![Box::new(ours::Depth::new(&shape, 0.0))];
-        first.extend(peers::strongest([mesh; 2]));
+        let mut first: Vec<Box<dyn Method>> = vec![Box::new(ours::Depth::new([&shape, &shape], 0.0))];
+        first.extend(peers::of_names(Asked::Depth, &STRONGEST, [mesh; 2]));
         first.push(Box::new(parry::Contact::new([rings.clone(), rings])));
-        let mut further = ERRORS.map(|error| Box::new(ours::Depth::new(&shape, error))).into_iter();
+        let mut further = ERRORS.map(|error| Box::new(ours::Depth::new([&shape, &shape], error))).into_iter();
         let mut second: Vec<Box<dyn Method>> = Vec::new();
-        for peer in peers::others([mesh; 2]) {
+        for peer in peers::of_names(Asked::Depth, &OTHERS, [mesh; 2]) {
             second.extend(further.next().map(|method| method as Box<dyn Method>));
             second.push(peer);
         }
@@ -175,8 +193,8 @@ impl Row {
             if reply.distance > 0.0 {
                 errors.push((lower - reply.distance).max(reply.distance - upper).max(0.0));
             }
-            if !reply.width.is_nan() {
-                widths.push(reply.width);
+            if !reply.width().is_nan() {
+                widths.push(reply.width());
             }
         }
         let [median_error, median_width] = [median(&mut errors), median(&mut widths)];

@@ -3,7 +3,7 @@
 use std::rc::Rc;
 
 use swiftprox::math::Pose;
-use swiftprox::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome, Placed};
+use swiftprox::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome};
 use swiftprox::shape::Shape;
 
 use crate::method::{Method, Reply};
@@ -15,7 +15,7 @@ pub const NAME: &str = "swiftprox";
 
 pub struct Depth {
     name: String,
-    shape: Rc<Shape>,
+    shapes: [Rc<Shape>; 2],
     config: DepthConfig,
     poses: Vec<[Pose; 2]>,
     cache: DepthCache,
@@ -24,12 +24,12 @@ pub struct Depth {
 }
 
 impl Depth {
-    /// Of a body in itself, with an interval that may be as wide as `error`.
-    pub fn new(shape: &Rc<Shape>, error: f64) -> Depth {
+    /// With an interval that may be as wide as `error`.
+    pub fn new(shapes: [&Rc<Shape>; 2], error: f64) -> Depth {
         let name = if error > 0.0 { format!("{NAME}-{error:e}") } else { NAME.into() };
         Depth {
             name,
-            shape: Rc::clone(shape),
+            shapes: shapes.map(Rc::clone),
             config: DepthConfig { absolute_error: error, ..DepthConfig::default() },
             poses: Vec::new(),
             cache: DepthCache::default(),
@@ -54,8 +54,8 @@ impl Method for Depth {
 
     #[inline]
     fn ask(&mut self, i: usize) {
-        let [pose1, pose2] = &self.poses[i];
-        let bodies = [pose1, pose2].map(|pose| Placed { shape: &self.shape, pose });
+        let ([shape1, shape2], [pose1, pose2]) = (&self.shapes, &self.poses[i]);
+        let bodies = [shape1.at(pose1), shape2.at(pose2)];
         self.failed = pair::depth(bodies, &mut self.cache, &self.config, &mut self.answer).is_err();
     }
 
@@ -63,7 +63,7 @@ impl Method for Depth {
         let DepthAnswer { outcome, depth, lower, upper, statistics, .. } = self.answer;
         Reply {
             distance: if self.failed || outcome != Outcome::Intersecting { f64::NAN } else { depth },
-            width: upper - lower,
+            interval: [lower, upper],
             steps: f64::from(statistics.steps),
             fallback: false,
             exact: statistics.exact_iterations > 0,

@@ -66,6 +66,6 @@ impl Method for Contact {
             GJKResult::ClosestPoints(point1, point2, normal) => (point1 - point2).dot(normal),
             GJKResult::NoIntersection(_) | GJKResult::Proximity(_) | GJKResult::Intersection => f64::NAN,
         };
-        Reply { distance, width: f64::NAN, steps: f64::NAN, fallback: false, exact: false, by_levels: false }
+        Reply::of(distance)
     }
 }

@@ -1,0 +1,73 @@
+//! Bodies and half-spaces.
+
+use super::depth::{CManifoldConfig, read_manifold_config, room_for_points};
+use super::failure::StatusCode;
+use super::guard::guard;
+use super::pointers::{input, output};
+use crate::base::math::Pose;
+use crate::pair::{
+    HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
+};
+use crate::shape::Shape;
+
+/// The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
+/// interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
+/// half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
+///
+/// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
+    shape: *const Shape,
+    pose: *const f64,
+    half_space: *const HalfSpace,
+    answer: *mut SignedDistance,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        unsafe {
+            output(answer, "answer", SignedDistance::default())?;
+            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+            output(answer, "answer", half_space_distance(shape.at(pose), input(half_space, "half_space")?)?)
+        }
+    })
+}
+
+/// Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
+/// at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
+/// swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
+///
+/// Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
+/// they were.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
+    shape: *const Shape,
+    pose: *const f64,
+    half_space: *const HalfSpace,
+    config: *const CManifoldConfig,
+    points: *mut ManifoldPoint,
+    capacity: usize,
+    manifold: *mut Manifold,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        let (shape, pose, half_space, config) = unsafe {
+            output(manifold, "manifold", Manifold::default())?;
+            (
+                input(shape, "shape")?,
+                input(pose.cast::<Pose>(), "pose")?,
+                input(half_space, "half_space")?,
+                read_manifold_config(config)?,
+            )
+        };
+        room_for_points(points, capacity)?;
+        let mut write = |place: usize, point: &ManifoldPoint| {
+            // SAFETY: not null, and place < capacity.
+            unsafe { points.add(place).write(*point) };
+        };
+        let mut sink = Sink { capacity, written: 0, write: &mut write };
+        let found = half_space_manifold_into(shape.at(pose), half_space, &config, &mut sink)?;
+        // SAFETY: not null, writable by the caller.
+        unsafe { output(manifold, "manifold", found) }
+    })
+}

@@ -1,0 +1,93 @@
+//! Many pairs at once.
+
+use super::enumerators::{QueryNumber, read_enumerator};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
+use super::pair::{CPairCache, CPairConfig, read_config};
+use super::pointers::{array, exclusive, input};
+use super::scene::{SceneHandle, change_guarded};
+use crate::base::math::Pose;
+use crate::base::memory::with_capacity;
+use crate::pair::{PairAnswer, PairCache, PairQuestion, Query, batch};
+use crate::shape::Shape;
+
+/// A pair to be asked.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPairQuestion {
+    /// Shape 1.
+    pub shape1: *const Shape,
+    /// Where it is, 12 doubles.
+    pub pose1: *const f64,
+    /// Shape 2.
+    pub shape2: *const Shape,
+    /// Where it is, 12 doubles.
+    pub pose2: *const f64,
+    /// What this pair alone remembers; no two pairs share one.
+    pub cache: *mut CPairCache,
+}
+
+/// Asks each of `count` pairs what `kind` names, into the answer at the same place. Answers and caches are bit for bit those of
+/// swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate; the memory of pairs
+/// that follow is asked for ahead. The workers of `scene` share 2,048 pairs or more; it may be null, and then the caller's thread
+/// does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
+///
+/// A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
+/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of
+/// range. SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is
+/// answered. SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_BUG: all answers and caches are reset.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_batch(
+    kind: QueryNumber,
+    pairs: *const CPairQuestion,
+    count: usize,
+    config: *const CPairConfig,
+    scene: *mut SceneHandle,
+    answers: *mut PairAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    let status = guard(|| unsafe {
+        array(answers.cast_const(), count, "answers")?;
+        (0..count).for_each(|k| answers.add(k).write(PairAnswer::default()));
+        let answers = if count == 0 { &mut [] } else { std::slice::from_raw_parts_mut(answers, count) };
+        let kind = read_enumerator::<Query>(kind, "kind", "swiftprox_query_kind")?;
+        let config = read_config(config)?;
+        let mut read = with_capacity(count)?;
+        for (k, pair) in array(pairs, count, "pairs")?.iter().enumerate() {
+            read.push(read_pair(pair).map_err(|failure| named(&failure, k))?);
+        }
+        if scene.is_null() {
+            return Ok(batch(kind, &mut read, &config, answers, None)?);
+        }
+        change_guarded(scene, |scene| Ok(scene.ask_pairs(kind, &mut read, &config, answers)?))
+    });
+    if status == StatusCode::ErrorBug {
+        // SAFETY: the header's pointer rules; the bug came after all pointers had been looked at.
+        unsafe {
+            (0..count).for_each(|k| answers.add(k).write(PairAnswer::default()));
+            (0..count).for_each(|k| (*pairs.add(k)).cache.write(CPairCache::default()));
+        }
+    }
+    status
+}
+
+/// A failure of one of the pairs.
+#[cold]
+fn named(failure: &Failure, pair: usize) -> Failure {
+    Failure::new(failure.status, format!("pairs[{pair}]: {}", failure.message))
+}
+
+/// A pair, in Rust's terms.
+///
+/// # Safety
+/// Its pointers meet the header's pointer rules for `'a`.
+unsafe fn read_pair<'a>(pair: &CPairQuestion) -> Checked<PairQuestion<'a>> {
+    // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
+    unsafe {
+        let (shape1, pose1) = (input(pair.shape1, "shape1")?, input(pair.pose1.cast::<Pose>(), "pose1")?);
+        let (shape2, pose2) = (input(pair.shape2, "shape2")?, input(pair.pose2.cast::<Pose>(), "pose2")?);
+        let cache = exclusive(pair.cache.cast::<PairCache>(), "cache")?;
+        Ok(PairQuestion { bodies: [shape1.at(pose1), shape2.at(pose2)], cache })
+    }
+}

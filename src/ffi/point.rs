@@ -1,0 +1,71 @@
+//! Points and support vertices of shapes.
+
+use std::ffi::c_char;
+
+use super::enumerators::PointLocationNumber;
+use super::failure::StatusCode;
+use super::guard::guard;
+use super::pointers::{input, output};
+use crate::base::enumerator::Enumerator;
+use crate::base::math::Pose;
+use crate::point::{PointAnswer, PointLocation, SupportVertex, locate_point, support};
+use crate::shape::Shape;
+
+/// Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
+/// that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+///
+/// On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
+/// not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_locate_point(
+    shape: *const Shape,
+    pose: *const f64,
+    point: *const f64,
+    answer: *mut PointAnswer,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`, a point three.
+        unsafe {
+            output(answer, "answer", PointAnswer::default())?;
+            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+            let point = input(point.cast::<[f64; 3]>(), "point")?;
+            output(answer, "answer", locate_point(shape.at(pose), *point)?)
+        }
+    })
+}
+
+/// The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
+/// farther, whatever the magnitudes.
+///
+/// On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_support(
+    shape: *const Shape,
+    pose: *const f64,
+    direction: *const f64,
+    answer: *mut SupportVertex,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: as above.
+        unsafe {
+            output(answer, "answer", SupportVertex::default())?;
+            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+            let direction = input(direction.cast::<[f64; 3]>(), "direction")?;
+            output(answer, "answer", support(shape.at(pose), *direction)?)
+        }
+    })
+}
+
+/// A location, in words. Never null, valid for ever; a number that is none gets a string that says so.
+#[unsafe(no_mangle)]
+pub extern "C" fn swiftprox_library_point_location_string(location: PointLocationNumber) -> *const c_char {
+    let string = match PointLocation::from_number(location) {
+        Some(PointLocation::None) => c"nothing was asked",
+        Some(PointLocation::Inside) => c"inside",
+        Some(PointLocation::On) => c"on the surface",
+        Some(PointLocation::Outside) => c"outside",
+        None => c"no location of a point",
+    };
+    string.as_ptr()
+}

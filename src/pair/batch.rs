@@ -1,0 +1,104 @@
+//! Many pairs at once: each as for itself, with the memory of those that follow asked for ahead.
+
+use super::answer::PairAnswer;
+use super::cache::PairCache;
+use super::config::{PairConfig, Query};
+use super::placed::Placed;
+use super::queries::{approximate, contact, distance, intersection};
+use crate::base::error::{Error, Result};
+use crate::base::simd::prefetch;
+use crate::base::workers::Workers;
+
+/// A pair to be asked, and what it remembers.
+#[derive(Debug)]
+pub struct PairQuestion<'a> {
+    /// The two bodies.
+    pub bodies: [Placed<'a>; 2],
+    /// Of this pair alone.
+    pub cache: &'a mut PairCache,
+}
+
+/// So many pairs ahead memory is asked for: a warm query takes about as long as two lines on their way.
+const AHEAD: usize = 4;
+
+/// Asks each pair what `query` names, into the answer at the same place. Answers and caches are, bit for bit, those of single
+/// queries, whatever `workers` share the work.
+///
+/// # Errors
+/// [`Error::Argument`] unless there is one answer for each pair. Of pairs that are refused the first one's error, named by its
+/// number: their answers say nothing, and all others are answered. [`Error::Memory`] where workers share.
+pub fn batch(
+    query: Query,
+    pairs: &mut [PairQuestion],
+    config: &PairConfig,
+    answers: &mut [PairAnswer],
+    workers: Option<&Workers>,
+) -> Result<()> {
+    if pairs.len() != answers.len() {
+        return Err(Error::Argument(format!("{} answers for {} pairs", answers.len(), pairs.len())));
+    }
+    let all = Part { query, config, first: 0, pairs, answers };
+    match workers.filter(|workers| workers.share(all.pairs.len())) {
+        None => all.ask(),
+        Some(workers) => workers.map(all.cut(workers), Part::ask)?.into_iter().collect(),
+    }
+}
+
+/// Some of the pairs, of which number `first` is the first.
+struct Part<'a, 'b> {
+    query: Query,
+    config: &'a PairConfig,
+    first: usize,
+    pairs: &'a mut [PairQuestion<'b>],
+    answers: &'a mut [PairAnswer],
+}
+
+impl<'a, 'b> Part<'a, 'b> {
+    fn cut(self, workers: &Workers) -> impl Iterator<Item = Part<'a, 'b>> {
+        let Part { query, config, first, pairs, answers } = self;
+        let size = workers.part_size(pairs.len());
+        let parts = pairs.chunks_mut(size).zip(answers.chunks_mut(size));
+        (first..).step_by(size).zip(parts).map(move |(first, (pairs, answers))| Part {
+            query,
+            config,
+            first,
+            pairs,
+            answers,
+        })
+    }
+
+    /// The first refusal, once all are asked.
+    fn ask(self) -> Result<()> {
+        let solver = match self.query {
+            Query::Intersection => intersection,
+            Query::Distance => distance,
+            Query::Contact => contact,
+            Query::Approximate => approximate,
+        };
+        let mut refused = Ok(());
+        for k in 0..self.pairs.len() {
+            if let Some(ahead) = self.pairs.get(k + AHEAD) {
+                ahead.prefetch();
+            }
+            let PairQuestion { bodies, cache } = &mut self.pairs[k];
+            let answer = &mut self.answers[k];
+            if let Err(error) = solver(*bodies, cache, self.config, answer) {
+                *answer = PairAnswer::default();
+                refused = refused.and_then(|()| Err(error.about(&format!("pair {}", self.first + k))));
+            }
+        }
+        refused
+    }
+}
+
+impl PairQuestion<'_> {
+    /// Asks for the memory that its query begins with.
+    #[inline(always)]
+    fn prefetch(&self) {
+        for body in &self.bodies {
+            prefetch(body.pose);
+            prefetch(body.shape);
+        }
+        prefetch::<PairCache>(self.cache);
+    }
+}

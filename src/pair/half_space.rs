@@ -1,0 +1,93 @@
+//! A body and a half-space, such as a level ground: how far the body is from it or how deep in it, by its lowest vertex, which
+//! integers find.
+
+use super::answer::{Feature, Outcome};
+use super::contact::{PlacedPoints, label, normalised, placed_points};
+use super::placed::Placed;
+use super::radii::{Radii, moved};
+use super::signed_distance::SignedDistance;
+use super::swept::sign;
+use crate::base::error::{Error, Result};
+use crate::base::math::{ROTATION_LIMIT, Vector, clamp};
+use crate::base::simd::environment::with_default;
+use crate::solve::exact;
+use crate::solve::state::FeatureId;
+use crate::tables;
+
+/// The points x of the world with `normal` · x ≤ `offset`.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct HalfSpace {
+    /// Out of the half-space; of any length but 0.
+    pub normal: [f64; 3],
+    /// Where its plane is: the product of the normal with any of its points.
+    pub offset: f64,
+}
+
+impl HalfSpace {
+    /// # Errors
+    /// [`Error::Argument`].
+    pub(super) fn check(&self) -> Result<()> {
+        if !self.normal.iter().all(|x| x.is_finite()) || self.normal == [0.0; 3] {
+            return Err(Error::Argument(format!(
+                "the normal of the half-space is {:?}, it must be finite and not 0",
+                self.normal
+            )));
+        }
+        if !self.offset.is_finite() {
+            return Err(Error::Argument(format!("the offset of the half-space is {}, it must be finite", self.offset)));
+        }
+        Ok(())
+    }
+}
+
+/// The distance of a body, which is object 1, from a half-space, or minus its depth: the least way that parts them is along the
+/// normal, however deep. The interval holds for the exact body and plane, and is as narrow as doubles are; touching is decided in
+/// integers.
+///
+/// The witness point of the half-space is below or above that of the body, on the plane; its local frame is the world. Its feature
+/// is of no kind, that of the body a vertex.
+///
+/// # Errors
+/// [`Error::Pose`] for a pose that is not accepted, as in [`distance`](crate::pair::distance), [`Error::Argument`] for a normal
+/// that is 0 or not finite and an offset that is not finite.
+pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<SignedDistance> {
+    half_space.check()?;
+    body.pose.check(ROTATION_LIMIT)?;
+    Ok(with_default(|| of_lowest(body, half_space)))
+}
+
+/// The same of what is sound, in the default floating-point environment.
+pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance {
+    let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
+    let &HalfSpace { normal, offset } = half_space;
+    let up = normalised(&normal.into());
+    let start = tables::farthest(polyhedron, &pose.rotate_back(&-Vector::from(up))).unwrap_or(0);
+    let lowest = exact::lowest(polyhedron, pose, normal, offset, start);
+    let (lower, upper) = lowest.distance.bounds();
+    let radii = Radii::of_one(body.shape.swept_radius());
+    let mut interval = radii.off(if lowest.is_below { [-upper, -lower] } else { [lower, upper] });
+    let mut is_apart = interval[0] > 0.0;
+    if !lowest.is_below && !is_apart && interval[1] >= 0.0 {
+        (is_apart, interval) = sign(&lowest.distance, &radii, interval);
+    }
+    let [lower, upper] = interval;
+    let distance = clamp(0.5 * lower + 0.5 * upper, lower, upper);
+    let point = polyhedron.vertices[lowest.vertex as usize].position;
+    let points = placed_points([polyhedron; 2], [pose; 2], &[point; 2]);
+    let PlacedPoints { local: [local, _], world: [world, _] } = moved(&points, [pose; 2], &up, radii.outwards());
+    let foot = (Vector::from(world) - Vector::from(up) * distance).into();
+    SignedDistance {
+        outcome: if is_apart { Outcome::Separated } else { Outcome::Intersecting },
+        distance,
+        lower,
+        upper,
+        local1: local,
+        local2: foot,
+        world1: world,
+        world2: foot,
+        normal: up,
+        feature1: label(polyhedron, FeatureId::Vertex(lowest.vertex), &point),
+        feature2: Feature::default(),
+    }
+}

@@ -1,0 +1,161 @@
+//! The manifold of a body and a half-space: the corners of the patch that looks at its plane.
+
+use super::answer::{FOUR, Manifold, ManifoldConfig, ManifoldPoint};
+use super::clip::CommonCorner;
+use super::id::id_of;
+use super::outline::{Axes, Outline};
+use super::patch::facing;
+use super::places::{CommonPoint, Origin};
+use super::reduction::Reduction;
+use super::{Sink, witness};
+use crate::base::double_double::{DoubleDouble, wide_difference, wide_dot, widen};
+use crate::base::error::Result;
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::simd::environment::with_default;
+use crate::pair::answer::{Feature, Outcome};
+use crate::pair::contact::{PlacedPoints, label, placed_points};
+use crate::pair::half_space::{HalfSpace, of_lowest};
+use crate::pair::placed::Placed;
+use crate::pair::radii::{Radii, moved};
+use crate::pair::signed_distance::SignedDistance;
+use crate::solve::state::FeatureId;
+
+/// Where a body, which is object 1, meets a half-space, or is up to the margin apart: the corners of its face that looks most at
+/// the plane, with a gap of at most the margin. The deepest point of the body is among them. Points on the half-space are on its
+/// plane, in the world; their features are of no kind.
+///
+/// Of a manifold that is reduced four points are chosen anew each time: there is no cache.
+///
+/// # Errors
+/// As of [`half_space_distance`](crate::pair::half_space_distance) and of [`manifold`](crate::pair::manifold).
+pub fn half_space_manifold(
+    body: Placed,
+    half_space: &HalfSpace,
+    config: &ManifoldConfig,
+    points: &mut [ManifoldPoint],
+) -> Result<Manifold> {
+    let capacity = points.len();
+    let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
+    half_space_manifold_into(body, half_space, config, &mut Sink { capacity, written: 0, write: &mut write })
+}
+
+/// The same, to where the caller says.
+pub(crate) fn half_space_manifold_into(
+    body: Placed,
+    half_space: &HalfSpace,
+    config: &ManifoldConfig,
+    points: &mut Sink,
+) -> Result<Manifold> {
+    config.check()?;
+    half_space.check()?;
+    body.pose.check(config.rotation_limit)?;
+    Ok(with_default(|| make(body, half_space, config, points)))
+}
+
+fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &mut Sink) -> Manifold {
+    let contact = of_lowest(body, half_space);
+    let SignedDistance { outcome, lower, upper, normal, .. } = contact;
+    let mut answer = Manifold { outcome, reference: 0, lower, upper, normal, point_count: 0, found_count: 0 };
+    if lower > config.margin {
+        answer.outcome = Outcome::Beyond;
+        return answer;
+    }
+    let polyhedron = body.shape.polyhedron();
+    let up = Vector::from(normal);
+    let patch = facing(body, &-up, &contact.local1.into(), None, 0.0).map(|facing| facing.patch);
+    let axes = Axes::new(&up, &up);
+    let outline = Outline::new(polyhedron, body.pose, Vector::zeros(), &axes, patch);
+    let plane = Plane::new(body, half_space);
+    let mut reduction = Reduction::new([0; FOUR], polyhedron.radius);
+    let (mut found, mut is_deep) = (0, false);
+    for corner in 0..outline.count {
+        let [least, most] = plane.gap(outline.vertex(corner));
+        if !(least <= config.margin) {
+            continue;
+        }
+        is_deep |= least <= upper;
+        found += 1;
+        if config.reduces {
+            let place = outline.spot(corner);
+            let mut spots = [place; 2];
+            (spots[0].z, spots[1].z) = (0.5 * (least + most), 0.0);
+            let origin = Origin::Corner(CommonCorner::Vertex { body: 0, corner });
+            reduction.add(&CommonPoint { origin, spots, error: 0.5 * (most - least) });
+        } else {
+            points.push(|| plane.point(outline.vertex(corner), &normal));
+        }
+    }
+    if config.reduces {
+        let (chosen, _) = reduction.chosen();
+        for place in chosen.iter().flatten() {
+            if let Origin::Corner(CommonCorner::Vertex { corner, .. }) = place.origin {
+                points.push(|| plane.point(outline.vertex(corner), &normal));
+            }
+        }
+    }
+    // The face most parallel to the plane need not hold the lowest vertex.
+    if !is_deep {
+        points.insist(&witness(&contact));
+        found += 1;
+    }
+    answer.reference = if found > 1 { 1 } else { 0 };
+    (answer.point_count, answer.found_count) = (points.written as u32, found);
+    answer
+}
+
+/// A plane beside a body.
+struct Plane<'a> {
+    body: Placed<'a>,
+    half_space: &'a HalfSpace,
+    radii: Radii,
+    /// The length of the normal, right to 4u.
+    length: f64,
+    /// By how much the product of the normal with a vertex, less the offset, may be off.
+    error: f64,
+}
+
+/// What double-double arithmetic makes of a product of sums of products, over the sizes of all parts: some 20 operations at 2⁻¹⁰²
+/// each, and a margin for what underflows, of which parts over 2⁻⁹⁰⁰ lose nothing that counts.
+const ERROR: f64 = f64::from_bits((1023 - 90) << 52);
+
+/// The error of lengths of which nothing is known.
+const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
+
+impl<'a> Plane<'a> {
+    fn new(body: Placed<'a>, half_space: &'a HalfSpace) -> Plane<'a> {
+        let (polyhedron, normal) = (body.shape.polyhedron(), Vector::from(half_space.normal));
+        // |R·p| is at most 1.8 of the 1-norm of p.
+        let size = 2.0 * (polyhedron.centre.lp_norm(1) + polyhedron.radius) + body.pose.translation().lp_norm(1);
+        let scale = normal.amax();
+        let length = (normal / scale).norm() * scale;
+        let error = ERROR * (normal.lp_norm(1) * size + half_space.offset.abs()) + SMALLEST;
+        Plane { body, half_space, radii: Radii::of_one(body.shape.swept_radius()), length, error }
+    }
+
+    /// How far a vertex is over the plane, less the swept radius.
+    fn gap(&self, vertex: u32) -> [f64; 2] {
+        let Plane { body, half_space, length, error, .. } = self;
+        let polyhedron = body.shape.polyhedron();
+        let local = wide_difference(&polyhedron.vertices[vertex as usize].position, &-polyhedron.centre);
+        let world =
+            body.pose.rows.map(|[x, y, z, t]| wide_dot(&widen(&Vector::new(x, y, z)), &local) + DoubleDouble::from(t));
+        let product = wide_dot(&widen(&half_space.normal.into()), &world) - half_space.offset.into();
+        let gap = product.hi / length;
+        // The length, the quotient and the low word.
+        let off = 8.0 * U * gap.abs() + error / length;
+        self.radii.off([gap - off, gap + off])
+    }
+
+    fn point(&self, vertex: u32, normal: &[f64; 3]) -> ManifoldPoint {
+        let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
+        let position = polyhedron.vertices[vertex as usize].position;
+        let points = placed_points([polyhedron; 2], [pose; 2], &[position; 2]);
+        let PlacedPoints { local: [local1, _], world: [world1, _] } =
+            moved(&points, [pose; 2], normal, self.radii.outwards());
+        let [gap_lower, gap_upper] = self.gap(vertex);
+        let foot = (Vector::from(world1) - Vector::from(*normal) * (0.5 * gap_lower + 0.5 * gap_upper)).into();
+        let (feature1, feature2) = (label(polyhedron, FeatureId::Vertex(vertex), &position), Feature::default());
+        let id = id_of(&feature1, &feature2);
+        ManifoldPoint { local1, local2: foot, world1, world2: foot, gap_lower, gap_upper, feature1, feature2, id }
+    }
+}

@@ -1,0 +1,90 @@
+//! The radii of the balls that are swept over two bodies: what they take off a distance, rounded outwards, and where they move
+//! witness points to.
+
+use super::contact::PlacedPoints;
+use super::placed::Placed;
+use crate::base::double_double::two_sum;
+use crate::base::math::{Pose, Vector};
+
+/// The swept radii of a pair.
+#[derive(Debug, Clone, Copy)]
+pub struct Radii {
+    /// Of body 1 and body 2.
+    pub each: [f64; 2],
+    /// Their sum, rounded down.
+    pub lower: f64,
+    /// Their sum, rounded up.
+    pub upper: f64,
+}
+
+impl Radii {
+    /// Of bodies without.
+    pub const NONE: Radii = Radii { each: [0.0; 2], lower: 0.0, upper: 0.0 };
+
+    /// `None` of two bodies without.
+    #[inline(always)]
+    pub fn of(bodies: &[Placed; 2]) -> Option<Radii> {
+        let each = [bodies[0].shape.swept_radius(), bodies[1].shape.swept_radius()];
+        (each[0] + each[1] > 0.0).then(|| Radii {
+            each,
+            lower: sum_below(each[0], each[1]),
+            upper: sum_above(each[0], each[1]),
+        })
+    }
+
+    /// Of a body and what has none.
+    pub fn of_one(radius: f64) -> Radii {
+        Radii { each: [radius, 0.0], lower: radius, upper: radius }
+    }
+
+    /// An interval of the signed distance of the polyhedra as one of the swept bodies: of sets that are offset by r it is r less,
+    /// be they apart or in each other, as the support function of their difference is r more along every direction.
+    pub fn off(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
+        [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
+    }
+
+    /// The least interval of the polyhedra that contains what [`Radii::off`] makes this of.
+    pub fn back_on(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
+        [sum_below(lower, self.lower), sum_above(upper, self.upper)]
+    }
+
+    /// Polyhedra of bodies no farther apart than this are no farther apart than …
+    pub fn with(&self, length: f64) -> f64 {
+        sum_above(length, self.upper)
+    }
+
+    /// By how much witness points move along the normal, which is from body 2 to body 1, from the polyhedra to the surfaces.
+    pub fn outwards(&self) -> [f64; 2] {
+        [-self.each[0], self.each[1]]
+    }
+
+    /// … and back.
+    pub fn inwards(&self) -> [f64; 2] {
+        [self.each[0], -self.each[1]]
+    }
+}
+
+/// Points moved by so much along a direction of the world. A pose does not stretch the ball: the local point is where the pose
+/// takes to the moved one.
+pub fn moved(points: &PlacedPoints, poses: [&Pose; 2], normal: &[f64; 3], by: [f64; 2]) -> PlacedPoints {
+    let normal = Vector::from(*normal);
+    let world = [0, 1].map(|i| Vector::from(points.world[i]) + normal * by[i]);
+    let local = [0, 1].map(|i| {
+        let turned =
+            poses[i].rotation().try_inverse().map_or_else(|| poses[i].rotate_back(&normal), |back| back * normal);
+        Vector::from(points.local[i]) + turned * by[i]
+    });
+    PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
+}
+
+/// a + b, rounded down; of what is infinite or none that.
+pub fn sum_below(a: f64, b: f64) -> f64 {
+    let sum = two_sum(a, b);
+    if sum.hi.is_finite() && sum.lo < 0.0 { sum.hi.next_down() } else { sum.hi }
+}
+
+/// a + b, rounded up.
+pub fn sum_above(a: f64, b: f64) -> f64 {
+    let sum = two_sum(a, b);
+    if sum.hi.is_finite() && sum.lo > 0.0 { sum.hi.next_up() } else { sum.hi }
+}

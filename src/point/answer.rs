@@ -1,0 +1,76 @@
+//! Where a point is, and which vertex is farthest: plain data, laid out for C.
+
+use crate::pair::{Feature, SignedDistance};
+
+/// Where a point is relative to a closed body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum PointLocation {
+    /// Nothing is said yet: the value of a fresh answer.
+    #[default]
+    None = 0,
+    /// In the body's interior. A body without interior has no such point.
+    Inside = 1,
+    /// On its surface; of a body without interior any point of it.
+    On = 2,
+    /// Not in the body.
+    Outside = 3,
+}
+
+/// Where a point is relative to a body, and what of the surface is nearest. Numbers that it does not say are NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct PointAnswer {
+    /// Certain, whatever the magnitudes.
+    pub location: PointLocation,
+    /// What of the body's surface holds the nearest point of it, in the caller's numbering.
+    pub feature: Feature,
+    /// The best estimate of how far the point is from the surface, `lower ≤ distance ≤ upper`: negative inside, 0 on it.
+    pub distance: f64,
+    /// Lower end of the rigorous interval; above 0 only outside.
+    pub lower: f64,
+    /// Upper end of the rigorous interval; at most 0 unless outside.
+    pub upper: f64,
+    /// The nearest point of the surface, in the body's local frame.
+    pub local: [f64; 3],
+    /// The same in the world.
+    pub world: [f64; 3],
+    /// Unit normal in the world: moving the point along it makes the distance grow as much.
+    pub normal: [f64; 3],
+}
+
+impl Default for PointAnswer {
+    fn default() -> Self {
+        PointAnswer::new(PointLocation::None, &SignedDistance::default())
+    }
+}
+
+impl PointAnswer {
+    /// Of the signed distance of a point, which is object 1, and the body.
+    pub(super) fn new(location: PointLocation, signed: &SignedDistance) -> PointAnswer {
+        let &SignedDistance { distance, lower, upper, local2, world2, normal, feature2, .. } = signed;
+        PointAnswer { location, feature: feature2, distance, lower, upper, local: local2, world: world2, normal }
+    }
+}
+
+/// A vertex farthest along a direction. Numbers that it does not say are NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct SupportVertex {
+    /// Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any.
+    pub vertex: u32,
+    /// Whether integers decided what rounding hides: 1 or 0. They allocate.
+    pub exact: u32,
+    /// Where it is, in the body's local frame.
+    pub local: [f64; 3],
+    /// Where it is in the world, rounded.
+    pub world: [f64; 3],
+    /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body.
+    pub height: [f64; 2],
+}
+
+impl Default for SupportVertex {
+    fn default() -> Self {
+        SupportVertex { vertex: 0, exact: 0, local: [f64::NAN; 3], world: [f64::NAN; 3], height: [f64::NAN; 2] }
+    }
+}

@@ -1,0 +1,39 @@
+//! Where a point is relative to a body: the signed distance of the two.
+
+use super::answer::{PointAnswer, PointLocation};
+use super::check_finite;
+use crate::base::error::Result;
+use crate::base::math::{Matrix, Pose, Vector};
+use crate::base::simd::environment::with_default;
+use crate::pair::{Outcome, PairConfig, Placed, SignedDistance, SignedDistanceCache, signed_distance};
+use crate::shape::{InputPolicy, Shape, ShapeOptions};
+
+/// Where a point of the world is relative to a body: inside, on it or outside, with the distance from its surface and what of that
+/// is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell.
+///
+/// # Errors
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a point that is not finite,
+/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`],
+/// [`Error::Memory`](crate::base::error::Error::Memory).
+pub fn locate_point(body: Placed, point: [f64; 3]) -> Result<PointAnswer> {
+    with_default(|| {
+        check_finite("point", &point)?;
+        // A vertex at the origin is where its translation says, exactly.
+        let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+        let vertex = Shape::from_points(&[Vector::zeros()], &options)?;
+        let there = Pose::new(&Matrix::identity(), &point.into());
+        let (mut cache, mut signed) = (SignedDistanceCache::default(), SignedDistance::default());
+        signed_distance([vertex.at(&there), body], &mut cache, &PairConfig::default(), &mut signed)?;
+        Ok(PointAnswer::new(location(&signed), &signed))
+    })
+}
+
+/// Of a common point that is all of one body the depth is 0 just where it is on the surface of the other; a depth that is more is
+/// never said to be 0 at both ends.
+fn location(signed: &SignedDistance) -> PointLocation {
+    match signed.outcome {
+        Outcome::Intersecting if signed.lower == 0.0 => PointLocation::On,
+        Outcome::Intersecting => PointLocation::Inside,
+        _ => PointLocation::Outside,
+    }
+}

@@ -1,0 +1,83 @@
+//! The vertex of a placed body that is farthest along a direction: doubles climb to it, integers go on where they cannot tell.
+
+use super::answer::SupportVertex;
+use super::check_finite;
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::simd::environment::with_default;
+use crate::base::simd::{Lanes, Portable};
+use crate::pair::Placed;
+use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
+use crate::solve::exact::body::Body;
+use crate::solve::exact::dyadic::DyadicVector;
+use crate::solve::polytope::farthest;
+
+/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes. A
+/// swept radius is left out: the body reaches so much farther.
+///
+/// # Errors
+/// [`Error::Argument`] for a direction that is 0 or not finite, [`Error::Pose`] for a pose that is not accepted, as in
+/// [`crate::pair::distance`].
+pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
+    with_default(|| {
+        check_finite("direction", &direction)?;
+        if direction == [0.0; 3] {
+            return Err(Error::Argument("the direction is 0: give it a length".into()));
+        }
+        body.pose.check(ROTATION_LIMIT)?;
+        let polyhedron = body.shape.polyhedron();
+        let (vertex, is_certain) = climb(polyhedron, body.pose, &direction.into());
+        let vertex = if is_certain { vertex } else { climb_exactly(polyhedron, body.pose, direction, vertex) };
+        let local = polyhedron.local_position(vertex);
+        Ok(SupportVertex {
+            vertex: polyhedron.vertex_labels[vertex as usize],
+            exact: u32::from(!is_certain),
+            local: local.into(),
+            world: body.pose.transform(&local).into(),
+            height: height(polyhedron, body.pose, &direction.into(), vertex),
+        })
+    })
+}
+
+/// The farthest vertex as far as doubles tell, and whether they tell.
+fn climb(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector) -> (u32, bool) {
+    if !(SMALLEST..=LARGEST).contains(&polyhedron.radius) {
+        return (0, false);
+    }
+    // A power of two, in two parts as neither end of the range has its inverse among the doubles: less than 1 long, and no digit
+    // is lost that could turn it by 2⁻¹⁰⁰⁰.
+    let exponent = direction.amax().log2().floor().clamp(-1073.0, 1023.0) as i32 + 2;
+    let halves = [exponent / 2, exponent - exponent / 2];
+    let scaled = halves.iter().fold(*direction, |d, &half| d * f64::powi(2.0, -half));
+    let (vertex, excess) = farthest(polyhedron, Portable::from_vector(&pose.rotate_back(&scaled)), None);
+    (vertex, excess == 0.0)
+}
+
+/// The farthest vertex by integers, from one that may be it.
+#[cold]
+#[inline(never)]
+fn climb_exactly(polyhedron: &Polyhedron, pose: &Pose, direction: [f64; 3], from: u32) -> u32 {
+    let body = Body::new(polyhedron, pose);
+    let towards = body.local_direction(&DyadicVector::from_doubles(direction).components);
+    body.support(from, &towards)
+}
+
+/// Between which doubles the height of a vertex along a direction is.
+///
+/// Each of its terms d·R·c, d·R·p and d·T, summed, goes through at most eight roundings: 8u of their absolute values, which are
+/// themselves rounded as often. What underflows is below the smallest normal number.
+fn height(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector, vertex: u32) -> [f64; 2] {
+    let (centre, position) = (polyhedron.centre, polyhedron.vertices[vertex as usize].position);
+    let (local, parts) = (centre + position, centre.abs() + position.abs());
+    let (mut value, mut terms) = (0.0, 0.0);
+    for (d, [x, y, z, t]) in direction.iter().zip(pose.rows) {
+        value += d * (x * local.x + y * local.y + z * local.z + t);
+        terms += d.abs() * (x.abs() * parts.x + y.abs() * parts.y + z.abs() * parts.z + t.abs());
+    }
+    let error = 10.0 * U * terms + f64::MIN_POSITIVE;
+    // What overflows says nothing.
+    match value.is_finite() && error.is_finite() {
+        true => [(value - error).next_down(), (value + error).next_up()],
+        false => [f64::NEG_INFINITY, f64::INFINITY],
+    }
+}

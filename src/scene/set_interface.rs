@@ -1,0 +1,185 @@
+//! What several threads can ask a scene at once: each question takes the scene by a shared reference, and changes nothing in it.
+
+use crate::base::error::{Error, Result};
+use crate::base::math::Pose;
+use crate::base::simd::environment::with_default;
+use crate::motion::{CastConfig, Motion};
+use crate::pair::{self, PairAnswer, PairConfig, PairQuestion, Query};
+use crate::ray::Ray;
+use crate::scene::door::Scene;
+use crate::scene::sets::casts::{self, SceneCastAnswer};
+use crate::scene::sets::first_hit::{self, FirstHit, PoseOrder};
+use crate::scene::sets::members::{self, ObjectSet};
+use crate::scene::sets::nearest::{self, Against, LeastDistance};
+use crate::scene::sets::others::Others;
+use crate::scene::sets::rays::{self, RayHits, SceneRayHit};
+use crate::scene::sets::scratch::SetScratch;
+
+/// The set that leaves nobody out.
+const NOBODY: ObjectSet = ObjectSet { ids: &[], poses: None, among: false };
+
+impl Scene {
+    /// Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
+    /// phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and
+    /// through all pieces if many have.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory); questions then take longer.
+    pub fn prepare(&mut self) -> Result<()> {
+        let Scene { world, near, recording, workers, .. } = self;
+        world.watch_filter(recording.is_on());
+        let fitted = with_default(|| near.fit_trees(world, workers));
+        recording.decisions(world.decided(), &world.objects);
+        fitted
+    }
+
+    /// The least distance between two sets of objects, or between a set and all other objects (`against` is `None`), with its
+    /// interval and a pair that has it; of sets farther apart than `cut_off` no more than that is said.
+    ///
+    /// Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless the
+    /// question says where those of a set are. Pairs of two objects of the first set are asked about if that says so.
+    ///
+    /// # Errors
+    /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless a set with poses has one for each object, and for a cut-off
+    /// that is negative or NaN; [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted,
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn least_distance(
+        &self,
+        set: &ObjectSet,
+        against: Option<&ObjectSet>,
+        cut_off: f64,
+        scratch: &mut SetScratch,
+    ) -> Result<LeastDistance> {
+        with_default(|| {
+            let SetScratch { members, second, candidates, caches, .. } = scratch;
+            members::list(&self.world, set, members)?;
+            if let Some(against) = against {
+                members::list(&self.world, against, second)?;
+            }
+            let question = nearest::Question {
+                world: &self.world,
+                members,
+                against: against.map_or(Against::Others(self.others(set)), |_| Against::Set(second)),
+                among: set.among,
+                moved: set.poses.is_some() || against.is_some_and(|against| against.poses.is_some()),
+                cut_off,
+            };
+            nearest::least_distance(question, candidates, caches)
+        })
+    }
+
+    /// At which of many times a set of objects is no farther from something than `margin`: all other objects, and if the set says
+    /// so one another. `poses` are those of all objects at the first time, then at the second, and so on; those of the set are not
+    /// looked at, nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed.
+    ///
+    /// # Errors
+    /// As [`Scene::least_distance`], and [`Error::Argument`](crate::base::error::Error::Argument) for poses that do not come out
+    /// even and a margin that is negative, infinite or NaN.
+    pub fn first_hit(
+        &self,
+        set: &ObjectSet,
+        poses: &[Pose],
+        order: PoseOrder,
+        margin: f64,
+        scratch: &mut SetScratch,
+    ) -> Result<FirstHit> {
+        with_default(|| {
+            let SetScratch { members, open, found, caches, .. } = scratch;
+            let question = first_hit::Question { others: self.others(set), poses, order, margin };
+            first_hit::first_hit(question, &mut first_hit::Room { members, open, found, caches })
+        })
+    }
+
+    /// What a ray meets of the objects whose groups have a bit of `mask`: the first piece, all in order, or any. Places are
+    /// intervals that hold, as of [`cast_ray`](crate::ray::cast_ray). Pieces that are met at one place, as far as doubles tell, are
+    /// in order of creation.
+    ///
+    /// # Errors
+    /// As [`cast_ray`](crate::ray::cast_ray), and [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn cast_ray<'a>(
+        &self,
+        ray: &Ray,
+        wanted: RayHits,
+        mask: u32,
+        scratch: &'a mut SetScratch,
+    ) -> Result<&'a [SceneRayHit]> {
+        with_default(|| {
+            let SetScratch { open, found, nearing, hits, .. } = scratch;
+            let question = rays::Question { others: self.others(&NOBODY), ray, hits: wanted, mask };
+            rays::cast(question, &mut rays::Room { open, found, nearing, hits })?;
+            Ok(&hits[..])
+        })
+    }
+
+    /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain, as
+    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own.
+    /// Pairs of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test;
+    /// both may be fixed. `config.step_budget` is that of each pair.
+    ///
+    /// # Errors
+    /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, and for an
+    /// object whose pieces have poses of their own; as of [`motion::cast`](crate::motion::cast()), and
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn cast(
+        &self,
+        set: &ObjectSet,
+        motions: &[Motion],
+        config: &CastConfig,
+        scratch: &mut SetScratch,
+    ) -> Result<SceneCastAnswer> {
+        with_default(|| {
+            let SetScratch { movers, boxes, open, found, approaches, caches, .. } = scratch;
+            let question = casts::Question { others: self.others(set), motions, config };
+            casts::cast(question, &mut casts::Room { movers, boxes, open, found, approaches, caches })
+        })
+    }
+
+    /// [`Scene::cast`] of many edges, whose motions stand one behind the other: one for each edge, or one for each object of the
+    /// set at each edge. Each edge has an answer of its own.
+    ///
+    /// # Errors
+    /// As [`Scene::cast`], naming the edge, and [`Error::Argument`](crate::base::error::Error::Argument) for motions that do not
+    /// come out even. Answers of edges before it stay.
+    pub fn cast_batch(
+        &self,
+        set: &ObjectSet,
+        motions: &[Motion],
+        config: &CastConfig,
+        scratch: &mut SetScratch,
+        answers: &mut [SceneCastAnswer],
+    ) -> Result<()> {
+        let edges = answers.len();
+        let each = if motions.len() == edges { 1 } else { set.ids.len() };
+        if motions.len() != edges * each {
+            let are = format!("{} motions for {edges} edges of a set of {} objects", motions.len(), set.ids.len());
+            return Err(Error::Argument(format!("{are}: give one for each edge, or for each object at each edge")));
+        }
+        for (k, (answer, motions)) in answers.iter_mut().zip(motions.chunks(each.max(1))).enumerate() {
+            *answer = self
+                .cast(set, motions, config, scratch)
+                .map_err(|error| error.about(&format!("edge {k} of {edges}")))?;
+        }
+        Ok(())
+    }
+
+    /// [`pair::batch()`] with the scene's workers; nothing of the scene is asked or changed.
+    ///
+    /// # Errors
+    /// As [`pair::batch()`].
+    pub fn ask_pairs(
+        &mut self,
+        query: Query,
+        pairs: &mut [PairQuestion],
+        config: &PairConfig,
+        answers: &mut [PairAnswer],
+    ) -> Result<()> {
+        pair::batch(query, pairs, config, answers, Some(&self.workers))
+    }
+
+    /// All that is not in a set.
+    fn others<'a>(&'a self, set: &'a ObjectSet<'a>) -> Others<'a> {
+        Others { world: &self.world, trees: self.near.fitted_trees(&self.world.proxies), set }
+    }
+}

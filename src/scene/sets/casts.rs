@@ -1,0 +1,244 @@
+//! When moving objects first meet others: boxes around what they sweep over say whom they may meet, and each such pair is cast up
+//! to the earliest time that is known.
+
+use crate::base::error::{Error, Result};
+use crate::base::memory::push;
+use crate::motion::{self, CastAnswer, CastConfig, CastOutcome, Motion, Moving, Swept};
+use crate::scene::near::tree::Branch;
+use crate::scene::search::query::PairResult;
+use crate::scene::sets::caches::Caches;
+use crate::scene::sets::nearest::signed;
+use crate::scene::sets::others::Others;
+use crate::scene::world::boxes::Aabb;
+use crate::scene::world::rows::{grown_box, placed};
+
+/// How a cast of moving objects through a scene came out. Numbers that it does not say are NaN.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct SceneCastAnswer {
+    /// Of the pair that ends it; free if all pairs are.
+    pub outcome: CastOutcome,
+    /// Certified queries made.
+    pub queries: u32,
+    /// All pairs are farther apart than the margin from the beginning up to here: the last valid time.
+    pub t_lo: f64,
+    /// Of a hit a time at which its pair is no farther apart than the margin, the earliest that is known.
+    pub t_hi: f64,
+    /// Of a hit the distance of its pair at `t_hi` is at most this, of a near miss that at its own `t_lo`.
+    pub upper: f64,
+    /// The pair that ends it, object 1 moving, with what [`CastAnswer::contact`] says; null ids if all are free.
+    pub pair: PairResult,
+}
+
+impl Default for SceneCastAnswer {
+    fn default() -> Self {
+        SceneCastAnswer {
+            outcome: CastOutcome::None,
+            queries: 0,
+            t_lo: f64::NAN,
+            t_hi: f64::NAN,
+            upper: f64::NAN,
+            pair: PairResult::default(),
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Clone, Copy)]
+pub(crate) struct Question<'a> {
+    pub others: Others<'a>,
+    /// One for all objects of the set, or one for each.
+    pub motions: &'a [Motion<'a>],
+    pub config: &'a CastConfig,
+}
+
+/// Where it is worked in.
+pub(crate) struct Room<'a> {
+    pub movers: &'a mut Vec<Mover>,
+    pub boxes: &'a mut Vec<SweptBox>,
+    pub open: &'a mut Vec<Branch>,
+    pub found: &'a mut Vec<u32>,
+    pub approaches: &'a mut Vec<Approach>,
+    pub caches: &'a mut Caches,
+}
+
+/// A moving piece.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Mover {
+    proxy: u32,
+    /// Which object of the set it is of.
+    of: u32,
+    /// The first of its boxes, and the one behind its last.
+    boxes: [u32; 2],
+}
+
+/// A box that a piece does not leave from one time to the next, grown by the margin.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct SweptBox {
+    from: f64,
+    bounds: Aabb,
+}
+
+/// A pair that may be no farther apart than the margin, but not before a time.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Approach {
+    from: f64,
+    mover: u32,
+    target: Target,
+}
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+enum Target {
+    /// A piece where the scene has it.
+    Piece(u32),
+    /// Another moving piece.
+    Mover(u32),
+}
+
+/// The earliest time at which a moving object is no farther from another one than the margin.
+///
+/// # Errors
+/// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
+/// object, for an object whose pieces have poses of their own, and as of [`crate::motion::cast`]; [`Error::Pose`],
+/// [`Error::Memory`].
+pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswer> {
+    question.config.check()?;
+    room.caches.make_room()?;
+    list_movers(&question, room)?;
+    list_approaches(&question, room)?;
+    cast_all(&question, room)
+}
+
+impl<'a> Question<'a> {
+    fn motion(&self, of: u32) -> &'a Motion<'a> {
+        // One for all, or one for each.
+        &self.motions[(of as usize).min(self.motions.len() - 1)]
+    }
+
+    fn moving(&self, mover: &Mover) -> Moving<'a> {
+        Moving { shape: &self.others.world.proxies.shapes[mover.proxy as usize], motion: self.motion(mover.of) }
+    }
+}
+
+/// The moving pieces, and the boxes that each sweeps over.
+fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
+    let Question { others, motions, config, .. } = question;
+    let (world, ids) = (others.world, others.set.ids);
+    let Room { movers, boxes, .. } = room;
+    movers.clear();
+    boxes.clear();
+    if ids.is_empty() || !(motions.len() == 1 || motions.len() == ids.len()) {
+        let are = format!("{} motions for a set of {} objects", motions.len(), ids.len());
+        return Err(Error::Argument(format!("{are}: give one for all together, or one for each")));
+    }
+    for (of, id) in (0..).zip(ids) {
+        let named = |error: Error| error.about(&format!("object {of} of {} of the set", ids.len()));
+        let object = world.objects.get(*id).map_err(named)?;
+        if object.arrangement.is_some() {
+            let message = "its pieces have poses of their own: make each an object, with its motion";
+            return Err(named(Error::Argument(message.into())));
+        }
+        for proxy in object.proxies() {
+            let first = boxes.len() as u32;
+            let mover = Mover { proxy: proxy as u32, of, boxes: [first; 2] };
+            list_boxes(question.moving(&mover), config, boxes).map_err(named)?;
+            push(movers, Mover { boxes: [first, boxes.len() as u32], ..mover })?;
+        }
+    }
+    Ok(())
+}
+
+/// Boxes around what one piece sweeps over. Between two places of it no point is farther from the hull of both than `sag`.
+fn list_boxes(moving: Moving, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> Result<()> {
+    let swept = Swept::new(moving, config.range())?;
+    let grown = (swept.sag + config.margin).next_up();
+    let mut before = None;
+    for place in swept.places() {
+        let (time, pose) = place?;
+        let (spheres, _) = placed(moving.shape, &pose, pose.rotation_defect());
+        let here = grown_box(moving.shape, &pose, &spheres, grown);
+        if let Some((from, there)) = before.replace((time, here)) {
+            push(boxes, SweptBox { from, bounds: here.union(&there) })?;
+        }
+    }
+    Ok(())
+}
+
+/// The pairs whose boxes overlap, the earliest first.
+fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
+    let Question { others, .. } = question;
+    let Room { movers, boxes, open, found, approaches, .. } = room;
+    approaches.clear();
+    let boxes_of = |mover: &Mover| &boxes[mover.boxes[0] as usize..mover.boxes[1] as usize];
+    for (k, mover) in (0..).zip(&**movers) {
+        for swept in boxes_of(mover) {
+            others.list(open, found, |bounds| bounds.overlaps(&swept.bounds))?;
+            for &other in &**found {
+                push(approaches, Approach { from: swept.from, mover: k, target: Target::Piece(other) })?;
+            }
+        }
+        for second in (k + 1..movers.len() as u32).take_while(|_| others.set.among) {
+            let beside = boxes_of(&movers[second as usize]);
+            let overlapping = boxes_of(mover).iter().find(|a| beside.iter().any(|b| b.bounds.overlaps(&a.bounds)));
+            if overlapping.is_some() {
+                let from = question.config.t_begin;
+                push(approaches, Approach { from, mover: k, target: Target::Mover(second) })?;
+            }
+        }
+    }
+    // Of a pair the earliest counts.
+    approaches.sort_unstable_by(|a, b| (a.mover, a.target).cmp(&(b.mover, b.target)).then(a.from.total_cmp(&b.from)));
+    approaches.dedup_by_key(|approach| (approach.mover, approach.target));
+    approaches.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then((a.mover, a.target).cmp(&(b.mover, b.target))));
+    Ok(())
+}
+
+/// Casts the pairs, each up to the earliest time that is known.
+fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
+    let Question { others, config, .. } = question;
+    let Room { movers, approaches, caches, .. } = room;
+    let world = others.world;
+    let mut earliest = SceneCastAnswer { outcome: CastOutcome::Free, t_lo: config.t_end, ..SceneCastAnswer::default() };
+    let mut until = config.t_end;
+    for approach in &**approaches {
+        // Before that time the pair is free; and nothing is earlier than the beginning.
+        if earliest.outcome != CastOutcome::Free && (approach.from > until || until <= config.t_begin) {
+            break;
+        }
+        let mover = &movers[approach.mover as usize];
+        let rests;
+        let (other, motion) = match approach.target {
+            Target::Mover(k) => (movers[k as usize].proxy, question.motion(movers[k as usize].of)),
+            Target::Piece(proxy) => {
+                rests = Motion::Fixed(world.proxies.poses[proxy as usize]);
+                (proxy, &rests)
+            }
+        };
+        let pair = [mover.proxy, other];
+        if !world.is_tested(pair.map(|proxy| proxy as usize), true) {
+            continue;
+        }
+        let bodies = [question.moving(mover), Moving { shape: &world.proxies.shapes[other as usize], motion }];
+        let mut answer = CastAnswer::default();
+        let config = CastConfig { t_end: until, ..**config };
+        motion::cast(bodies, caches.of(pair), &config, &mut answer)?;
+        earliest.queries = earliest.queries.saturating_add(answer.queries);
+        if answer.outcome == CastOutcome::Free {
+            continue;
+        }
+        let is_earlier = match answer.outcome {
+            CastOutcome::Hit => !(earliest.t_hi <= answer.t_hi),
+            _ => answer.t_lo < earliest.t_lo,
+        };
+        if is_earlier {
+            let CastAnswer { outcome, t_hi, upper, contact, .. } = answer;
+            let t_lo = earliest.t_lo.min(answer.t_lo);
+            until = if outcome == CastOutcome::Hit { t_hi } else { answer.t_lo };
+            let pair = signed(world, pair, contact);
+            earliest = SceneCastAnswer { outcome, queries: earliest.queries, t_lo, t_hi, upper, pair };
+        } else {
+            earliest.t_lo = earliest.t_lo.min(answer.t_lo);
+        }
+    }
+    Ok(earliest)
+}

@@ -1,0 +1,88 @@
+//! A set of objects, and its pieces where the question has them.
+
+use crate::base::error::{Error, Result};
+use crate::base::math::Pose;
+use crate::base::memory::push;
+use crate::pair::Placed;
+use crate::scene::world::boxes::Aabb;
+use crate::scene::world::content::World;
+use crate::scene::world::object::{ObjectId, composed};
+use crate::scene::world::rows::{Spheres, grown_box, placed};
+
+/// Objects that a question is about.
+#[derive(Debug, Clone, Copy, Default)]
+pub struct ObjectSet<'a> {
+    /// Which, in any order.
+    pub ids: &'a [ObjectId],
+    /// Where each is for this question; `None`: where the scene has them.
+    pub poses: Option<&'a [Pose]>,
+    /// Pairs of two objects of the set are asked about, too.
+    pub among: bool,
+}
+
+/// A piece of a set.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Member {
+    pub proxy: u32,
+    pub pose: Pose,
+    pub spheres: Spheres,
+    pub bounds: Aabb,
+}
+
+impl Member {
+    /// A piece of the scene at a pose that is accepted.
+    pub fn new(world: &World, proxy: usize, pose: Pose) -> Member {
+        let shape = &world.proxies.shapes[proxy];
+        let (spheres, _) = placed(shape, &pose, pose.rotation_defect());
+        Member { proxy: proxy as u32, pose, spheres, bounds: grown_box(shape, &pose, &spheres, 0.0) }
+    }
+
+    /// The piece where it is.
+    pub fn placed<'a>(&'a self, world: &'a World) -> Placed<'a> {
+        world.proxies.shapes[self.proxy as usize].at(&self.pose)
+    }
+}
+
+/// Lists the pieces of a set, those of objects in their order.
+///
+/// # Errors
+/// [`Error::Handle`] for an id that names no object of the scene, [`Error::Argument`] unless there is one pose for each,
+/// [`Error::Pose`] for a pose that is not accepted, [`Error::Memory`].
+pub(crate) fn list(world: &World, set: &ObjectSet, members: &mut Vec<Member>) -> Result<()> {
+    members.clear();
+    let count = set.ids.len();
+    if let Some(poses) = set.poses
+        && poses.len() != count
+    {
+        return Err(Error::Argument(format!("{} poses for a set of {count} objects", poses.len())));
+    }
+    for (k, id) in set.ids.iter().enumerate() {
+        let named = |error: Error| error.about(&format!("object {k} of {count} of the set"));
+        let object = world.objects.get(*id).map_err(named)?;
+        for (piece, proxy) in object.proxies().enumerate() {
+            let pose = match set.poses {
+                None => world.proxies.poses[proxy],
+                Some(poses) => {
+                    let pose = &poses[k];
+                    let check = |pose: &Pose| pose.check(world.rotation_limit).map_err(named);
+                    check(pose)?;
+                    match &object.arrangement {
+                        None => *pose,
+                        Some(arrangement) => {
+                            let whole = composed(pose, &arrangement.piece_poses[piece]);
+                            check(&whole)?;
+                            whole
+                        }
+                    }
+                }
+            };
+            push(members, Member::new(world, proxy, pose))?;
+        }
+    }
+    Ok(())
+}
+
+/// Whether an object is in a set.
+pub(crate) fn holds(set: &ObjectSet, id: ObjectId) -> bool {
+    set.ids.contains(&id)
+}

@@ -1,0 +1,9 @@
+pub(crate) mod caches;
+pub(crate) mod members;
+pub(crate) mod bounds;
+pub(crate) mod others;
+pub(crate) mod nearest;
+pub(crate) mod first_hit;
+pub(crate) mod rays;
+pub(crate) mod casts;
+pub(crate) mod scratch;

@@ -1,0 +1,176 @@
+//! What a ray meets in a scene: the trees' boxes say what it may, and each body's own cast what it does. Where intervals do not
+//! tell which of two comes first, both are cast again in integers.
+
+use crate::base::error::Result;
+use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::base::memory::push;
+use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray, cast_ray_in_integers};
+use crate::scene::near::tree::Branch;
+use crate::scene::sets::others::Others;
+use crate::scene::world::boxes::Aabb;
+use crate::scene::world::object::ObjectId;
+use crate::scene::world::rows::Label;
+
+/// What of a ray is asked.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum RayHits {
+    /// The first that it meets.
+    #[default]
+    First = 0,
+    /// All, in order.
+    All = 1,
+    /// Any, found soonest.
+    Any = 2,
+}
+
+/// A convex piece that a ray meets.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct SceneRayHit {
+    /// Whose piece it is.
+    pub object: ObjectId,
+    /// The caller's own number of the object.
+    pub user_data: u64,
+    /// Which piece.
+    pub piece: u32,
+    /// Its place among all pieces of the scene, in order of creation, while none is removed.
+    pub row: u32,
+    /// Where the ray meets it.
+    pub answer: RayAnswer,
+}
+
+/// What is asked.
+#[derive(Clone, Copy)]
+pub(crate) struct Question<'a> {
+    pub others: Others<'a>,
+    pub ray: &'a Ray,
+    pub hits: RayHits,
+    /// The groups that the ray is tested against.
+    pub mask: u32,
+}
+
+/// Where it is worked in.
+pub(crate) struct Room<'a> {
+    pub open: &'a mut Vec<Branch>,
+    pub found: &'a mut Vec<u32>,
+    pub nearing: &'a mut Vec<Nearing>,
+    pub hits: &'a mut Vec<SceneRayHit>,
+}
+
+/// A piece whose box the ray may meet, not before `from`.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Nearing {
+    from: f64,
+    row: u32,
+}
+
+/// Lists what the ray meets, as far as is asked.
+///
+/// # Errors
+/// [`Error::Argument`](crate::base::error::Error::Argument) for a ray that is refused, as in [`cast_ray`],
+/// [`Error::Memory`](crate::base::error::Error::Memory).
+pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
+    let Question { others, ray, hits: wanted, mask } = question;
+    ray.check()?;
+    let Room { open, found, nearing, hits } = room;
+    hits.clear();
+    nearing.clear();
+    others.list(open, found, |bounds| entry(ray, bounds).is_some())?;
+    let proxies = &others.world.proxies;
+    for &row in found.iter().filter(|&&row| proxies.labels[row as usize].groups & mask != 0) {
+        if let Some(from) = entry(ray, others.box_of(row as usize)) {
+            push(nearing, Nearing { from, row })?;
+        }
+    }
+    nearing.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then(a.row.cmp(&b.row)));
+    // Nothing that begins later can be the first.
+    let mut until = ray.t_max;
+    for &Nearing { from, row } in &**nearing {
+        if from > until {
+            break;
+        }
+        let answer = cast_ray(others.placed(row as usize), &Ray { t_max: until, ..*ray })?;
+        if answer.outcome == RayOutcome::Miss {
+            continue;
+        }
+        let Label { object, user_data, piece, .. } = proxies.labels[row as usize];
+        push(hits, SceneRayHit { object, user_data, piece, row, answer })?;
+        match wanted {
+            RayHits::Any => break,
+            RayHits::First => until = until.min(answer.entry[1]),
+            RayHits::All => {}
+        }
+    }
+    put_in_order(&others, ray, hits);
+    if wanted == RayHits::First {
+        hits.truncate(1);
+        // Where it leaves that was not looked at.
+        for first in &mut **hits {
+            let again = cast_ray(others.placed(first.row as usize), ray)?;
+            first.answer.exit = again.exit;
+        }
+    }
+    Ok(())
+}
+
+/// Puts hits in order of their entries, and those of one entry in order of creation. Entries that overlap are found in integers, as
+/// neighbouring doubles.
+fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) {
+    let order = |a: &SceneRayHit, b: &SceneRayHit| {
+        let [entry1, entry2] = [a.answer.entry, b.answer.entry];
+        entry1[0].total_cmp(&entry2[0]).then(entry1[1].total_cmp(&entry2[1])).then(a.row.cmp(&b.row))
+    };
+    hits.sort_unstable_by(order);
+    let mut first = 0;
+    while first < hits.len() {
+        // What overlaps it, what overlaps that, and so on.
+        let (mut last, mut until) = (first + 1, hits[first].answer.entry[1]);
+        while last < hits.len() && hits[last].answer.entry[0] <= until {
+            until = until.max(hits[last].answer.entry[1]);
+            last += 1;
+        }
+        if last > first + 1 {
+            for hit in &mut hits[first..last] {
+                if hit.answer.exact == 0 {
+                    let exit = hit.answer.exit;
+                    hit.answer = RayAnswer { exit, ..cast_ray_in_integers(others.placed(hit.row as usize), ray) };
+                }
+            }
+            hits[first..last].sort_unstable_by(order);
+        }
+        first = last;
+    }
+}
+
+/// Covers quotients that underflow.
+const TINIEST: f64 = f64::MIN_POSITIVE;
+
+/// Where a ray may come into a box, rounded down, if it may meet it.
+///
+/// The difference of an end and the origin is off by u of itself, its quotient by the direction by u more: 4u cover both. Where the
+/// direction has no component, the origin decides, exactly.
+fn entry(ray: &Ray, bounds: &Aabb) -> Option<f64> {
+    let (mut from, mut to) = (0.0_f64, ray.t_max);
+    for k in 0..3 {
+        let (origin, direction) = (ray.origin[k], ray.direction[k]);
+        let [lower, upper] = [f64::from(bounds.lower[k]), f64::from(bounds.upper[k])];
+        if direction == 0.0 {
+            if origin < lower || origin > upper {
+                return None;
+            }
+            continue;
+        }
+        let ends = [(lower - origin) / direction, (upper - origin) / direction];
+        let [near, far] = if direction > 0.0 { ends } else { [ends[1], ends[0]] };
+        // What is infinite or none bounds nothing: a comparison with a NaN is false.
+        let (near, far) = (near - (4.0 * U * near.abs() + TINIEST), far + (4.0 * U * far.abs() + TINIEST));
+        if near > from {
+            from = near;
+        }
+        if far < to {
+            to = far;
+        }
+    }
+    (from <= to).then_some(from)
+}

@@ -1,0 +1,29 @@
+//! What a question about a set works in.
+
+use crate::scene::near::tree::Branch;
+use crate::scene::sets::caches::Caches;
+use crate::scene::sets::casts::{Approach, Mover, SweptBox};
+use crate::scene::sets::members::Member;
+use crate::scene::sets::nearest::Candidates;
+use crate::scene::sets::rays::{Nearing, SceneRayHit};
+
+/// Room to work in for questions about sets of objects, of any scene, for one thread at a time. It keeps what pairs remember, which
+/// changes how fast an answer comes and which of several nearest points it gives, never a verdict.
+#[derive(Debug, Default)]
+pub struct SetScratch {
+    pub(crate) members: Vec<Member>,
+    /// Of the second set.
+    pub(crate) second: Vec<Member>,
+    pub(crate) candidates: Candidates,
+    pub(crate) caches: Caches,
+    /// Branches of a tree that are to be looked at.
+    pub(crate) open: Vec<Branch>,
+    /// Pieces whose boxes came into question.
+    pub(crate) found: Vec<u32>,
+    pub(crate) nearing: Vec<Nearing>,
+    /// What the last ray met.
+    pub(crate) hits: Vec<SceneRayHit>,
+    pub(crate) movers: Vec<Mover>,
+    pub(crate) boxes: Vec<SweptBox>,
+    pub(crate) approaches: Vec<Approach>,
+}

@@ -1,0 +1,158 @@
+//! Points and support vertices against integers.
+
+use dashu_int::IBig;
+use dashu_ratio::RBig;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::FeatureKind;
+use swiftprox::point::{PointAnswer, PointLocation, locate_point, support};
+use testkit::any_size::depth::depth;
+use testkit::any_size::integers::{cross, difference, dot, is_zero, place};
+use testkit::any_size::nearest::nearest;
+use testkit::oracle::{rational, transform};
+use testkit::random::Random;
+use testkit::rays::{Case, anywhere, on_lattice};
+use testkit::shapes::hull;
+
+/// The row-major 3x4 matrices of a pose and of a point.
+fn matrices(pose: &Pose, point: [f64; 3]) -> [f64; 24] {
+    std::array::from_fn(|k| match k {
+        0..12 => pose.rows[k / 4][k % 4],
+        15 | 19 | 23 => point[k / 4 - 3],
+        12 | 17 | 22 => 1.0,
+        _ => 0.0,
+    })
+}
+
+/// Whether a point, the last of all, is in the interior of the hull of the others: no plane through it and two of them has all on
+/// one side. A point of the surface is in a face, and two corners of that make such a plane.
+fn is_interior(all: &[[IBig; 3]]) -> bool {
+    let (point, others) = all.split_last().unwrap();
+    let from_point: Vec<[IBig; 3]> = others.iter().map(|v| difference(v, point)).collect();
+    let mut planes = 0;
+    for (k, a) in from_point.iter().enumerate() {
+        for b in &from_point[..k] {
+            let normal = cross(a, b);
+            if is_zero(&normal) {
+                continue;
+            }
+            planes += 1;
+            let heights: Vec<IBig> = from_point.iter().map(|v| dot(&normal, v)).collect();
+            if heights.iter().all(|h| *h <= IBig::ZERO) || heights.iter().all(|h| *h >= IBig::ZERO) {
+                return false;
+            }
+        }
+    }
+    planes > 0
+}
+
+/// Checks what is said of a point.
+fn try_point(points: &[Vector], pose: &Pose, point: [f64; 3]) -> PointAnswer {
+    let shape = hull(points);
+    let answer = locate_point(shape.at(pose), point).unwrap();
+    let corners: Vec<[f64; 3]> = points.iter().map(|p| (*p).into()).collect();
+    let poses = matrices(pose, point);
+    let placed = place(&corners, &[[0.0; 3]], &poses);
+    let told = || format!("{points:?} {pose:?} {point:?} {answer:?}");
+    let apart = nearest(&placed);
+    let all: Vec<[IBig; 3]> = (0..points.len()).map(|v| placed.a.vertex(v)).chain([placed.b.vertex(0)]).collect();
+    let truth = match (apart.square.is_zero(), is_interior(&all)) {
+        (false, _) => PointLocation::Outside,
+        (true, false) => PointLocation::On,
+        (true, true) => PointLocation::Inside,
+    };
+    assert_eq!(answer.location, truth, "{}", told());
+    let square = |x: f64| rational(x) * rational(x);
+    match truth {
+        PointLocation::Outside => {
+            let distance = apart.world_square(&placed);
+            assert!(
+                answer.lower >= 0.0 && square(answer.lower) <= distance && distance <= square(answer.upper),
+                "{}",
+                told()
+            );
+        }
+        PointLocation::Inside => {
+            // In units of the placed vertices.
+            let unit = RBig::from(IBig::ONE << placed.exponent.unsigned_abs() as usize);
+            let unit = if placed.exponent < 0 { RBig::ONE / unit } else { unit };
+            let depth = depth(&placed, 100);
+            let [low, high] = [depth.lower_square, depth.upper_square].map(|square| square * &unit * &unit);
+            assert!(answer.upper <= 0.0 && square(answer.upper) <= high && low <= square(answer.lower), "{}", told());
+        }
+        _ => assert_eq!((answer.lower, answer.distance, answer.upper), (0.0, 0.0, 0.0), "{}", told()),
+    }
+    assert!(
+        (Vector::from(answer.normal).norm() - 1.0).abs() < 1e-12 && answer.feature.kind != FeatureKind::None,
+        "{}",
+        told()
+    );
+    answer
+}
+
+/// Checks what is said of a direction; whether integers decided.
+fn try_direction(points: &[Vector], pose: &Pose, direction: [f64; 3]) -> bool {
+    let shape = hull(points);
+    let answer = support(shape.at(pose), direction).unwrap();
+    let matrix = std::array::from_fn(|k| pose.rows[k / 4][k % 4]);
+    let along = direction.map(rational);
+    let height = |point: &Vector| {
+        let at = transform(&matrix, &[point.x, point.y, point.z].map(rational));
+        &at[0] * &along[0] + &at[1] * &along[1] + &at[2] * &along[2]
+    };
+    let highest = points.iter().map(height).max().unwrap();
+    let told = || format!("{points:?} {pose:?} {direction:?} {answer:?}");
+    assert_eq!(height(&points[answer.vertex as usize]), highest, "{}", told());
+    let [low, high] = answer.height;
+    assert!(low == f64::NEG_INFINITY || rational(low) <= highest, "{}", told());
+    assert!(high == f64::INFINITY || highest <= rational(high), "{}", told());
+    answer.exact == 1
+}
+
+/// How many points were inside, on and outside.
+fn try_all(seed: u64, count: usize, make: fn(&mut Random) -> Case) -> [usize; 3] {
+    let mut random = Random::new(seed);
+    let mut counts = [0; 3];
+    for _ in 0..count {
+        let Case { points, pose, ray, .. } = make(&mut random);
+        // The ray's origin, and on lattices often a point on the body.
+        let answer = try_point(&points, &pose, ray.origin);
+        counts[answer.location as usize - 1] += 1;
+    }
+    counts
+}
+
+#[test]
+fn points_on_lattices() {
+    let counts = try_all(11, 3_000, on_lattice);
+    assert!(counts.iter().all(|&count| count > 30), "{counts:?}");
+}
+
+/// Points that miss the surface by rounding or by a little.
+#[test]
+fn points_anywhere() {
+    let mut random = Random::new(12);
+    let mut counts = [0; 3];
+    for _ in 0..600 {
+        let Case { points, pose, .. } = anywhere(&mut random);
+        let mut any = || points[random.below(points.len())];
+        let (a, b, c) = (any(), any(), any());
+        let through = pose.transform(&random.pick(&[a, (a + b) * 0.5, a * 0.5 + b * 0.25 + c * 0.25]));
+        let reach = points.iter().map(|p| p.norm()).fold(0.0, f64::max);
+        let near = random.vector() * (reach * random.pick(&[0.0, 1e-16, 1e-10, 0.1]));
+        counts[try_point(&points, &pose, (through + near).into()).location as usize - 1] += 1;
+    }
+    assert!(counts[0] > 30 && counts[2] > 30, "{counts:?}");
+}
+
+#[test]
+fn directions() {
+    let mut random = Random::new(13);
+    let mut exact = 0;
+    for round in 0..3_000 {
+        let make = if round % 3 == 0 { anywhere } else { on_lattice };
+        let Case { points, pose, ray, .. } = make(&mut random);
+        exact += usize::from(try_direction(&points, &pose, ray.direction));
+    }
+    // Both ways of deciding.
+    assert!((100..2_900).contains(&exact), "{exact}");
+}

@@ -1,0 +1,167 @@
+//! Bodies and half-spaces: heights of vertices in rational numbers.
+
+use std::cmp::Ordering;
+
+use crate::{capsule, sphere, swept};
+use dashu_ratio::RBig;
+use swiftprox::error::Error;
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{
+    HalfSpace, Manifold, ManifoldConfig, ManifoldPoint, Outcome, half_space_distance, half_space_manifold,
+};
+use swiftprox::shape::Shape;
+use testkit::oracle::{rational, transform};
+use testkit::random::Random;
+use testkit::shapes::at;
+
+const GROUND: HalfSpace = HalfSpace { normal: [0.0, 0.0, 1.0], offset: 0.0 };
+
+fn manifold(
+    body: &Shape,
+    pose: &Pose,
+    half_space: &HalfSpace,
+    margin: f64,
+    reduces: bool,
+) -> (Manifold, Vec<ManifoldPoint>) {
+    let mut points = vec![ManifoldPoint::default(); 64];
+    let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
+    let found = half_space_manifold(body.at(pose), half_space, &config, &mut points).unwrap();
+    points.truncate(found.point_count as usize);
+    (found, points)
+}
+
+/// Of any hulls, poses and planes: the interval holds the least (n·x − offset)/|n| of all vertices, less the radius, and so do
+/// gaps; no vertex is deeper than the deepest point.
+#[test]
+fn intervals_hold_the_lowest_vertex() {
+    let mut random = Random::new(0xa15);
+    let mut seen = [0; 2];
+    for round in 0..300 {
+        let cloud: Vec<Vector> = (0..[1, 2, 3, 4, 12, 40][round % 6]).map(|_| random.vector()).collect();
+        let radius = if round % 2 == 0 { 0.0 } else { random.uniform(0.0, 1.0) };
+        let body = swept(&cloud, radius);
+        let pose = Pose::new(&random.rotation(), &(random.vector() * 2.0));
+        let normal = random.vector() * random.power(-8, 8);
+        let half_space = HalfSpace { normal: normal.into(), offset: random.signed() * normal.norm() };
+        let rows = std::array::from_fn(|k| pose.rows[k / 4][k % 4]);
+        let product = |point: &Vector| {
+            let world = transform(&rows, &<[f64; 3]>::from(*point).map(rational));
+            (0..3).map(|k| rational(normal[k]) * &world[k]).fold(rational(-half_space.offset), |sum, part| sum + part)
+        };
+        let square =
+            (0..3).map(|k| rational(normal[k]) * rational(normal[k])).fold(rational(0.0), |sum, part| sum + part);
+        // A bound against (product)/|n| − r: (bound + r)·|n| against the product.
+        let compare = |bound: f64, product: &RBig| {
+            let bound = rational(bound) + rational(radius);
+            let zero = rational(0.0);
+            match (bound >= zero, *product >= zero) {
+                (true, true) => (&bound * &bound * &square).cmp(&(product * product)),
+                (false, false) => (product * product).cmp(&(&bound * &bound * &square)),
+                (true, false) => Ordering::Greater,
+                (false, true) => Ordering::Less,
+            }
+        };
+        let least = cloud.iter().map(product).min().unwrap();
+        let answer = half_space_distance(body.at(&pose), &half_space).unwrap();
+        assert!(compare(answer.lower, &least).is_le() && compare(answer.upper, &least).is_ge(), "{answer:?}");
+        assert!(
+            answer.upper - answer.lower < 1e-14 && answer.lower <= answer.distance && answer.distance <= answer.upper
+        );
+        let is_apart = compare(0.0, &least).is_lt();
+        assert_eq!(answer.outcome, if is_apart { Outcome::Separated } else { Outcome::Intersecting });
+        seen[usize::from(is_apart)] += 1;
+        let [world1, world2, up] = [answer.world1, answer.world2, answer.normal].map(Vector::from);
+        assert!((world1 - world2 - up * answer.distance).norm() < 1e-14, "{answer:?}");
+        assert!((pose.transform(&Vector::from(answer.local1)) - world1).norm() < 1e-14);
+        let (found, points) = manifold(&body, &pose, &half_space, 0.5, false);
+        assert_eq!(found.outcome == Outcome::Beyond, answer.lower > 0.5);
+        assert!(points.is_empty() == (found.outcome == Outcome::Beyond));
+        let mut deepest = f64::INFINITY;
+        for point in &points {
+            let vertex = &cloud[point.feature1.ids[0] as usize];
+            let exact = product(vertex);
+            assert!(compare(point.gap_lower, &exact).is_le() && compare(point.gap_upper, &exact).is_ge(), "{point:?}");
+            assert!(point.gap_upper - point.gap_lower < 1e-13);
+            deepest = deepest.min(point.gap_lower);
+        }
+        assert!(points.is_empty() || deepest <= answer.upper);
+    }
+    assert!(seen.iter().all(|&count| count > 60), "{seen:?}");
+}
+
+/// Touching is intersecting; a unit in the last place is not.
+#[test]
+fn touching_is_decided_in_integers() {
+    let tilted = HalfSpace { normal: [3.0, 0.0, 4.0], offset: 0.0 };
+    for (body, height, half_space) in [
+        (sphere(0.5), 0.5, GROUND),
+        (capsule(2.0, 0.25), 0.25, GROUND),
+        // Of a normal of length 5: 4·z/5.
+        (sphere(0.4), 0.5, tilted),
+    ] {
+        let ask = |z: f64| half_space_distance(body.at(&at(0.0, 0.0, z)), &half_space).unwrap();
+        let touching = ask(height);
+        // 0.4 is no double: the sphere is larger than 2/5.
+        let is_exact = half_space == GROUND;
+        assert_eq!(touching.outcome, Outcome::Intersecting);
+        assert!(!is_exact || (touching.lower, touching.upper) == (0.0, 0.0), "{touching:?}");
+        let apart = ask(height.next_up());
+        assert_eq!(apart.outcome, Outcome::Separated, "{apart:?}");
+        assert!(apart.lower > 0.0 && apart.upper < 1e-15);
+        assert_eq!(ask(height.next_down()).outcome, Outcome::Intersecting);
+    }
+}
+
+/// A box has its four lower corners, whichever way it is turned about the vertical, two of them on an edge, one on a corner; a drum
+/// four of its many, those that cover most.
+#[test]
+fn manifolds_are_the_corners_below() {
+    let cube = swept(&testkit::models::cuboid([0.5; 3]).unwrap().vertices, 0.125);
+    let slanted =
+        |y: f64, x: f64| testkit::random::rotation(&Vector::x(), x) * testkit::random::rotation(&Vector::y(), y);
+    let quarter = std::f64::consts::FRAC_PI_4;
+    for (turn, count, height) in [
+        (testkit::random::rotation(&Vector::z(), 0.4), 4, 0.625),
+        (slanted(quarter, 0.0), 2, 0.5_f64.sqrt() + 0.125),
+        (slanted(quarter, 0.3), 1, 0.8),
+    ] {
+        let (found, points) = manifold(&cube, &Pose::new(&turn, &Vector::new(0.3, 0.2, height)), &GROUND, 1e-9, false);
+        assert_eq!((found.point_count, points.len()), (count, count as usize), "{found:?}");
+    }
+    let drum: Vec<Vector> = (0..96)
+        .map(|k| {
+            let angle = std::f64::consts::TAU * f64::from(k / 2) / 48.0;
+            Vector::new(angle.cos(), angle.sin(), if k % 2 == 0 { 0.25 } else { -0.25 })
+        })
+        .collect();
+    let pose = Pose::new(&Matrix::identity(), &Vector::new(0.0, 0.0, 0.2));
+    let (all, _) = manifold(&swept(&drum, 0.0), &pose, &GROUND, 0.0, false);
+    assert_eq!((all.point_count, all.found_count), (48, 48));
+    let (four, points) = manifold(&swept(&drum, 0.0), &pose, &GROUND, 0.0, true);
+    assert_eq!((four.point_count, four.found_count), (4, 48));
+    let [a, b, c, d] = [0, 1, 2, 3].map(|i| Vector::from(points[i].world1));
+    let area = 0.5 * (b - a).cross(&(d - c)).norm();
+    assert!(area > 1.9, "{area}: the largest square has 2");
+}
+
+#[test]
+fn what_is_no_half_space_is_refused() {
+    let (body, pose) = (sphere(1.0), Pose::IDENTITY);
+    for half_space in [
+        HalfSpace { normal: [0.0; 3], offset: 0.0 },
+        HalfSpace { normal: [0.0, f64::NAN, 1.0], offset: 0.0 },
+        HalfSpace { normal: [0.0, 0.0, 1.0], offset: f64::INFINITY },
+    ] {
+        let refused = half_space_distance(body.at(&pose), &half_space).unwrap_err();
+        assert!(matches!(&refused, Error::Argument(message) if message.contains("half-space")), "{refused}");
+    }
+    let mirror = Pose::new(&Matrix::from_diagonal(&Vector::new(-1.0, 1.0, 1.0)), &Vector::zeros());
+    assert!(matches!(half_space_distance(body.at(&mirror), &GROUND), Err(Error::Pose(_))));
+    // At the ends of the range.
+    for (normal, offset) in [([0.0, 0.0, f64::MAX], 0.0), ([0.0, 0.0, 5e-324], 0.0), ([1e300, 1e-300, 1e300], f64::MAX)]
+    {
+        let answer = half_space_distance(body.at(&pose), &HalfSpace { normal, offset }).unwrap();
+        assert!(answer.lower <= answer.distance && answer.distance <= answer.upper, "{answer:?}");
+        manifold(&body, &pose, &HalfSpace { normal, offset }, f64::INFINITY, true);
+    }
+}
