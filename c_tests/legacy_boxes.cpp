@@ -1,6 +1,6 @@
 /*
- * Many objects with the broad phase on, asked without a tolerance: listed are the pairs whose enlarged boxes overlap, and those that
- * intersect. What a scene without the broad phase says of all pairs, and boxes that are computed here, say which these are.
+ * Many objects with the broad phase on, asked without a tolerance: listed are the pairs whose enlarged boxes overlap, and those
+ * that intersect. What a scene without the broad phase says of all pairs, and boxes that are computed here, say which these are.
  */
 #include "legacy_test.h"
 

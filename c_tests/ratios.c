@@ -1,8 +1,8 @@
 /*
  * What scenes cost beside the pairs in them, for ratios.py to count under callgrind: a function call `measured` for each case.
  * Two ellipsoids of 1,002 points, one on an orbit in steps of 0.1 degrees, by the pair layer and in a scene; all pairs of boxes
- * that move, with and without the memory of what each pair answered; and near boxes, by exact and by approximate queries, moving and
- * at rest.
+ * that move, with and without the memory of what each pair answered; and near boxes, by exact and by approximate queries, moving
+ * and at rest.
  */
 #include <math.h>
 #include <string.h>

@@ -1,7 +1,7 @@
 /* A tower of ten boxes and a pile of hulls from files, under gravity: what contact manifolds are for.
  *
  * Prints how far the tower's boxes have moved after 10 simulated seconds, and how many contact points were known again from step
- * to step. It fails if a box has moved by a twentieth of its side, or if one point of fifty was not known again. With a noise
+ * to step. It fails if a box has moved by a twentieth of its side, or if one point of 500 was not known again. With a noise
  * the coordinates of the tower's corners are off by up to that, and their sides no longer flat. The picture shows
  * both from the side, at four times. */
 #include <math.h>
@@ -152,6 +152,6 @@ int main(int argc, char **argv)
     }
     strip_destroy(strip);
     world_destroy(world);
-    const bool stands = moved < 0.05 && 50 * (points - known) <= points && points > 0;
+    const bool stands = moved < 0.05 && 500 * (points - known) <= points && points > 0;
     return program_end(&PROGRAM, stands && written ? GOOD : FAILED);
 }

@@ -6,8 +6,9 @@
 //! | nothing | 0, or any other number | | |
 //! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
 //! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
+//! | a pyramid that proved a depth | 24 and its corners, 3 or 4; 4 more for the second triangle of its base | the apex | the base |
 //! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
-//! | a direction | 32 | | a separating axis |
+//! | a direction | 40 | | a separating axis |
 //!
 //! Beside all but an enclosure the last vertex pair says how the axis lay, and by which way approximate queries answer.
 
@@ -18,6 +19,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::decide::Pairs;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Marker;
+use crate::solve::polytope::Pyramid;
 use crate::solve::separating_axis::Axis;
 use crate::solve::state::State;
 
@@ -44,13 +46,19 @@ enum Content {
     Levels(u32),
     /// An axis without features.
     Direction,
+    /// How many corners the base has, and which triangle of it the enclosure is over.
+    Pyramid(usize, usize),
 }
 
 /// What the first word of an enclosure and of features of levels have more than the number in [`Content`].
 const ENCLOSURE: u32 = 8;
 const LEVELS: u32 = 16;
+const PYRAMID: u32 = 24;
 /// The first word of a direction alone.
-const DIRECTION: u32 = 32;
+const DIRECTION: u32 = 40;
+
+/// Corners of a pyramid's base that there is room for.
+const MOST_CORNERS: usize = 4;
 
 /// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
@@ -63,6 +71,8 @@ impl PairCache {
             tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
             tag @ 17..=22 => Content::Levels(tag - LEVELS),
             DIRECTION => Content::Direction,
+            tag @ 27..=28 => Content::Pyramid((tag - PYRAMID) as usize, 0),
+            32 => Content::Pyramid(MOST_CORNERS, 1),
             _ => Content::Nothing,
         }
     }
@@ -159,17 +169,42 @@ impl PairCache {
     /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
     pub(super) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        let Content::Enclosure(count) = self.content() else { return None };
-        let pairs = &self.pairs[..count];
+        let (mut tetrahedron, mut count) = (self.pairs, self.pairs.len());
+        match self.content() {
+            Content::Enclosure(pairs) => count = pairs,
+            Content::Pyramid(_, triangle) => {
+                let [first, ..] = self.pairs;
+                tetrahedron = [first, self.pairs[triangle + 1], self.pairs[triangle + 2], self.indices];
+            }
+            Content::Nothing | Content::Features(_) | Content::Levels(_) | Content::Direction => return None,
+        }
+        let pairs = &tetrahedron[..count];
         let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
         let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
         pairs.iter().all(known).then(|| Pairs::new(pairs))
     }
 
+    /// The pyramid that proved the last depth, be it of vertices that the bodies have or not.
+    #[inline(always)]
+    pub(super) fn pyramid(&self) -> Option<Pyramid> {
+        let Content::Pyramid(count, _) = self.content() else { return None };
+        Some(Pyramid::new(&self.pairs[..count], self.indices))
+    }
+
+    /// A pyramid, and which triangle of its base makes an enclosure with its apex; of one of many corners nothing is kept.
+    pub(super) fn remember_pyramid(&mut self, pyramid: &Pyramid, triangle: u8) {
+        let Some((base, apex)) = pyramid.plain() else { return };
+        if base.len() <= MOST_CORNERS && usize::from(triangle) + 2 < base.len() {
+            self.pairs[..base.len()].copy_from_slice(base);
+            self.indices = apex;
+            self.tag = PYRAMID + base.len() as u32 + 4 * u32::from(triangle);
+        }
+    }
+
     /// Whether it holds an enclosure, be it of vertices that the bodies have or not.
     #[inline(always)]
     pub(super) fn holds_enclosure(&self) -> bool {
-        matches!(self.content(), Content::Enclosure(_))
+        matches!(self.content(), Content::Enclosure(_) | Content::Pyramid(..))
     }
 
     pub(super) fn remember_enclosure(&mut self, pairs: &[VertexPair]) {
@@ -191,7 +226,7 @@ impl PairCache {
         let (kind, levels) = match self.content() {
             Content::Levels(kind) => (kind, self.pairs[0]),
             Content::Features(kind) => (kind, [0, 0]),
-            Content::Nothing | Content::Enclosure(_) | Content::Direction => return None,
+            Content::Nothing | Content::Enclosure(_) | Content::Pyramid(..) | Content::Direction => return None,
         };
         let coarsest = bodies.coarsest();
         let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];

@@ -60,8 +60,8 @@ pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, 
 /// distance.
 ///
 /// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and
-/// features stay unset in an answer that comes from maps of support functions or from levels of detail. Of a pair beyond `config.distance_tolerance` only
-/// `lower` is set.
+/// features stay unset in an answer that comes from maps of support functions or from levels of detail. Of a pair beyond
+/// `config.distance_tolerance` only `lower` is set.
 ///
 /// # Errors
 /// As [`distance`]; [`Error::Argument`](crate::base::error::Error::Argument) for an error tolerance that is NaN or negative and a

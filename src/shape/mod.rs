@@ -172,8 +172,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it, look-up
-/// tables of the body and of its levels and automatic levels, is all that is ever added.
+/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
+/// added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -181,10 +181,10 @@ pub struct Shape {
     extent: Extent,
     /// Empty while automatic levels are not made.
     hierarchy: OnNeed<Hierarchy>,
-    /// Its support function for approximate distances, as far as it is made.
-    support_map: SupportMap,
     /// Of the ball that is swept over the polyhedron.
     swept_radius: f64,
+    /// Its support function for approximate distances, as far as it is made.
+    support_map: SupportMap,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -545,8 +545,11 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        let made = self.hierarchy().heap_bytes() + self.support_map.heap_bytes();
-        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + made
+        size_of::<Shape>()
+            + self.extent.heap_bytes()
+            + self.polyhedron.heap_bytes()
+            + self.hierarchy().heap_bytes()
+            + self.support_map.heap_bytes()
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.

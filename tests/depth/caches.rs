@@ -14,7 +14,7 @@ pub fn of_bytes(bytes: &[u8; size_of::<DepthCache>()]) -> DepthCache {
     unsafe { std::mem::transmute(*bytes) }
 }
 
-fn bytes_of(cache: &DepthCache) -> [u8; size_of::<DepthCache>()] {
+pub fn bytes_of(cache: &DepthCache) -> [u8; size_of::<DepthCache>()] {
     // SAFETY: all its members are integers without gaps between them.
     unsafe { std::mem::transmute(*cache) }
 }

@@ -15,6 +15,10 @@ fn pyramid(tip: Vector, up: f64) -> Shape {
     hull(&[tip, corner(2.0, 0.0), corner(-1.0, 1.75), corner(-1.0, -1.75)])
 }
 
+/// Where a cache has its pairs and its triangles: behind 16 bytes and two pyramids, and behind 56 pairs.
+const PAIRS: usize = 16 + 2 * 88;
+const TRIANGLES: usize = PAIRS + 56 * 8;
+
 /// A tetrahedron of four differences of the pyramids' vertices: tip and tip, and the corners of the first over the other tip.
 fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
     let index = |shape: &Shape, label: u32| {
@@ -25,12 +29,12 @@ fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
     for label in 0..4 {
         let pair = [index(shapes[0], label), index(shapes[1], 0)];
         for (i, vertex) in pair.into_iter().enumerate() {
-            let at = 16 + 8 * label as usize + 4 * i;
+            let at = PAIRS + 8 * label as usize + 4 * i;
             bytes[at..at + 4].copy_from_slice(&vertex.to_ne_bytes());
         }
     }
     for (triangle, corners) in [[0, 1, 2], [0, 2, 3], [0, 3, 1], [3, 2, 1]].into_iter().enumerate() {
-        bytes[528 + 7 * triangle..][..3].copy_from_slice(&corners);
+        bytes[TRIANGLES + 7 * triangle..][..3].copy_from_slice(&corners);
     }
     of_bytes(&bytes)
 }

@@ -12,6 +12,7 @@ mod facets;
 mod flat_faces;
 mod forgery;
 mod magnitudes;
+mod resting;
 mod streams;
 mod truth;
 

@@ -7,6 +7,7 @@ use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
 
+use crate::resting::is_by_pyramid;
 use crate::{Random, query};
 use testkit::random::rotation;
 use testkit::shapes::hull;
@@ -142,23 +143,29 @@ struct Seen {
     separated: usize,
     /// Pairs whose depth all facets told.
     by_facets: usize,
+    /// Answers that a pyramid of before gave.
+    by_pyramids: usize,
     widest: f64,
 }
 
 impl Seen {
     /// Asks for a depth, cold and again, and compares it with the exact one.
     fn add(&mut self, bodies: [&[Vector]; 2], shapes: [&Shape; 2], poses: [&Pose; 2]) {
+        self.ask(bodies, shapes, poses, &mut DepthCache::default());
+    }
+
+    /// The same with what a cache holds.
+    fn ask(&mut self, bodies: [&[Vector]; 2], shapes: [&Shape; 2], poses: [&Pose; 2], cache: &mut DepthCache) {
         let placed = [placed(bodies[0], poses[0]), placed(bodies[1], poses[1])];
         let supports = supports([&placed[0], &placed[1]]);
         let least = supports.iter().map(|support| support.height).min().unwrap();
         self.overlapping += usize::from(least > 0);
         self.touching += usize::from(least == 0);
         self.separated += usize::from(least < 0);
-        let mut cache = DepthCache::default();
         for _ in 0..2 {
-            let answer: DepthAnswer = query(shapes, poses, &mut cache);
+            let answer: DepthAnswer = query(shapes, poses, cache);
             let told = || format!("{bodies:?} {poses:?} {answer:?}");
-            verify_depth([shapes[0].at(poses[0]), shapes[1].at(poses[1])], &cache, &answer)
+            verify_depth([shapes[0].at(poses[0]), shapes[1].at(poses[1])], cache, &answer)
                 .unwrap_or_else(|error| panic!("{error}: {}", told()));
             if least < 0 {
                 assert_eq!(answer.outcome, Outcome::Separated, "{}", told());
@@ -173,6 +180,7 @@ impl Seen {
                 assert!(answer.upper > 0.0, "{}", told());
             }
             self.by_facets += usize::from(answer.lower > 0.0 && answer.statistics.triangles == 0);
+            self.by_pyramids += usize::from(is_by_pyramid(&answer));
             let truth = supports.iter().map(Support::about).fold(f64::INFINITY, f64::min);
             let near = |support: &&Support| support.about() <= truth * (1.0 + 1e-12);
             let nearest: Vec<&Support> = supports.iter().filter(near).collect();
@@ -205,7 +213,7 @@ fn depths_of_small_pairs_hold_the_exact_ones() {
         let shapes = [hull(&bodies[0]), hull(&bodies[1])];
         seen.add([&bodies[0], &bodies[1]], [&shapes[0], &shapes[1]], [&poses[0], &poses[1]]);
     }
-    let Seen { overlapping, touching, separated, by_facets, widest } = seen;
+    let Seen { overlapping, touching, separated, by_facets, widest, .. } = seen;
     println!(
         "{overlapping} overlapping, {by_facets} by facets, {touching} touching, {separated} separated, {widest:e}"
     );
@@ -258,4 +266,41 @@ fn depths_of_solids_hold_the_exact_ones() {
     let Seen { overlapping, by_facets, widest, .. } = seen;
     println!("{overlapping} overlapping, {by_facets} by facets, {widest:e}");
     assert!(overlapping > 400 && by_facets > overlapping, "{overlapping} {by_facets}");
+}
+
+/// Solids on each other, some on an edge or a corner, that creep and lean from step to step by as little as the grid allows: most
+/// answers are a pyramid's.
+#[test]
+fn depths_at_rest_hold_the_exact_ones() {
+    let mut random = Random::new(33);
+    let mut seen = Seen::default();
+    let on_grid = |turn: Matrix| turn.map(|x| (x / ROTATION_UNIT).round() * ROTATION_UNIT);
+    for round in 0..60 {
+        let bodies = [solid(&mut random), solid(&mut random)];
+        let shapes = [hull(&bodies[0]), hull(&bodies[1])];
+        let mut cache = DepthCache::default();
+        let lower = match round % 3 {
+            0 => Matrix::identity(),
+            _ => random.rotation(),
+        };
+        let mut upper = if round % 2 == 0 { rotation(&Vector::z(), random.signed()) } else { random.rotation() };
+        let mut aside = random.vector() * 0.2;
+        let deep = random.power(-11, -7);
+        for _ in 0..8 {
+            let turns = [on_grid(lower), on_grid(upper)];
+            let heights = |i: usize| {
+                let turn: &Matrix = &turns[i];
+                bodies[i].iter().map(move |p| (turn * p).z)
+            };
+            let above = heights(0).fold(f64::NEG_INFINITY, f64::max) - heights(1).fold(f64::INFINITY, f64::min) - deep;
+            let at = Vector::new(aside.x, aside.y, above).map(|x| (x / UNIT).round() * UNIT);
+            let poses = [Pose::new(&turns[0], &Vector::zeros()), Pose::new(&turns[1], &at)];
+            seen.ask([&bodies[0], &bodies[1]], [&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
+            upper = rotation(&random.direction(), 5e-4 * random.signed()) * upper;
+            aside += random.vector() * 1e-3;
+        }
+    }
+    let Seen { overlapping, by_pyramids, widest, .. } = seen;
+    println!("{overlapping} overlapping, {by_pyramids} by pyramids, {widest:e}");
+    assert!(overlapping > 120 && by_pyramids > overlapping, "{overlapping} {by_pyramids}");
 }

@@ -18,7 +18,7 @@ inline bool is_decomposable(const Mesh& mesh)
 #endif
 }
 
-/* The patches of a surface. False where it is not one; swiftprox_library_last_error_message explains that, or what failed before. */
+/* The patches of a surface. False where it is not one; swiftprox_library_last_error_message says why, or what failed. */
 inline bool pieces_of_surface(const Mesh& mesh, std::vector<Mesh>& pieces)
 {
     if (!is_decomposable(mesh)) {

@@ -1,5 +1,5 @@
-//! What a pair remembers of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies. Here alone it
-//! is packed and unpacked.
+//! What a pair remembers of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the
+//! pyramids of a pair at rest. Here alone it is packed and unpacked.
 
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
@@ -7,13 +7,14 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::facets::Facet;
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{NO_TWIN, Polytope, SearchStart, triangle_of};
+use crate::solve::polytope::{NO_TWIN, Polytope, Pyramid, SearchStart, triangle_of};
+use crate::solve::state::FeatureId;
 
 /// Vertices of a polytope that is kept.
-pub const MOST_VERTICES: usize = 64;
+const MOST_VERTICES: usize = 56;
 
 /// Triangles of a polytope that is kept: a closed surface without holes and handles of so many vertices has no more.
-pub const MOST_TRIANGLES: usize = 124;
+const MOST_TRIANGLES: usize = 108;
 
 /// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
 /// which of several least directions is said; never the verdict, and no depth beyond its interval.
@@ -26,10 +27,29 @@ pub struct DepthCache {
     counts: [u8; 4],
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
+    /// What proved the depth where the pair rested, the last one that did first.
+    pyramids: [KeptPyramid; PYRAMIDS],
     /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair.
     pairs: [VertexPair; MOST_VERTICES],
     triangles: [PackedTriangle; MOST_TRIANGLES],
 }
+
+/// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
+pub const PYRAMIDS: usize = 2;
+
+/// A pyramid, and which features held the witness points when it proved a depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+struct KeptPyramid {
+    pyramid: Pyramid,
+    /// Indices of features; [`Pyramid::mark`] tells of which kinds, and in which triangle the points were.
+    features: [u32; 2],
+}
+
+/// Kinds of features in a mark, of two bits for each body; the triangle is above them. So a mark that is made is not 0.
+const VERTEX: u8 = 1;
+const EDGE: u8 = 2;
+const FACE: u8 = 3;
 
 /// Kinds of facets: fewer than the vertices of any polytope.
 const FACE_OF_FIRST: u8 = 1;
@@ -44,6 +64,7 @@ impl Default for DepthCache {
         DepthCache {
             counts: [0; 4],
             direction: [0; 3],
+            pyramids: [KeptPyramid::default(); PYRAMIDS],
             pairs: [[0; 2]; MOST_VERTICES],
             triangles: [[0; 7]; MOST_TRIANGLES],
         }
@@ -81,7 +102,9 @@ impl DepthCache {
         start
     }
 
-    fn direction<L: Lanes>(&self, frame: &Frame<L>) -> Option<Vector> {
+    /// The direction of the least overlap when that was last searched for, in the world; `None` where none is kept.
+    #[inline(always)]
+    pub fn direction<L: Lanes>(&self, frame: &Frame<L>) -> Option<Vector> {
         let [x, y, z] = self.direction.map(|bits| f64::from(f32::from_bits(bits)));
         let direction = frame.bodies[0].rotate(&Vector::new(x, y, z)).to_vector();
         let square = direction.norm_squared();
@@ -141,6 +164,58 @@ impl DepthCache {
         (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
     }
 
+    /// Whether a pyramid is kept, be it of these bodies or not.
+    #[inline(always)]
+    pub fn has_pyramid(&self) -> bool {
+        self.pyramids[0].pyramid.is_there()
+    }
+
+    /// A kept pyramid; it need not be one of these bodies.
+    #[inline(always)]
+    pub fn pyramid(&self, place: usize) -> &Pyramid {
+        &self.pyramids[place].pyramid
+    }
+
+    /// Keeps a pyramid, the other one behind it.
+    pub fn keep_pyramid(&mut self, pyramid: &Pyramid) {
+        self.pyramids = [KeptPyramid { pyramid: *pyramid, features: [0; 2] }, self.pyramids[0]];
+    }
+
+    /// Keeps a pyramid in the place of another.
+    pub fn replace_pyramid(&mut self, place: usize, pyramid: &Pyramid) {
+        self.pyramids[place] = KeptPyramid { pyramid: *pyramid, features: [0; 2] };
+    }
+
+    /// A kept pyramid comes first.
+    #[inline(always)]
+    pub fn put_first(&mut self, place: usize) {
+        if place > 0 {
+            self.pyramids.swap(0, place);
+        }
+    }
+
+    /// The features that held the points of the first pyramid in one of its triangles; the bodies need not have them.
+    #[inline(always)]
+    pub fn features(&self, triangle: u8) -> Option<[FeatureId; 2]> {
+        let KeptPyramid { pyramid: Pyramid { mark, .. }, features: [first, second] } = self.pyramids[0];
+        if mark >> 4 != triangle {
+            return None;
+        }
+        Some([feature(mark & 3, first)?, feature(mark >> 2 & 3, second)?])
+    }
+
+    /// Keeps the features that hold the points of the first pyramid in one of its triangles.
+    pub fn keep_features(&mut self, triangle: u8, features: [FeatureId; 2]) {
+        let [(kind1, first), (kind2, second)] = features.map(|feature| match feature {
+            FeatureId::Vertex(index) => (VERTEX, index),
+            FeatureId::Edge(index) => (EDGE, index),
+            FeatureId::Face(index) => (FACE, index),
+        });
+        let kept = &mut self.pyramids[0];
+        kept.features = [first, second];
+        kept.pyramid.mark = triangle << 4 | kind2 << 2 | kind1;
+    }
+
     /// Whether nothing is kept.
     #[inline(always)]
     pub fn is_cold(&self) -> bool {
@@ -193,5 +268,16 @@ impl DepthCache {
     pub fn expects_overlap(&self) -> bool {
         let [_, triangles, overlap, _] = self.counts;
         triangles > 0 || (overlap == 1 && self.facet().is_some())
+    }
+}
+
+/// A feature by its kind and index.
+#[inline(always)]
+fn feature(kind: u8, index: u32) -> Option<FeatureId> {
+    match kind {
+        VERTEX => Some(FeatureId::Vertex(index)),
+        EDGE => Some(FeatureId::Edge(index)),
+        FACE => Some(FeatureId::Face(index)),
+        _ => None,
     }
 }

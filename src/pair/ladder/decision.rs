@@ -7,11 +7,12 @@ use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::pair::answer::{DecidedBy, Outcome, Statistics};
 use crate::pair::config::Query;
 use crate::pair::contact;
-use crate::pair::depth::deepest;
+use crate::pair::depth::{Pyramids, deepest};
 use crate::pair::start::policy;
 use crate::solve::decide::{self, Decision, Pairs};
 use crate::solve::enclosure::encloses_origin;
 use crate::solve::frame::Frame;
+use crate::solve::polytope::{Pyramid, Rounding};
 use crate::solve::state::State;
 use crate::tables::tuning::TURNED_AWAY;
 
@@ -64,6 +65,16 @@ impl PairQuery<'_> {
     #[inline(always)]
     pub(super) fn look_at_last_enclosure(&mut self) -> Attempt {
         simd::dispatch_to_avx2(&mut LastEnclosure { pair: self })
+    }
+
+    /// Whether the pyramid that proved the last depth, of which contacts are made, still does, of bodies that are
+    /// [simple](PairQuery::is_simple).
+    #[inline(always)]
+    pub(super) fn look_at_last_pyramid(&mut self) -> Attempt {
+        let Some(pyramid) = self.cache.pyramid().filter(|_| self.query == Query::Contact) else {
+            return Attempt::Untried;
+        };
+        simd::dispatch_to_avx2(&mut LastPyramid { pair: self, pyramid })
     }
 
     /// Whether the tetrahedron of the last query, or what else the hint holds, encloses the origin: that is a proof.
@@ -128,6 +139,8 @@ impl PairQuery<'_> {
         if let Decision::Separated { interval, .. } = decision {
             self.set_interval(interval, 0.5 * interval.lower + 0.5 * interval.upper);
         }
+        // A pair that intersected the last time may rest.
+        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Always } else { Pyramids::Unused };
         let &mut PairQuery { query, ref mut cache, ref mut answer, .. } = self;
         match decision {
             Decision::Separated { points, direction, pairs, .. } => {
@@ -158,7 +171,10 @@ impl PairQuery<'_> {
                 if query == Query::Contact {
                     let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
                     let points = decide::combinations(polyhedra, pairs.as_slice(), &weights);
-                    let least = deepest(polyhedra, poses);
+                    let (least, raised) = deepest(polyhedra, poses, pyramids);
+                    if let Some((pyramid, triangle)) = raised {
+                        cache.remember_pyramid(&pyramid, triangle);
+                    }
                     let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
                     [answer.local1, answer.local2] = local;
                     [answer.world1, answer.world2] = world;
@@ -191,6 +207,48 @@ impl Kernel for LastEnclosure<'_, '_> {
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return Attempt::NotEnclosed };
         self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights);
+        Attempt::Answered
+    }
+}
+
+/// The common case of bodies in contact: what proved their depth the last time still does.
+struct LastPyramid<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+    pyramid: Pyramid,
+}
+
+impl Kernel for LastPyramid<'_, '_> {
+    type Output = Attempt;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Attempt {
+        let LastPyramid { pair, pyramid } = self;
+        let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        if !frame.in_range {
+            return Attempt::Untried;
+        }
+        let Ok(rest) = pyramid.prove(&frame, &Rounding::of(&frame)) else { return Attempt::Untried };
+        let [a, b, c] = rest.pairs;
+        let pairs = [a, b, c, pyramid.apex()];
+        let Some(weights) = encloses_origin(&frame, &pairs) else { return Attempt::Untried };
+        let points = decide::combinations(polyhedra, &pairs, &weights);
+        let (normal, within) = (rest.direction.negate(), rest.upper - rest.lower);
+        let deepest = [rest.points[0].to_vector(), rest.points[1].to_vector()];
+        let features = contact::features_of_pairs(polyhedra, poses, &rest.pairs, &deepest, &normal.to_vector(), within);
+        pair.cache.remember_pyramid(pyramid, rest.triangle);
+        frame.mark(&mut pair.cache.marker);
+        let answer = &mut *pair.answer;
+        answer.statistics = Statistics::default();
+        answer.decided_by = DecidedBy::Coherence;
+        answer.outcome = Outcome::Intersecting;
+        (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
+        contact::fill_proof(answer, polyhedra, &pairs);
+        let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+        [answer.local1, answer.local2] = local;
+        [answer.world1, answer.world2] = world;
+        normal.store_vector(&mut answer.normal);
+        [answer.feature1, answer.feature2] = [0, 1].map(|i| contact::label(polyhedra[i], features[i], &deepest[i]));
         Attempt::Answered
     }
 }

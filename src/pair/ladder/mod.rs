@@ -104,7 +104,10 @@ fn answer_by_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
             return Ok(());
         }
         if pair.holds_enclosure() {
-            attempt = pair.look_at_last_enclosure();
+            attempt = pair.look_at_last_pyramid();
+            if !matches!(attempt, Attempt::Answered) {
+                attempt = pair.look_at_last_enclosure();
+            }
         } else {
             attempt = pair.march_from_last_features();
         }

@@ -6,7 +6,7 @@ use super::id::id_of;
 use super::outline::{Axes, Outline};
 use super::patch::facing;
 use super::places::{CommonPoint, Origin};
-use super::reduction::Reduction;
+use super::reduction::{ROOM, Reduction};
 use super::{Sink, witness};
 use crate::base::double_double::{DoubleDouble, wide_difference, wide_dot, widen};
 use crate::base::error::Result;
@@ -66,7 +66,7 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
     let axes = Axes::new(&up, &up);
     let outline = Outline::new(polyhedron, body.pose, Vector::zeros(), &axes, patch);
     let plane = Plane::new(body, half_space);
-    let mut reduction = Reduction::new([0; FOUR], polyhedron.radius);
+    let mut reduction = Reduction::<ROOM>::new([0; FOUR], polyhedron.radius);
     let (mut found, mut is_deep) = (0, false);
     for corner in 0..outline.count {
         let [least, most] = plane.gap(outline.vertex(corner));

@@ -10,6 +10,7 @@ mod id;
 mod patch;
 mod outline;
 mod clip;
+mod overlay;
 mod places;
 mod reduction;
 mod swept;
@@ -33,9 +34,10 @@ pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
 use id::id_of;
 use outline::{Axes, Outline};
+use overlay::FEW;
 use patch::{COINCIDENT, Facing, facing};
 use places::{Origin, View};
-use reduction::Reduction;
+use reduction::{LITTLE_ROOM, ROOM, Reduction};
 
 /// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is
 /// none.
@@ -268,10 +270,24 @@ fn clip(
         });
     }
     let is_same = (last.body, last.patches) == (now.body, now.patches);
-    let mut reduction = Reduction::new(if is_same { last.kept } else { [0; FOUR] }, size);
+    let kept = if is_same { last.kept } else { [0; FOUR] };
+    if view.outlines.iter().all(|outline| outline.count <= FEW) {
+        reduce(&view, Reduction::<LITTLE_ROOM>::new(kept, size), &mut now.kept, points)
+    } else {
+        reduce(&view, Reduction::<ROOM>::new(kept, size), &mut now.kept, points)
+    }
+}
+
+/// Writes the points that stay, and notes them; how many there are.
+fn reduce<const N: usize>(
+    view: &View,
+    mut reduction: Reduction<N>,
+    kept: &mut [u32; FOUR],
+    points: &mut Sink,
+) -> usize {
     let found = view.visit(|place| reduction.add(place));
     let chosen;
-    (chosen, now.kept) = reduction.chosen();
+    (chosen, *kept) = reduction.chosen();
     chosen.iter().flatten().for_each(|place| points.push(|| view.point(place)));
     found
 }

@@ -1,7 +1,7 @@
 //! The outline of a patch seen along the normal of a contact, or of a body that has no faces.
 
 use super::patch::Patch;
-use crate::base::math::{Matrix, Pose, Vector, divisor};
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, divisor};
 use crate::polyhedron::Polyhedron;
 
 /// Axes of a contact: two across its normal, and that.
@@ -63,15 +63,17 @@ pub fn first_side(polyhedron: &Polyhedron, patch: Option<Patch>) -> Vector {
 /// body 2.
 pub struct Outline<'a> {
     pub polyhedron: &'a Polyhedron,
-    pub pose: &'a Pose,
     /// Where the body's own centred origin is.
     pub offset: Vector,
     pub axes: &'a Axes,
+    /// From the body's axes to those of the contact, and where its origin is there.
+    turn: Matrix,
+    origin: Vector,
     /// `None` for a body without faces.
     pub patch: Option<Patch>,
     pub count: usize,
     /// Whether its corners go around counter-clockwise, seen against the normal.
-    is_counter_clockwise: bool,
+    pub is_counter_clockwise: bool,
     /// R⁻¹.
     inverse: Option<Matrix>,
     /// The patch's normal up to its length, in the axes of the contact.
@@ -86,31 +88,24 @@ impl<'a> Outline<'a> {
         axes: &'a Axes,
         patch: Option<Patch>,
     ) -> Outline<'a> {
-        let count = match patch {
-            Some(Patch::Merged(face)) => polyhedron.faces[face as usize].side_count as usize,
-            Some(Patch::Contact(face)) => polyhedron.contact_faces.faces[face as usize].corner_count as usize,
-            None => polyhedron.vertices.len().min(2),
-        };
-        let inverse = pose.rotation().try_inverse();
+        let count = patch.map_or(polyhedron.vertices.len().min(2), |patch| patch.corner_count(polyhedron));
+        let rotation = pose.rotation();
+        let inverse = if pose.rotation_defect() <= RIGID { Some(rotation.transpose()) } else { rotation.try_inverse() };
         // In the world it is (R⁻¹)ᵀ·n, which is R·n where R is orthonormal up to rounding.
         let normal_of =
             |patch: Patch| inverse.map(|inverse| axes.spot(&(inverse.transpose() * patch.normal(polyhedron))));
         let normal = patch.and_then(normal_of);
-        let towards = pose.rotate_back(&axes.normal);
-        let is_counter_clockwise = patch.is_none_or(|patch| patch.normal(polyhedron).dot(&towards) >= 0.0);
-        Outline { polyhedron, pose, offset, axes, patch, count, is_counter_clockwise, inverse, normal }
+        let [first, second] = &axes.across;
+        let turn = Matrix::from_rows(&[first.transpose(), second.transpose(), axes.normal.transpose()]) * rotation;
+        let origin = axes.spot(&offset);
+        let is_counter_clockwise =
+            patch.is_none_or(|patch| turn.row(2).transpose().dot(patch.normal(polyhedron)) >= 0.0);
+        Outline { polyhedron, offset, axes, turn, origin, patch, count, is_counter_clockwise, inverse, normal }
     }
 
     /// The vertex at a corner.
     pub fn vertex(&self, corner: usize) -> u32 {
-        match self.patch {
-            Some(Patch::Merged(face)) => self.polyhedron.corner(face, corner as u32),
-            Some(Patch::Contact(face)) => {
-                let contact = &self.polyhedron.contact_faces;
-                contact.corners[contact.faces[face as usize].first_corner as usize + corner]
-            }
-            None => corner as u32,
-        }
+        self.patch.map_or(corner as u32, |patch| patch.vertex(self.polyhedron, corner))
     }
 
     /// Where a corner is: two coordinates across the normal, and the height along it. Corners of a contact face are put into the
@@ -121,7 +116,7 @@ impl<'a> Outline<'a> {
             let face = &self.polyhedron.contact_faces.faces[face as usize];
             position -= face.normal * (face.normal.dot(&position) - face.middle);
         }
-        self.axes.spot(&(self.pose.rotate(&position) + self.offset))
+        self.turn * position + self.origin
     }
 
     /// The caller's indices of the ends of the side from a corner to the next.
@@ -216,6 +211,9 @@ impl<'a> Outline<'a> {
         })
     }
 }
+
+/// Rᵀ stands for R⁻¹ where no entry of RᵀR − I exceeds this: then it is as near as a computed inverse is.
+const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// A patch whose normal is flatter to the contact's than this has no height over a point.
 const STEEPEST: f64 = 1e-3;

@@ -1,6 +1,6 @@
 //! The patch of a body that looks towards the other: a merged face, or what contact faces make of several.
 
-use crate::base::math::Vector;
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::pair::contact::faces_at;
 use crate::pair::placed::Placed;
 use crate::polyhedron::{FacePart, Polyhedron};
@@ -9,6 +9,9 @@ use crate::tables;
 /// What is nearer than this, relative to the size of the pair, is at one place, 2⁻²⁷: far above rounding, and above what aligned
 /// bricks at rest move by; far below what shows.
 pub const COINCIDENT: f64 = f64::from_bits((1023 - 27) << 52);
+
+/// Corners of the patch of before that are looked at; a climb takes about as long.
+const MOST_LOOKED_AT: usize = 8;
 
 /// A polygon that a manifold is made over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -44,6 +47,29 @@ impl Patch {
         }
     }
 
+    /// How many corners it has.
+    pub fn corner_count(self, polyhedron: &Polyhedron) -> usize {
+        match self {
+            Patch::Merged(face) => polyhedron.faces[face as usize].side_count as usize,
+            Patch::Contact(face) => polyhedron.contact_faces.faces[face as usize].corner_count as usize,
+        }
+    }
+
+    /// The vertex at a corner.
+    pub fn vertex(self, polyhedron: &Polyhedron, corner: usize) -> u32 {
+        match self {
+            Patch::Merged(face) => {
+                let record = &polyhedron.faces[face as usize];
+                let edge = &polyhedron.edges[polyhedron.side(record, corner as u32) as usize];
+                if edge.left() == face { edge.tail() } else { edge.head() }
+            }
+            Patch::Contact(face) => {
+                let contact = &polyhedron.contact_faces;
+                contact.corners[contact.faces[face as usize].first_corner as usize + corner]
+            }
+        }
+    }
+
     /// The caller's polygon that it goes by: of several the lowest, as which of them holds a point may change while it stays.
     pub fn label(self, polyhedron: &Polyhedron) -> u32 {
         match self {
@@ -68,7 +94,14 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
     let polyhedron = body.shape.polyhedron();
     let towards = body.pose.rotate_back(direction);
     let cosine = |patch: Patch| Facing { patch, parallel: patch.normal(polyhedron).dot(&towards) };
-    let vertex = farthest_vertex(polyhedron, &towards, &(witness - polyhedron.centre))?;
+    let last = last.and_then(|number| Patch::of_number(polyhedron, number)).map(cosine);
+    // No normal is longer than 1, rounding apart, and so none is more parallel.
+    if let Some(last) = last
+        && last.parallel >= towards.norm() * (1.0 + 16.0 * UNIT_ROUNDOFF) - sticky
+    {
+        return Some(last);
+    }
+    let vertex = farthest_vertex(polyhedron, &towards, &(witness - polyhedron.centre), last.map(|last| last.patch))?;
     let contact = &polyhedron.contact_faces;
     let merged = || polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
     let whole = merged().filter(|face| contact.part(*face) == FacePart::Whole);
@@ -76,19 +109,27 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
     let better = |a: Facing, b: Facing| if b.parallel > a.parallel { b } else { a };
     // Where there are only slivers they have to do.
     let best = sound.map(cosine).reduce(better).or_else(|| merged().map(Patch::Merged).map(cosine).reduce(better))?;
-    let last = last.and_then(|number| Patch::of_number(polyhedron, number)).map(cosine);
     Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
 }
 
 /// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without edges.
 ///
 /// All neighbours of a vertex may be as high as itself up to rounding, as on the far face of a mesh that is flat up to rounding:
-/// there a climb ends. The witness point is the judge of that, and then all vertices are looked at.
-fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector) -> Option<u32> {
+/// there a climb ends. The witness point is the judge of that, and then all vertices are looked at. A corner of the patch of before
+/// that is as far is mostly there.
+fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector, last: Option<Patch>) -> Option<u32> {
     let first = polyhedron.edges.first()?.tail();
-    let (reached, _) = polyhedron.support(towards, tables::farthest(polyhedron, towards).unwrap_or(first));
     let height = |v: u32| polyhedron.vertices[v as usize].position.dot(towards);
-    if height(reached) >= witness.dot(towards) - COINCIDENT * polyhedron.radius {
+    let far = witness.dot(towards) - COINCIDENT * polyhedron.radius;
+    if let Some(last) = last {
+        let corners = 0..last.corner_count(polyhedron).min(MOST_LOOKED_AT);
+        let mut corners = corners.map(|corner| last.vertex(polyhedron, corner));
+        if let Some(vertex) = corners.find(|vertex| height(*vertex) >= far) {
+            return Some(vertex);
+        }
+    }
+    let (reached, _) = polyhedron.support(towards, tables::farthest(polyhedron, towards).unwrap_or(first));
+    if height(reached) >= far {
         return Some(reached);
     }
     (0..polyhedron.vertices.len() as u32).reduce(|a, b| if height(b) > height(a) { b } else { a })

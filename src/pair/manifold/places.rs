@@ -4,6 +4,7 @@ use super::answer::ManifoldPoint;
 use super::clip::{CommonCorner, Precision, Spot, common_part};
 use super::id::id_of;
 use super::outline::Outline;
+use super::overlay::Overlay;
 use crate::base::math::{Pose, Vector};
 use crate::pair::answer::{Feature, FeatureKind};
 use crate::pair::contact::{PlacedPoints, label, placed_points};
@@ -67,7 +68,7 @@ impl View<'_> {
     /// witness points: patches most parallel to the normal need not hold them. How many it were.
     pub fn visit(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
         let (mut count, mut is_deep) = (0, false);
-        common_part(&self.outlines, &self.precision, |spot| {
+        let mut look_at = |spot: &Spot| {
             if let Some(place) = self.place(spot)
                 && place.gap() - place.error <= self.margin
             {
@@ -75,7 +76,11 @@ impl View<'_> {
                 count += 1;
                 visit(&place);
             }
-        });
+        };
+        match Overlay::of(&self.outlines, &self.precision) {
+            Some(overlay) => overlay.spots().iter().for_each(&mut look_at),
+            None => common_part(&self.outlines, &self.precision, look_at),
+        }
         if count > 0 && !is_deep {
             let error = 0.5 * (self.witness.gap_upper - self.witness.gap_lower);
             visit(&CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error });

@@ -11,16 +11,19 @@ const AS_DEEP: f64 = 1e-5;
 /// The part of the area that those of before must have of the best.
 const AS_LARGE: f64 = 0.9;
 
-/// Places at hand. Of more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other reaches farther
+/// Places at hand, as of two outlines of few corners, so that less has to be cleared …
+pub const LITTLE_ROOM: usize = 24;
+
+/// … and as of any. Of more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other reaches farther
 /// by more than 2 % of the manifold.
-const ROOM: usize = 64;
+pub const ROOM: usize = 64;
 
 /// Directions in which places are told from each other where there is no room.
 const DIRECTIONS: usize = 16;
 
 /// Places of which some stay.
-pub struct Reduction {
-    places: [CommonPoint; ROOM],
+pub struct Reduction<const N: usize> {
+    places: [CommonPoint; N],
     count: usize,
     /// The keys of those that stayed the last time, in order; 0 for none.
     kept: [u32; FOUR],
@@ -28,13 +31,13 @@ pub struct Reduction {
     size: f64,
 }
 
-impl Reduction {
-    pub fn new(kept: [u32; FOUR], size: f64) -> Reduction {
-        Reduction { places: [CommonPoint::NOWHERE; ROOM], count: 0, kept, size }
+impl<const N: usize> Reduction<N> {
+    pub fn new(kept: [u32; FOUR], size: f64) -> Reduction<N> {
+        Reduction { places: [CommonPoint::NOWHERE; N], count: 0, kept, size }
     }
 
     pub fn add(&mut self, place: &CommonPoint) {
-        if self.count == ROOM {
+        if self.count == N {
             self.thin_out();
         }
         self.places[self.count] = *place;
@@ -43,7 +46,7 @@ impl Reduction {
 
     /// Leaves the deepest place, those of before, and the farthest in each direction: a third of them at most.
     fn thin_out(&mut self) {
-        let mut stays = [false; ROOM];
+        let mut stays = [false; N];
         stays[most(&self.places, |place| -place.gap())] = true;
         for direction in 0..DIRECTIONS {
             let (sine, cosine) = (std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64).sin_cos();

@@ -17,7 +17,7 @@ use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp}
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::contact::PlacedPoints;
-use crate::pair::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
+use crate::pair::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
 use crate::pair::placed::Placed;
 use crate::pair::radii::{Radii, moved, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
@@ -228,11 +228,12 @@ fn witnesses<'a>(
 
 type Triangle = [VertexPair; 3];
 
-/// Proves a depth of at least `lower` by the polytope of the cache, or by one that is searched for, as a query does or until it
-/// proves it; of small bodies else by all facets.
+/// Proves a depth of at least `lower` by a pyramid or the polytope of the cache, or by one that is searched for, as a query does or
+/// until it proves it; of small bodies else by all facets.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
-    for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
+    let pyramids = (0..PYRAMIDS).map(|place| ProofFrom::Pyramid(cache, place));
+    for from in pyramids.chain([ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)]) {
         let polytope = proof(facts.polyhedra, facts.poses, from);
         why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {

@@ -13,7 +13,7 @@
 //!
 //! The polytope grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm (van
 //! den Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it can be
-//! moved on with the bodies: the certificate is checked anew in each query.
+//! moved on with the bodies: the certificate is checked anew in each query. Of bodies at rest a [`Pyramid`] is enough.
 
 mod storage;
 mod planes;
@@ -24,13 +24,17 @@ mod first;
 mod degree;
 mod expand;
 mod witness;
+mod pyramid;
+mod raise;
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
+pub use pyramid::{Failure, Pyramid, Rest};
+pub use raise::raise;
 pub use storage::{NO_TWIN, Polytope, triangle_of};
-pub use support::farthest;
+pub use support::{farthest, support};
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.

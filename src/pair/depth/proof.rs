@@ -1,0 +1,67 @@
+//! The triangles that prove a depth, for its check.
+
+use super::cache::DepthCache;
+use super::scaling::{Rescaled, is_in_scale};
+use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::simd::{self, Kernel, Lanes};
+use crate::polyhedron::Polyhedron;
+use crate::solve::exact::VertexPair;
+use crate::solve::frame::Frame;
+use crate::solve::polytope::{self, Polytope, SearchStart, Wanted};
+
+/// Where a proof of a depth is looked for.
+#[derive(Clone, Copy)]
+pub enum ProofFrom<'a> {
+    /// A pyramid that a cache holds.
+    Pyramid(&'a DepthCache, usize),
+    /// The polytope that a cache holds.
+    Cache(&'a DepthCache),
+    /// A search like that of a query whose polytope is too large to be kept, for a lower end of at least so much.
+    Search(f64),
+}
+
+/// The triangles of a polytope in the pair's poses; none where there is no polytope.
+pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
+    let found = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from });
+    let rescaled = || {
+        let pair = Rescaled::of(polyhedra, poses)?;
+        let from = match from {
+            ProofFrom::Pyramid(..) | ProofFrom::Cache(_) => from,
+            ProofFrom::Search(lower) => ProofFrom::Search(pair.in_unit(lower)),
+        };
+        simd::dispatch_to_avx2(&mut Proof { polyhedra: pair.polyhedra(), poses: pair.poses(), from })
+    };
+    found.or_else(rescaled).unwrap_or_default()
+}
+
+struct Proof<'a> {
+    polyhedra: [&'a Polyhedron; 2],
+    poses: [&'a Pose; 2],
+    from: ProofFrom<'a>,
+}
+
+impl Kernel for Proof<'_> {
+    /// `None` of a pair that floating point is not for.
+    type Output = Option<Vec<[VertexPair; 3]>>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Self::Output {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+            return None;
+        }
+        let mut polytope = Polytope::<255, 508>::EMPTY;
+        match self.from {
+            ProofFrom::Pyramid(cache, place) => return Some(cache.pyramid(place).triangles(&frame)),
+            ProofFrom::Cache(cache) => {
+                cache.unpack(&frame, &mut polytope);
+            }
+            ProofFrom::Search(lower) => {
+                let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
+                let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
+                polytope::expand(&frame, &mut polytope, &start, &wanted);
+            }
+        }
+        Some((0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle)).collect())
+    }
+}

@@ -1,0 +1,290 @@
+//! The search in floating point: what rests is looked at first, then all facets of small bodies, else a polytope.
+
+use super::answer::{DepthAnswer, DepthConfig};
+use super::cache::DepthCache;
+use super::resting::{self, LeastFacet};
+use super::scaling::is_in_scale;
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::simd::{Kernel, Lanes, Work};
+use crate::polyhedron::Polyhedron;
+use crate::polyhedron::fan::Fan;
+use crate::solve::facets::{self, Outcome as ByFacets, Overlap};
+use crate::solve::frame::Frame;
+use crate::solve::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness};
+
+/// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
+pub struct DepthQuery<'a> {
+    pub polyhedra: [&'a Polyhedron; 2],
+    pub poses: [&'a Pose; 2],
+    pub config: &'a DepthConfig,
+    pub cache: &'a mut DepthCache,
+    /// Filled where a pyramid answers.
+    pub answer: &'a mut DepthAnswer,
+    pub pyramids: Pyramids,
+}
+
+/// When a pyramid is raised for the queries to come.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pyramids {
+    /// None is raised or looked at.
+    Unused,
+    /// For pairs that seem to rest.
+    AtRest,
+    Always,
+}
+
+/// What looking at all facets takes: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
+/// moving on a polytope that was kept …
+const LITTLE_WORK: usize = 3_000;
+
+/// … and below this less than making one.
+const MOST_WORK: usize = 16_000;
+
+/// How wide an interval may be, over the pair's size or distance, a little less than is promised. By all facets it is wider where
+/// faces were merged of triangles that lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
+const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
+
+/// … unless it comes to no end.
+const WIDEST_OF_ALL: f64 = 1e-9;
+
+/// What widths are relative to: the pair's size, or how far the bodies' origins are apart.
+#[inline(always)]
+fn scale_of<L: Lanes>(frame: &Frame<L>) -> f64 {
+    if frame.separation > frame.size { frame.separation } else { frame.size }
+}
+
+/// Whether an interval is no wider than this: then it is as narrow as is promised though rounding hides where the polytope could
+/// grow, as it does where vertices tie.
+#[inline(always)]
+fn is_narrow(expansion: &Expansion, widest: f64) -> bool {
+    expansion.lower > 0.0 && expansion.upper - expansion.lower <= widest
+}
+
+/// Room for a polytope of which the cache may keep what it comes to.
+const MOST_VERTICES: usize = 64;
+
+/// A closed surface of so many vertices without holes and handles has no more triangles.
+const MOST_TRIANGLES: usize = 124;
+
+/// What one search or the other found.
+pub enum Search {
+    /// A pyramid of before: all is said already.
+    Answered,
+    /// All facets.
+    Facets(Overlap),
+    /// Along this direction, from body 1 to body 2, the bodies are apart.
+    Apart(Vector),
+    /// A polytope.
+    Polytope(FoundPolytope),
+}
+
+/// What the search by a polytope found.
+pub struct FoundPolytope {
+    pub expansion: Expansion,
+    pub witness: Witness,
+    pub triangles: u32,
+}
+
+impl FoundPolytope {
+    /// Whether neither a direction that separates the bodies nor an interval that tells them from touching ones has been found,
+    /// with room and steps to spare.
+    #[inline(always)]
+    fn is_open(&self) -> bool {
+        match self.expansion.ending {
+            // With more room the search begins anew in any case.
+            Ending::Separated | Ending::Stuck => false,
+            Ending::Narrow => !(self.expansion.lower > 0.0),
+            Ending::Spent | Ending::Flat => true,
+        }
+    }
+}
+
+impl Kernel for DepthQuery<'_> {
+    /// None of a pair that floating point is not for.
+    type Output = Option<Search>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<Search> {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
+        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+            return None;
+        }
+        let is_new = self.pyramids == Pyramids::Unused;
+        if !is_new && resting::look_at_pyramids(&frame, self.poses, self.cache, self.answer) {
+            return Some(Search::Answered);
+        }
+        let before = self.cache.direction(&frame);
+        let found = self.search_anew(&frame)?;
+        if let Some(facet) = facet_of(&found)
+            && match self.pyramids {
+                Pyramids::Unused => false,
+                Pyramids::AtRest => facet.rests(before, frame.size),
+                Pyramids::Always => true,
+            }
+        {
+            resting::raise(&frame, self.cache, facet);
+        }
+        Some(found)
+    }
+}
+
+/// `None` where the search was not sure of one.
+#[inline(always)]
+fn facet_of(found: &Search) -> Option<LeastFacet> {
+    match found {
+        Search::Facets(Overlap { upper, direction, .. }) => {
+            Some(LeastFacet { upper: *upper, direction: *direction, farthest: [0; 2] })
+        }
+        Search::Polytope(FoundPolytope { expansion, .. }) => {
+            let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
+            (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet { upper, direction, farthest })
+        }
+        Search::Apart(_) | Search::Answered => None,
+    }
+}
+
+/// The search by a polytope, and by facets where that does not come to an end.
+struct ByPolytope<'a, 'b, L> {
+    query: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+}
+
+impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
+    type Output = Option<Search>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Option<Search> {
+        let ByPolytope { query, frame } = self;
+        let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
+        let start = query.cache.unpack(frame, &mut polytope);
+        let steps = query.config.step_budget;
+        let mut found = query.search(frame, &mut polytope, &start, steps);
+        let was_told = start.triangle.is_some() || start.direction.is_some();
+        // What an earlier query left must not make an answer worse.
+        if was_told && found.is_open() && found.expansion.steps < steps {
+            let mut again = SearchAgain { search: query, frame, polytope: &mut polytope, first: &found };
+            found = L::out_of_line(&mut again);
+        }
+        if found.expansion.ending != Ending::Stuck {
+            return Some(Search::Polytope(found));
+        }
+        if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
+            return Some(found);
+        }
+        let start = SearchStart { triangle: None, direction: None, ..start };
+        Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
+    }
+}
+
+impl<'a> DepthQuery<'a> {
+    /// Without what rested before.
+    #[inline(always)]
+    fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<Search> {
+        if self.facets_come_first()
+            && let Some(found) = self.search_facets(frame, WIDEST)
+        {
+            return Some(found);
+        }
+        L::out_of_line(&mut ByPolytope { query: self, frame })
+    }
+
+    /// Of a pair of small bodies.
+    #[inline(always)]
+    fn fans(&self) -> Option<[&'a Fan; 2]> {
+        let [polyhedron1, polyhedron2] = self.polyhedra;
+        Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
+    }
+
+    /// Whether all facets are looked at before a polytope is.
+    #[inline(always)]
+    fn facets_come_first(&self) -> bool {
+        let Some(fans) = self.fans() else { return false };
+        let work = facets::work(fans);
+        work <= LITTLE_WORK || (work <= MOST_WORK && self.cache.is_cold())
+    }
+
+    #[inline(always)]
+    fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<Search> {
+        let fans = self.fans()?;
+        match facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame)) {
+            ByFacets::Separated(direction, facet) => {
+                self.cache.keep_facet(frame, facet, &direction, false);
+                Some(Search::Apart(direction))
+            }
+            ByFacets::Overlapping(overlap) => {
+                self.cache.keep_facet(frame, overlap.facet, &overlap.direction, true);
+                Some(Search::Facets(overlap))
+            }
+            ByFacets::Unclear => None,
+        }
+    }
+
+    #[inline(always)]
+    fn search<L: Lanes, const V: usize, const T: usize>(
+        &mut self,
+        frame: &Frame<L>,
+        polytope: &mut Polytope<V, T>,
+        start: &SearchStart,
+        steps: u32,
+    ) -> FoundPolytope {
+        let DepthConfig { absolute_error, relative_error, .. } = *self.config;
+        let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
+        let mut expansion = polytope::expand(frame, polytope, start, &wanted);
+        if expansion.ending == Ending::Stuck && is_narrow(&expansion, WIDEST * scale_of(frame)) {
+            expansion.ending = Ending::Narrow;
+        }
+        if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
+            *self.cache = DepthCache::default();
+            let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
+            return FoundPolytope { expansion, witness, triangles: 0 };
+        }
+        let (witness, triangle) = polytope::witness(frame, polytope, &expansion);
+        if expansion.is_as_kept {
+            self.cache.keep(frame, triangle, &expansion.direction);
+        } else {
+            self.cache.pack(frame, polytope, triangle, &expansion.direction, expansion.first_triangles);
+        }
+        FoundPolytope { expansion, witness, triangles: polytope.triangle_count as u32 }
+    }
+}
+
+/// The search from the beginning, with more room: of bodies that are nearly as deep in each other everywhere.
+struct InLarge<'a, 'b, L> {
+    search: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+    start: SearchStart,
+}
+
+impl<L: Lanes> Work for InLarge<'_, '_, L> {
+    type Output = FoundPolytope;
+
+    #[inline(always)]
+    fn run(&mut self) -> FoundPolytope {
+        let mut polytope = Polytope::<255, 508>::EMPTY;
+        self.search.search(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
+    }
+}
+
+/// The search from nothing, after one that what was kept led nowhere. Its answer is that of a first query, as long as the steps do.
+struct SearchAgain<'a, 'b, L> {
+    search: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+    polytope: &'a mut Polytope<MOST_VERTICES, { MOST_TRIANGLES + 4 }>,
+    first: &'a FoundPolytope,
+}
+
+impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
+    type Output = FoundPolytope;
+
+    #[inline(always)]
+    fn run(&mut self) -> FoundPolytope {
+        let Expansion { steps, supports, .. } = self.first.expansion;
+        let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
+        self.polytope.clear();
+        let left = self.search.config.step_budget - steps;
+        let mut found = self.search.search(self.frame, self.polytope, &start, left);
+        found.expansion.steps += steps;
+        found.expansion.supports += supports;
+        found
+    }
+}

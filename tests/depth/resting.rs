@@ -1,0 +1,150 @@
+//! Pairs at rest, whose depth a pyramid of before proves: against the depth from nothing, the independent check, and whatever bytes
+//! stand where the pyramids do.
+
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{DepthAnswer, DepthCache, PairConfig, SignedDistance, SignedDistanceCache, signed_distance};
+use swiftprox::shape::Shape;
+use swiftprox::verify::verify_depth;
+
+use testkit::models;
+use testkit::random::rotation;
+use testkit::shapes::{cuboid, hull};
+
+use crate::caches::{bytes_of, of_bytes};
+use crate::{Random, query};
+
+/// Whether a pyramid gave an answer: it has few triangles, and neither steps nor climbs of a search.
+pub fn is_by_pyramid(answer: &DepthAnswer) -> bool {
+    let statistics = &answer.statistics;
+    (4..=14).contains(&statistics.triangles) && (statistics.steps, statistics.supports) == (0, 1)
+}
+
+/// Two bodies of which the second rests on the first.
+struct Rest<'a> {
+    shapes: [&'a Shape; 2],
+    turns: [Matrix; 2],
+    aside: Vector,
+    /// Where the second body is, upwards.
+    height: f64,
+    deep: f64,
+    /// What is a small length next to both.
+    unit: f64,
+}
+
+impl Rest<'_> {
+    /// The poses where the second body is as deep in the first as it should be, up to a tenth.
+    fn settle(&mut self) -> [Pose; 2] {
+        for _ in 0..12 {
+            let poses = self.poses();
+            let (mut cache, mut answer) = (SignedDistanceCache::default(), SignedDistance::default());
+            let bodies = [self.shapes[0].at(&poses[0]), self.shapes[1].at(&poses[1])];
+            signed_distance(bodies, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+            let missing = answer.distance + self.deep;
+            if missing.abs() <= 0.1 * self.deep {
+                break;
+            }
+            let slope = answer.normal[2].abs();
+            self.height -= missing / if slope > 0.2 { slope } else { 1.0 };
+        }
+        self.poses()
+    }
+
+    fn poses(&self) -> [Pose; 2] {
+        let at = Vector::new(self.aside.x, self.aside.y, self.height);
+        [Pose::new(&self.turns[0], &Vector::zeros()), Pose::new(&self.turns[1], &at)]
+    }
+
+    fn advance(&mut self, random: &mut Random) {
+        self.turns[1] = rotation(&random.direction(), 1e-3 * random.signed()) * self.turns[1];
+        self.aside += random.vector() * (1e-3 * self.unit);
+        self.deep *= 1.0 + 0.05 * random.signed();
+    }
+}
+
+/// The lesser radius, and a height at which bodies are apart.
+fn sizes(pair: [&Shape; 2]) -> [f64; 2] {
+    let [radius1, radius2] = pair.map(|shape| shape.polyhedron().radius);
+    [radius1.min(radius2), radius1 + radius2]
+}
+
+fn rounded(points: &[Vector]) -> Shape {
+    hull(&points.iter().map(|p| p.map(|x| f64::from(x as f32))).collect::<Vec<_>>())
+}
+
+/// Boxes, prisms and hulls, some of single precision, needles and plates, some from far away.
+fn bodies(random: &mut Random) -> Vec<Shape> {
+    let turn = random.rotation();
+    let turned = |points: &[Vector]| points.iter().map(|p| turn * p).collect::<Vec<_>>();
+    let corner = |i: usize| Vector::from_fn(|k, _| if i >> k & 1 == 0 { -0.5 } else { 0.5 });
+    let cube: Vec<Vector> = (0..8).map(corner).collect();
+    let sphere = |n: usize, random: &mut Random| (0..n).map(|_| random.direction()).collect::<Vec<_>>();
+    let mut shapes =
+        vec![cuboid([0.5; 3]), cuboid([20.0, 20.0, 0.5]), cuboid([0.5, 0.5, 1e-4]), rounded(&turned(&cube))];
+    shapes.push(cuboid([1e3, 1.0, 1.0]));
+    shapes.push(rounded(&turned(&models::prism(48, 0.5).unwrap().vertices)));
+    shapes.push(hull(&models::prism(12, 0.5).unwrap().vertices));
+    shapes.extend([20, 102, 400].map(|n| hull(&sphere(n, random))));
+    shapes.push(rounded(&sphere(102, random)));
+    shapes.push(hull(&cube.iter().map(|p| p + Vector::new(64.0, 0.0, 32.0)).collect::<Vec<_>>()));
+    shapes
+}
+
+/// An answer with a cache against one from nothing, and the check of it.
+fn check(shapes: [&Shape; 2], poses: &[Pose; 2], cache: &mut DepthCache) -> DepthAnswer {
+    let placed = [&poses[0], &poses[1]];
+    let single = query(shapes, placed, &mut DepthCache::default());
+    let answer = query(shapes, placed, cache);
+    let told = || format!("{answer:?}\nalone: {single:?}\n{poses:?}");
+    assert_eq!(answer.outcome, single.outcome, "{}", told());
+    assert!(answer.lower <= single.upper && single.lower <= answer.upper, "{}", told());
+    verify_depth([shapes[0].at(placed[0]), shapes[1].at(placed[1])], cache, &answer)
+        .unwrap_or_else(|error| panic!("{error}: {}", told()));
+    if is_by_pyramid(&answer) {
+        let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
+        let apart = (poses[0].translation() - poses[1].translation()).norm();
+        assert!(answer.upper - answer.lower <= 2e-14 * size.max(apart), "{}", told());
+    }
+    answer
+}
+
+/// Numbers where the pyramids are: bits flipped, indices exchanged for others, anything.
+#[test]
+fn corrupted_pyramids_prove_nothing_false() {
+    const PYRAMIDS: std::ops::Range<usize> = 16..192;
+    let mut random = Random::new(93);
+    let shapes = bodies(&mut random);
+    let (mut accepted, mut all) = (0, 0);
+    for _ in 0..120 {
+        let pair = [&shapes[random.below(shapes.len())], &shapes[random.below(shapes.len())]];
+        let [unit, height] = sizes(pair);
+        let turns = [random.rotation(), random.rotation()];
+        let (aside, deep) = (random.vector() * (0.3 * unit), 1e-3 * unit);
+        let mut rest = Rest { shapes: pair, turns, aside, height, deep, unit };
+        let mut cache = DepthCache::default();
+        for _ in 0..3 {
+            check(pair, &rest.settle(), &mut cache);
+            rest.advance(&mut random);
+        }
+        for _ in 0..30 {
+            let mut bytes = bytes_of(&cache);
+            let place = |random: &mut Random| PYRAMIDS.start + random.below(PYRAMIDS.len());
+            match random.below(4) {
+                0 => bytes[PYRAMIDS].iter_mut().for_each(|byte| *byte = random.below(9) as u8),
+                1 => (0..1 + random.below(3)).for_each(|_| bytes[place(&mut random)] ^= 1 << random.below(8)),
+                2 => {
+                    // The pairs of the first, among each other.
+                    let [from, to] = [0, 1].map(|_| 16 + 4 * random.below(18));
+                    let word: [u8; 4] = bytes[from..from + 4].try_into().unwrap();
+                    bytes[to..to + 4].copy_from_slice(&word);
+                }
+                _ => bytes[place(&mut random)] = random.below(20) as u8,
+            }
+            let mut corrupted = of_bytes(&bytes);
+            let answer = check(pair, &rest.poses(), &mut corrupted);
+            accepted += usize::from(is_by_pyramid(&answer));
+            all += 1;
+        }
+    }
+    println!("{accepted} of {all}");
+    assert!(accepted > all / 10 && accepted < all, "{accepted} of {all}");
+}
