@@ -545,11 +545,8 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>()
-            + self.extent.heap_bytes()
-            + self.polyhedron.heap_bytes()
-            + self.hierarchy().heap_bytes()
-            + self.support_map.heap_bytes()
+        let made = self.hierarchy().heap_bytes() + self.support_map.heap_bytes();
+        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + made
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.
