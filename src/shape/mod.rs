@@ -30,7 +30,7 @@ use extent::Extent;
 pub use face::Face;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
-use transform::transformed;
+use transform::{InputTransform, transformed};
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
@@ -142,6 +142,10 @@ impl Default for ShapeOptions {
 pub const LARGEST_SWEPT_RADIUS: f64 = f64::from_bits((1023 + 1000) << 52);
 
 impl ShapeOptions {
+    fn transform(&self) -> InputTransform {
+        InputTransform { rotation: self.rotation, translation: self.translation, scale: self.scale }
+    }
+
     /// The radius of the ball in the local frame.
     fn radius(&self) -> Result<f64> {
         check_range("swept_radius", self.swept_radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
@@ -184,7 +188,7 @@ pub struct Shape {
     /// Of the ball that is swept over the polyhedron.
     swept_radius: f64,
     /// Its support function for approximate distances, as far as it is made.
-    support_map: SupportMap,
+    pub(crate) support_map: SupportMap,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -228,7 +232,7 @@ impl Shape {
             InputPolicy::Strict | InputPolicy::Flat | InputPolicy::Hull | InputPolicy::Patch => CONVEXITY_TOLERANCE,
         };
         let mut mesh = PolygonMesh {
-            vertices: transformed(&mesh.vertices, options, &mut progress.part(0.0, 0.0))?,
+            vertices: transformed(&mesh.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?,
             indices: copied(&mesh.indices)?,
             starts: copied(&mesh.starts)?,
             single_precision: mesh.single_precision,
@@ -300,7 +304,7 @@ impl Shape {
             return Err(Error::Mesh(format!("face {f} has fewer than three corners")));
         }
         let noise = options.noise(&patch.vertices, None)?;
-        patch.vertices = transformed(&patch.vertices, options, &mut progress.part(0.0, 0.0))?;
+        patch.vertices = transformed(&patch.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?;
         let polyhedron = hull_of_patch(&patch, &used, &mut progress.part(0.0, options.share_of_body()))?;
         Shape::admitted(polyhedron, noise, options, progress)
     }
@@ -320,7 +324,7 @@ impl Shape {
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| {
-            let images = transformed(points, options, &mut progress.part(0.0, 0.0))?;
+            let images = transformed(points, &options.transform(), &mut progress.part(0.0, 0.0))?;
             check_points(&images)?;
             Shape::of_points(&images, options.noise(points, None)?, options, progress)
         })
@@ -382,7 +386,7 @@ impl Shape {
             Shape::from_mesh_in_steps(mesh, options, &mut progress.part(0.0, 0.3))?;
         let mut points = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
-            let moved = transformed(&level.vertices, options, &mut progress.part(0.3, 0.3));
+            let moved = transformed(&level.vertices, &options.transform(), &mut progress.part(0.3, 0.3));
             let in_level = |message: String| format!("level {}: {message}", i + 1);
             points.push(moved.map_err(|error| match error {
                 Error::Mesh(message) => Error::Mesh(in_level(message)),
@@ -472,12 +476,6 @@ impl Shape {
         &self.extent
     }
 
-    /// Its support function, as far as it is made.
-    #[inline]
-    pub(crate) fn support_map(&self) -> &SupportMap {
-        &self.support_map
-    }
-
     /// The levels of detail that are made, without P₀.
     #[inline]
     pub fn hierarchy(&self) -> &Hierarchy {
@@ -545,11 +543,8 @@ impl Shape {
 
     /// Memory held, in bytes; the look-up table and automatic levels are included once they are made.
     pub fn bytes(&self) -> usize {
-        size_of::<Shape>()
-            + self.extent.heap_bytes()
-            + self.polyhedron.heap_bytes()
-            + self.hierarchy().heap_bytes()
-            + self.support_map.heap_bytes()
+        let made = self.hierarchy().heap_bytes() + self.support_map.heap_bytes();
+        size_of::<Shape>() + self.extent.heap_bytes() + self.polyhedron.heap_bytes() + made
     }
 
     /// Refuses a polyhedron of a dimension that the policy does not admit; gives the others their levels.

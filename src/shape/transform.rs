@@ -1,4 +1,4 @@
-//! The input transform of a shape's vertices.
+//! The input transform: what becomes of vertices before a shape is made of them.
 
 use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result};
@@ -8,10 +8,18 @@ use crate::base::progress::Progress;
 use crate::mesh::check_vertex;
 use crate::shape::ShapeOptions;
 
+/// Stored vertex = scale·(rotation·v) + translation.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct InputTransform {
+    pub(super) rotation: Matrix,
+    pub(super) translation: Vector,
+    pub(super) scale: f64,
+}
+
 /// scale·(rotation·v) + translation for all points, each coordinate rounded once: computed in double-double, so off by u of
 /// itself and 2⁻⁹⁶ of the largest term.
-pub fn transformed(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Vec<Vector>> {
-    let ShapeOptions { rotation, translation, scale, .. } = options;
+pub(super) fn transformed(points: &[Vector], by: &InputTransform, progress: &mut Progress) -> Result<Vec<Vector>> {
+    let InputTransform { rotation, translation, scale } = by;
     if !(*scale > 0.0 && scale.is_finite()) {
         return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
     }

@@ -82,8 +82,8 @@ pub const LEAST_ERROR_OF_GRIDS: f64 = 0.008;
 /// The same with the finest grid.
 pub const LEAST_ERROR_OF_FINEST_GRID: f64 = 0.0025;
 
-/// A grid is fine enough if its gap is at most this part of the error in the mean of all cells, and nowhere more than the error: the
-/// rest of it pays for a direction that is not quite the best.
+/// A grid is fine enough if its gap is at most this part of the error in the mean of all cells, and nowhere more than the error:
+/// the rest of it pays for a direction that is not quite the best.
 pub const MEAN_GAP: f64 = 0.175;
 
 /// The same of the largest gap of the finest grid.

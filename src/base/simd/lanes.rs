@@ -97,13 +97,13 @@ pub trait Lanes: Copy {
 
 /// Plain arrays, for any target.
 #[derive(Clone, Copy)]
-pub struct Portable(pub(super) [f64; 4]);
+pub struct Portable([f64; 4]);
 
 impl Lanes for Portable {
     type Twins = PortableTwins;
     #[inline(always)]
     fn twins(self, second: Self) -> PortableTwins {
-        PortableTwins::rounded(self, second)
+        PortableTwins::rounded(self.0, second.0)
     }
     #[inline(always)]
     fn splat(x: f64) -> Self {

@@ -1,7 +1,5 @@
 //! Two vectors side by side in single precision, one of each body of a pair: what needs few digits is done for both at once.
 
-use super::lanes::Portable;
-
 /// Two vectors of four single-precision numbers. Of a vector in three dimensions the fourth is unspecified.
 pub trait Twins: Copy {
     /// From memory.
@@ -64,7 +62,7 @@ pub struct PortableTwins([f32; 8]);
 impl PortableTwins {
     /// Both vectors, rounded.
     #[inline(always)]
-    pub(super) fn rounded(Portable(first): Portable, Portable(second): Portable) -> Self {
+    pub(super) fn rounded(first: [f64; 4], second: [f64; 4]) -> Self {
         PortableTwins(std::array::from_fn(|i| if i < 4 { first[i] as f32 } else { second[i - 4] as f32 }))
     }
 

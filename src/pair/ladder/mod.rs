@@ -6,10 +6,10 @@ mod glance;
 mod acceptance;
 mod marching;
 mod decision;
+mod support_glance;
 mod level_choice;
 mod level_search;
 mod level_glance;
-mod support_glance;
 
 use crate::base::error::Result;
 use crate::base::simd::Portable;

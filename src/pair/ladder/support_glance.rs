@@ -13,14 +13,14 @@ use crate::solve::frame::Frame;
 use crate::solve::support_search::SupportSearch;
 use crate::tables::support_map::{Choice, Grids};
 
-/// The square of an angle times the root of the vertices: pairs that move by less from query to query are answered sooner by marching
-/// from their last features. Of bodies of 1,002 vertices that is 2.2°, of 10,002 0.7°.
+/// The square of an angle times the root of the vertices: pairs that move by less from query to query are answered sooner by
+/// marching from their last features. Of bodies of 1,002 vertices that is 2.2°, of 10,002 0.7°.
 const STILL: f64 = 1.44;
 
 /// From which error on maps of support functions may answer an approximate query about two bodies; infinite where they never do.
 #[inline(always)]
 pub(super) fn least_error(shapes: [&Shape; 2]) -> f64 {
-    let [error1, error2] = [shapes[0].support_map().least_error(), shapes[1].support_map().least_error()];
+    let [error1, error2] = [shapes[0].support_map.least_error(), shapes[1].support_map.least_error()];
     if error1 > error2 { error1 } else { error2 }
 }
 
@@ -50,8 +50,8 @@ impl<'a> PairQuery<'a> {
         let mut choices = [grids_of(shape1, error), grids_of(shape2, error)];
         if matches!(choices, [Choice::NotMade, _] | [_, Choice::NotMade]) {
             self.check_poses()?;
-            shape1.support_map().make_for(shape1.polyhedron(), error);
-            shape2.support_map().make_for(shape2.polyhedron(), error);
+            shape1.support_map.make_for(shape1.polyhedron(), error);
+            shape2.support_map.make_for(shape2.polyhedron(), error);
             choices = [grids_of(shape1, error), grids_of(shape2, error)];
         }
         Ok(match choices {
@@ -63,7 +63,7 @@ impl<'a> PairQuery<'a> {
 
 #[inline(always)]
 fn grids_of(shape: &Shape, error: f64) -> Choice<'_> {
-    shape.support_map().choose(shape.polyhedron(), error)
+    shape.support_map.choose(shape.polyhedron(), error)
 }
 
 struct SupportMaps<'a, 'b> {
