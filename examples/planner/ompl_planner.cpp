@@ -1,6 +1,7 @@
 // OMPL with edges that are proved free: plans for an L of two plates through a window and for an arm around a post, by RRTConnect
-// and PRM*, and proves each edge of each path anew. Then the same piece with OMPL's own sampled validator at a resolution of 1 %: it
-// shows a path that passes there and collides. The status is 1 where a path is missing, not proved, or where no sampled path collides.
+// and PRM*, and proves each edge of each path anew. Then the same piece with OMPL's own sampled validator at a resolution of 1 %:
+// it shows a path that passes there and collides. The status is 1 where a path is missing, not proved, or where no sampled path
+// collides.
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>

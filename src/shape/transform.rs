@@ -6,7 +6,6 @@ use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::base::memory::{copied, with_capacity};
 use crate::base::progress::Progress;
 use crate::mesh::check_vertex;
-use crate::shape::ShapeOptions;
 
 /// Stored vertex = scale·(rotation·v) + translation.
 #[derive(Debug, Clone, Copy)]

@@ -76,7 +76,7 @@ fn files_keep_the_radius() {
     let shape = capsule(0.5, 0.375);
     let bytes = to_bytes(&shape).unwrap();
     let again = from_bytes(&bytes).unwrap();
-    assert_eq!((again.swept_radius(), &again == &shape), (0.375, true));
+    assert_eq!((again.swept_radius(), again == shape), (0.375, true));
     assert_ne!(shape, capsule(0.5, 0.25));
     let doubled = shape.scaled(2.0, &mut Progress::new(&mut |_| true)).unwrap();
     assert_eq!(doubled.swept_radius(), 0.75);

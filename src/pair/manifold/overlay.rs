@@ -54,7 +54,7 @@ impl Few {
     fn outside(&self, other: &Few, doubt: f64) -> Option<[u8; FEW]> {
         let mut outside = [0; FEW];
         let mut is_doubtful = false;
-        for side in 0..self.count {
+        for (side, outside) in outside[..self.count].iter_mut().enumerate() {
             let [from, to] = self.ends(side);
             let (x, y) = (self.turn * (to.x - from.x), self.turn * (to.y - from.y));
             // At least as long as the side: the sum does not underflow where squares do.
@@ -63,7 +63,7 @@ impl Few {
                 let inside = x * (place.y - from.y) - y * (place.x - from.x);
                 // True of a NaN.
                 is_doubtful |= !(inside.abs() > limit);
-                outside[side] |= u8::from(inside < 0.0) << corner;
+                *outside |= u8::from(inside < 0.0) << corner;
             }
         }
         (!is_doubtful).then_some(outside)
@@ -99,8 +99,8 @@ impl Overlay {
         }
         let corner_count = overlay.count;
         let crossed = outside[1].map(|outside| few[0].crossing_sides(outside));
-        for first in 0..few[0].count {
-            let mut seconds = few[1].crossing_sides(outside[0][first]);
+        for (first, &beyond) in outside[0][..few[0].count].iter().enumerate() {
+            let mut seconds = few[1].crossing_sides(beyond);
             while seconds != 0 {
                 let second = seconds.trailing_zeros() as usize;
                 seconds &= seconds - 1;

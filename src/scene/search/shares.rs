@@ -2,8 +2,8 @@
 //!
 //! Error buys time only where maps of support functions or levels of detail may answer. That takes bodies of many vertices and an
 //! error as large as maps are coarse, or as levels stand off. Pairs that need least come first, as many as the budget suffices
-//! for; all others are asked for exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever becomes of the pairs, those
-//! that take shares are no more than were counted: all of them together stay within the budget.
+//! for; all others are asked for exact distances. So are pairs that the last pass found intersecting: they need no share. Whatever
+//! becomes of the pairs, those that take shares are no more than were counted: all of them together stay within the budget.
 
 use crate::base::error::Result;
 use crate::base::memory::push;
@@ -19,8 +19,8 @@ use crate::scene::world::testing::Testing;
 pub(crate) struct Deal {
     /// What `upper − lower` of each pair with a share may come to: a power of two, so that it stays while little changes.
     pub share: f64,
-    /// The budget sufficed for all that maps or levels may answer. Else which pairs take shares depends on all others, and answers of
-    /// another deal are not given again.
+    /// The budget sufficed for all that maps or levels may answer. Else which pairs take shares depends on all others, and answers
+    /// of another deal are not given again.
     pub is_for_all: bool,
 }
 

@@ -1,9 +1,9 @@
 //! The smallest polytopes that prove a depth: of pairs at rest, where from step to step the facet of least overlap stays.
 //!
 //! A *pyramid* has a base in that facet, of three to eight corners, and an apex deep in the Minkowski difference. Where the side
-//! over an edge of the base would be nearer to the origin than the base is, as at the rim of a plate, the base has a further triangle
-//! across that edge. So around the base and its further triangles runs a *ring* of at most eight corners, and each edge of the ring
-//! has a side up to the apex. It proves a depth just as a large polytope does, see the [module](super):
+//! over an edge of the base would be nearer to the origin than the base is, as at the rim of a plate, the base has a further
+//! triangle across that edge. So around the base and its further triangles runs a *ring* of at most eight corners, and each edge of
+//! the ring has a side up to the apex. It proves a depth just as a large polytope does, see the [module](super):
 //!
 //! 1. *It is closed*, whatever the indices are: the fan of the base has the base's edges as its boundary, a further triangle over
 //!    an edge of the ring puts two edges in its place, and the sides close the ring. Only the range of the indices is looked at.

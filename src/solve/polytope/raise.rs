@@ -190,13 +190,13 @@ impl<L: Lanes> Raising<'_, L> {
         let mut ring = Ring::of(self, base);
         loop {
             let mut best = Side { distance: f64::NEG_INFINITY, place: 0, apex: [0; 2] };
-            for at in 0..APICES {
+            for (at, apex) in apices.iter_mut().enumerate() {
                 if at == apex_count {
                     let aside = if at == 0 { Vector::zeros() } else { self.aside(at - 1) * ASIDE };
-                    apices[at] = self.support(&(aside - self.direction), None).pair;
+                    *apex = self.support(&(aside - self.direction), None).pair;
                     apex_count += 1;
                 }
-                let side = ring.nearest_side(self.position(apices[at]), apices[at]);
+                let side = ring.nearest_side(self.position(*apex), *apex);
                 best = if side.distance > best.distance { side } else { best };
                 if best.distance >= AMPLE * self.depth {
                     break;
