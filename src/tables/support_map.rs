@@ -54,12 +54,12 @@ pub enum Choice<'a> {
 impl SupportMap {
     /// Of a body whose look-up table is planned; nothing is made yet.
     pub fn new(polyhedron: &Polyhedron) -> SupportMap {
-        let least = match (has_support_map(polyhedron), has_finest_grid(polyhedron)) {
+        let least_error = match (has_support_map(polyhedron), has_finest_grid(polyhedron)) {
             (false, _) => f64::INFINITY,
-            (true, false) => tuning::LEAST_ERROR_OF_GRIDS,
-            (true, true) => tuning::LEAST_ERROR_OF_FINEST_GRID,
+            (true, false) => tuning::LEAST_ERROR_OF_GRIDS * polyhedron.radius,
+            (true, true) => tuning::LEAST_ERROR_OF_FINEST_GRID * polyhedron.radius,
         };
-        SupportMap { least_error: least * polyhedron.radius, grids: std::array::from_fn(|_| OnNeed::new()) }
+        SupportMap { least_error, grids: std::array::from_fn(|_| OnNeed::new()) }
     }
 
     /// The errors of a distance for which it may be fine enough begin here; infinite for bodies that are not to have one.
