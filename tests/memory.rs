@@ -352,7 +352,8 @@ fn automatic_levels() {
     let ask = |shape: &Shape| {
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
         let there = Pose::new(&Matrix::identity(), &Vector::new(2.5, 1.0, 0.25));
-        let config = PairConfig { relative_error: 0.2, ..PairConfig::default() };
+        // Too little for maps of support functions.
+        let config = PairConfig { relative_error: 0.002, ..PairConfig::default() };
         pair::approximate([shape.at(&Pose::IDENTITY), shape.at(&there)], &mut cache, &config, &mut answer).unwrap();
         answer
     };

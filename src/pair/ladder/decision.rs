@@ -228,11 +228,17 @@ impl Kernel for LastPyramid<'_, '_> {
         if !frame.in_range {
             return Attempt::Untried;
         }
-        let Ok(rest) = pyramid.prove(&frame, &Rounding::of(&frame)) else { return Attempt::Untried };
+        let rounding = Rounding::of(&frame);
+        let Ok(rest) = pyramid.prove(&frame, &rounding) else { return Attempt::Untried };
         let [a, b, c] = rest.pairs;
         let pairs = [a, b, c, pyramid.apex()];
         let Some(weights) = encloses_origin(&frame, &pairs) else { return Attempt::Untried };
-        let points = decide::combinations(polyhedra, &pairs, &weights);
+        let mut points = decide::combinations(polyhedra, &pairs, &weights);
+        // Where the tetrahedron is thin the two points are not yet one.
+        if frame.difference(&points[0], &points[1]).to_vector().norm() > rounding.difference {
+            let weights = contact::refined_weights(polyhedra, poses, &pairs, weights);
+            points = decide::combinations(polyhedra, &pairs, &weights);
+        }
         let (normal, within) = (rest.direction.negate(), rest.upper - rest.lower);
         let deepest = [rest.points[0].to_vector(), rest.points[1].to_vector()];
         let features = contact::features_of_pairs(polyhedra, poses, &rest.pairs, &deepest, &normal.to_vector(), within);

@@ -79,7 +79,7 @@ fn prove_interval_exactly(
     // Not 0, even where it is less than the least double.
     let is_verdict_right = answer.outcome == Outcome::Intersecting || against(0.0).is_gt();
     if !(is_verdict_right && against(answer.lower).is_ge() && against(answer.upper).is_le()) {
-        return Err(not_in_interval(&truth, answer));
+        return Err(not_in_interval(&truth, radii, answer));
     }
     let least = f64::from_bits(1);
     if answer.outcome == Outcome::Separated && answer.lower == 0.0 && against(least).is_ge() {
@@ -88,14 +88,12 @@ fn prove_interval_exactly(
     Ok(())
 }
 
-pub(super) fn not_in_interval(truth: &exact::ExactDistance, answer: &PairAnswer) -> Error {
+pub(super) fn not_in_interval(truth: &exact::ExactDistance, radii: &Radii, answer: &PairAnswer) -> Error {
     let PairAnswer { lower: said_lower, upper: said_upper, .. } = answer;
-    let (lower, upper) = truth.bounds();
+    let [lower, upper] = radii.off(truth.bounds().into());
     unverified(match truth.is_zero() {
         true => format!("the objects intersect, they are not [{said_lower:e}, {said_upper:e}] apart"),
-        false => format!(
-            "the distance of their polyhedra is in [{lower:e}, {upper:e}]: less the radii not in [{said_lower:e}, {said_upper:e}]"
-        ),
+        false => format!("their distance is in [{lower:e}, {upper:e}], not in [{said_lower:e}, {said_upper:e}]"),
     })
 }
 

@@ -128,7 +128,11 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radi
     }
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
     let [radius1, radius2] = radii.each;
-    if truth.compare_sum(&[upper, radius1, radius2]).is_gt() { Err(not_in_interval(&truth, answer)) } else { Ok(()) }
+    if truth.compare_sum(&[upper, radius1, radius2]).is_gt() {
+        Err(not_in_interval(&truth, radii, answer))
+    } else {
+        Ok(())
+    }
 }
 
 fn check_no_points(answer: &PairAnswer) -> Result<()> {
@@ -205,7 +209,7 @@ fn verify_without_proof(
     }
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
     if truth.compare_sum(&radii.each).is_gt() {
-        return Err(not_in_interval(&truth, answer));
+        return Err(not_in_interval(&truth, radii, answer));
     }
     if are_points_said(&answer.into()) && radii.upper > 0.0 {
         return check_common_point(polyhedra, poses, radii, answer);
