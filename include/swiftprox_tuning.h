@@ -117,8 +117,8 @@ typedef struct swiftprox_shape_tuning_info {
   /** Of swiftprox_shape_info.bytes, what the levels take, with their look-up tables once queries have made these. */
   size_t level_bytes;
   /**
-   * Of swiftprox_shape_info.bytes, what the table takes: 0 until a query, or the making of levels, looks into the table, which
-   * makes it. Those of levels are the levels'.
+   * Of swiftprox_shape_info.bytes, what the table takes, and maps of the support function: 0 until a query, or the making of
+   * levels, looks into the table, which makes it; of maps until an approximate distance does. Those of levels are the levels'.
    */
   size_t lookup_bytes;
   /** The table's resolution, as in swiftprox_shape_tuning; 0 without one. */

@@ -172,8 +172,8 @@ pub struct TuningInfo {
     pub level_count: usize,
     /// Of swiftprox_shape_info.bytes, what the levels take, with their look-up tables once queries have made these.
     pub level_bytes: usize,
-    /// Of swiftprox_shape_info.bytes, what the table takes: 0 until a query, or the making of levels, looks into the table, which
-    /// makes it. Those of levels are the levels'.
+    /// Of swiftprox_shape_info.bytes, what the table takes, and maps of the support function: 0 until a query, or the making of
+    /// levels, looks into the table, which makes it; of maps until an approximate distance does. Those of levels are the levels'.
     pub lookup_bytes: usize,
     /// The table's resolution, as in swiftprox_shape_tuning; 0 without one.
     pub lookup_resolution: u32,
@@ -221,7 +221,10 @@ pub unsafe extern "C" fn swiftprox_shape_get_tuning_info(shape: *const Shape, in
             level_count: hierarchy.levels.len(),
             level_bytes: hierarchy.heap_bytes(),
             // What few vertices are looked at in is the shape's own.
-            lookup_bytes: if lookup == LookupKind::None { 0 } else { polyhedron.lookup.heap_bytes() },
+            lookup_bytes: match lookup {
+                LookupKind::None => 0,
+                _ => polyhedron.lookup.heap_bytes() + shape.support_map.table_bytes(),
+            },
             lookup_resolution: resolution as u32,
         };
         // SAFETY: the header's pointer rules.

@@ -407,7 +407,7 @@ impl Shape {
         let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;
         let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
-        let support_map = SupportMap::new(&polyhedron);
+        let support_map = SupportMap::new(&polyhedron)?;
         Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius })
     }
 

@@ -25,11 +25,11 @@ pub const U1: f64 = f32::EPSILON as f64 / 2.0;
 /// Cells along a side of the cube, from grid to grid.
 const RESOLUTIONS: [usize; 4] = [8, 16, 32, 64];
 
-/// The grids of a body. Each is made when a query first needs it.
+/// The grids of a body, the coarsest first. Each is made when a query first needs it. Bodies that are not to have a map have none.
 #[derive(Debug, Clone)]
 pub struct SupportMap {
     least_error: f64,
-    grids: [OnNeed<Grid>; RESOLUTIONS.len()],
+    grids: Vec<OnNeed<Grid>>,
 }
 
 /// Two grids of one body.
@@ -53,13 +53,17 @@ pub enum Choice<'a> {
 
 impl SupportMap {
     /// Of a body whose look-up table is planned; nothing is made yet.
-    pub fn new(polyhedron: &Polyhedron) -> SupportMap {
-        let least_error = match (has_support_map(polyhedron), has_finest_grid(polyhedron)) {
-            (false, _) => f64::INFINITY,
-            (true, false) => tuning::LEAST_ERROR_OF_GRIDS * polyhedron.radius,
-            (true, true) => tuning::LEAST_ERROR_OF_FINEST_GRID * polyhedron.radius,
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn new(polyhedron: &Polyhedron) -> Result<SupportMap> {
+        let radius = polyhedron.radius;
+        let (count, least_error) = match (has_support_map(polyhedron), has_finest_grid(polyhedron)) {
+            (false, _) => (0, f64::INFINITY),
+            (true, false) => (RESOLUTIONS.len() - 1, tuning::LEAST_ERROR_OF_GRIDS * radius),
+            (true, true) => (RESOLUTIONS.len(), tuning::LEAST_ERROR_OF_FINEST_GRID * radius),
         };
-        SupportMap { least_error, grids: std::array::from_fn(|_| OnNeed::new()) }
+        Ok(SupportMap { least_error, grids: filled(OnNeed::new(), count)? })
     }
 
     /// The errors of a distance for which it may be fine enough begin here; infinite for bodies that are not to have one.
@@ -68,16 +72,10 @@ impl SupportMap {
         self.least_error
     }
 
-    /// How many grids a body may have.
-    #[inline(always)]
-    fn count(polyhedron: &Polyhedron) -> usize {
-        RESOLUTIONS.len() - usize::from(!has_finest_grid(polyhedron))
-    }
-
     /// The grids for a distance that may be off by so much. It depends on the body and the error alone, not on what else is made.
     #[inline(always)]
-    pub fn choose(&self, polyhedron: &Polyhedron, error: f64) -> Choice<'_> {
-        let grids = &self.grids[..Self::count(polyhedron)];
+    pub fn choose(&self, error: f64) -> Choice<'_> {
+        let grids = &self.grids;
         for (i, grid) in grids.iter().enumerate() {
             let Some(coarse) = grid.get() else { return Choice::NotMade };
             let finer = grids.get(i + 1);
@@ -101,7 +99,7 @@ impl SupportMap {
     #[cold]
     #[inline(never)]
     pub fn make_for(&self, polyhedron: &Polyhedron, error: f64) {
-        while let (Choice::NotMade, Some(i)) = (self.choose(polyhedron, error), self.first_not_made()) {
+        while let (Choice::NotMade, Some(i)) = (self.choose(error), self.first_not_made()) {
             if self.grids[i].make(|| Grid::new(polyhedron, RESOLUTIONS[i])).is_none() {
                 return;
             }
@@ -113,8 +111,7 @@ impl SupportMap {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn insist(&self, polyhedron: &Polyhedron) -> Result<()> {
-        let count = if self.least_error < f64::INFINITY { Self::count(polyhedron) } else { 0 };
-        let mut grids = self.grids.iter().zip(RESOLUTIONS).take(count);
+        let mut grids = self.grids.iter().zip(RESOLUTIONS);
         grids.try_for_each(|(grid, resolution)| grid.insist(|| Grid::new(polyhedron, resolution)))
     }
 
@@ -124,6 +121,11 @@ impl SupportMap {
 
     /// Memory held, in bytes.
     pub fn heap_bytes(&self) -> usize {
+        size_of_val(&self.grids[..]) + self.table_bytes()
+    }
+
+    /// Of that what is held by grids that are made.
+    pub fn table_bytes(&self) -> usize {
         self.grids.iter().filter_map(OnNeed::get).map(|grid| size_of_val(&grid.nodes[..])).sum()
     }
 }

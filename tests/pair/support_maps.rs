@@ -38,7 +38,7 @@ fn a_look_up_bounds_the_body_and_names_a_point_of_it() {
     let mut random = Random::new(0x5a9);
     for shape in shapes() {
         let body = shape.polyhedron();
-        let map = SupportMap::new(body);
+        let map = SupportMap::new(body).unwrap();
         map.insist(body).unwrap();
         for k in 0..600 {
             let direction = match k % 4 {
@@ -53,14 +53,14 @@ fn a_look_up_bounds_the_body_and_names_a_point_of_it() {
             }
             let errors = [0.3, 0.1, 0.05, 0.02, 0.01].map(|error| error * body.radius);
             for error in errors {
-                let Choice::Grids(grids) = map.choose(body, error) else { continue };
+                let Choice::Grids(grids) = map.choose(error) else { continue };
                 for grid in [grids.coarse, grids.fine] {
                     check_look_up(body, grid, &direction);
                 }
             }
         }
         // Something is fine enough for every body, and less than that for a prism.
-        assert!(matches!(map.choose(body, body.radius), Choice::Grids(_)));
+        assert!(matches!(map.choose(body.radius), Choice::Grids(_)));
     }
 }
 

@@ -63,7 +63,7 @@ impl<'a> PairQuery<'a> {
 
 #[inline(always)]
 fn grids_of(shape: &Shape, error: f64) -> Choice<'_> {
-    shape.support_map.choose(shape.polyhedron(), error)
+    shape.support_map.choose(error)
 }
 
 struct SupportMaps<'a, 'b> {
