@@ -32,6 +32,13 @@ struct ObjectSet {
     bool is_uneven() const noexcept { return !poses.empty() && poses.size() != ids.size(); }
 };
 
+namespace detail
+{
+struct DestroyScratch {
+    void operator()(swiftprox_scratch *scratch) const noexcept { swiftprox_scratch_destroy(scratch); }
+};
+} // namespace detail
+
 /** Room to work in for questions about sets, for one thread at a time. It keeps what pairs remember. */
 class SetScratch
 {
@@ -49,10 +56,7 @@ class SetScratch
     swiftprox_scratch *get() const noexcept { return owned_.get(); }
 
   private:
-    struct Destroy {
-        void operator()(swiftprox_scratch *scratch) const noexcept { swiftprox_scratch_destroy(scratch); }
-    };
-    std::unique_ptr<swiftprox_scratch, Destroy> owned_;
+    std::unique_ptr<swiftprox_scratch, detail::DestroyScratch> owned_;
 };
 
 namespace detail
