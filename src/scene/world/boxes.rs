@@ -58,10 +58,12 @@ impl Aabb {
         side(0) + side(1) + side(2)
     }
 
-    /// Twice the middle.
+    /// Twice the middle; 0 where a box has no ends, as those do whose pairs are near at any distance.
     #[inline(always)]
     pub fn doubled_middle(&self) -> [f32; 3] {
-        [0, 1, 2].map(|k| self.lower[k] + self.upper[k])
+        /// As far out as an end counts: the sum of two is a number.
+        const FAR: f32 = f32::MAX / 4.0;
+        [0, 1, 2].map(|k| self.lower[k].max(-FAR) + self.upper[k].min(FAR))
     }
 }
 
