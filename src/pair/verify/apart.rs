@@ -128,19 +128,5 @@ pub(super) fn witnesses<'a>(
 ) -> [Witness<'a>; 2] {
     let said = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
     let said = if radii.upper > 0.0 { moved(&said, poses, &answer.normal, radii.inwards()) } else { said };
-    let ([local1, local2], [world1, world2]) = (said.local, said.world);
-    let said = [(local1, world1, answer.feature1), (local2, world2, answer.feature2)];
-    std::array::from_fn(|i| {
-        let (local, world, feature) = said[i];
-        let (polyhedron, pose) = (polyhedra[i], poses[i]);
-        Witness {
-            object: i + 1,
-            polyhedron,
-            pose,
-            local: local.into(),
-            world: world.into(),
-            feature,
-            moved: radii.each[i],
-        }
-    })
+    Witness::of_both(polyhedra, poses, radii, &said, [answer.feature1, answer.feature2])
 }

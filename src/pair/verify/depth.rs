@@ -210,20 +210,8 @@ fn witnesses<'a>(
     radii: &Radii,
     answer: &DepthAnswer,
 ) -> [Witness<'a>; 2] {
-    let said = [(answer.local1, answer.world1, answer.feature1), (answer.local2, answer.world2, answer.feature2)];
-    std::array::from_fn(|i| {
-        let (local, world, feature) = said[i];
-        let (polyhedron, pose) = (polyhedra[i], poses[i]);
-        Witness {
-            object: i + 1,
-            polyhedron,
-            pose,
-            local: local.into(),
-            world: world.into(),
-            feature,
-            moved: radii.each[i],
-        }
-    })
+    let said = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
+    Witness::of_both(polyhedra, poses, radii, &said, [answer.feature1, answer.feature2])
 }
 
 type Triangle = [VertexPair; 3];

@@ -6,6 +6,8 @@ use crate::base::error::Result;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::build::assembly::build;
 use crate::pair::answer::{Feature, FeatureKind};
+use crate::pair::contact::PlacedPoints;
+use crate::pair::radii::Radii;
 use crate::polyhedron::{Face, Polyhedron};
 use crate::solve::exact;
 
@@ -27,7 +29,26 @@ pub struct Witness<'a> {
     pub moved: f64,
 }
 
-impl Witness<'_> {
+impl<'a> Witness<'a> {
+    /// Of both objects: points that were moved by the radii, and the features that hold them.
+    pub fn of_both(
+        polyhedra: [&'a Polyhedron; 2],
+        poses: [&'a Pose; 2],
+        radii: &Radii,
+        points: &PlacedPoints,
+        features: [Feature; 2],
+    ) -> [Witness<'a>; 2] {
+        std::array::from_fn(|i| Witness {
+            object: i + 1,
+            polyhedron: polyhedra[i],
+            pose: poses[i],
+            local: points.local[i].into(),
+            world: points.world[i].into(),
+            feature: features[i],
+            moved: radii.each[i],
+        })
+    }
+
     /// In centred coordinates.
     pub fn centred(&self) -> Vector {
         self.local - self.polyhedron.centre

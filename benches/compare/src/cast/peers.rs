@@ -4,7 +4,7 @@ use super::Caster;
 use super::scenes::Scene;
 
 pub fn casters(scene: &Scene) -> Result<Vec<Box<dyn Caster>>, String> {
-    #[allow(unused_mut)]
+    #[allow(unused_mut, reason = "nothing is pushed where neither is installed")]
     let mut found: Vec<Box<dyn Caster>> = Vec::new();
     #[cfg(fcl)]
     found.push(Box::new(fcl(scene)?));
