@@ -9,8 +9,8 @@ use super::structs::{Versioned, init_struct, read_struct};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::verify_depth;
 use crate::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Manifold, ManifoldCache, ManifoldConfig,
-    ManifoldPoint, Outcome, Placed, SignedDistance, Sink, manifold_into,
+    self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Fill, Manifold, ManifoldCache,
+    ManifoldConfig, ManifoldPoint, Outcome, Placed, SignedDistance, Sink, manifold_into,
 };
 use crate::shape::Shape;
 use std::ffi::c_char;
@@ -353,9 +353,12 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
             )
         };
         room_for_points(points, capacity)?;
-        let mut write = |place: usize, point: &ManifoldPoint| {
-            // SAFETY: not null, and place < capacity.
-            unsafe { points.add(place).write(*point) };
+        let mut write = |place: usize, fill: Fill| {
+            // SAFETY: not null, place < capacity, and it is written before it is a reference.
+            fill(unsafe {
+                points.add(place).write(ManifoldPoint::default());
+                &mut *points.add(place)
+            });
         };
         let mut sink = Sink { capacity, written: 0, write: &mut write };
         let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];

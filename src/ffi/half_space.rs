@@ -6,7 +6,7 @@ use super::guard::guard;
 use super::pointers::{input, output};
 use crate::base::math::Pose;
 use crate::pair::{
-    HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
+    Fill, HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
 };
 use crate::shape::Shape;
 
@@ -61,9 +61,12 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
             )
         };
         room_for_points(points, capacity)?;
-        let mut write = |place: usize, point: &ManifoldPoint| {
-            // SAFETY: not null, and place < capacity.
-            unsafe { points.add(place).write(*point) };
+        let mut write = |place: usize, fill: Fill| {
+            // SAFETY: not null, place < capacity, and it is written before it is a reference.
+            fill(unsafe {
+                points.add(place).write(ManifoldPoint::default());
+                &mut *points.add(place)
+            });
         };
         let mut sink = Sink { capacity, written: 0, write: &mut write };
         let found = half_space_manifold_into(shape.at(pose), half_space, &config, &mut sink)?;

@@ -94,32 +94,30 @@ pub(super) fn of_polyhedra(
     answer: &mut SignedDistance,
 ) -> Result<()> {
     // What the objects were the last time is asked first.
-    if cache.depth.expects_overlap()
-        && let Some(found) = of_overlap(bodies, cache, config)?
-    {
-        *answer = found;
+    if cache.depth.expects_overlap() && overlaps(bodies, cache, config, answer)? {
         return Ok(());
     }
     let mut apart = PairAnswer::default();
     ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
-    if apart.outcome == Outcome::Intersecting
-        && let Some(found) = of_overlap(bodies, cache, config)?
-    {
-        *answer = found;
-        return Ok(());
+    if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, config, answer)?) {
+        *answer = SignedDistance::from(&apart);
     }
-    *answer = SignedDistance::from(&apart);
     Ok(())
 }
 
-/// `None` of objects that are apart.
-fn of_overlap(
+/// Whether objects overlap, with the answer if they do.
+fn overlaps(
     bodies: [Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
-) -> Result<Option<SignedDistance>> {
+    answer: &mut SignedDistance,
+) -> Result<bool> {
     let mut overlap = DepthAnswer::default();
     let config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
     depth::of_polyhedra(bodies, &mut cache.depth, &config, &mut overlap)?;
-    Ok((overlap.outcome == Outcome::Intersecting).then(|| SignedDistance::from(&overlap)))
+    let is_there = overlap.outcome == Outcome::Intersecting;
+    if is_there {
+        *answer = SignedDistance::from(&overlap);
+    }
+    Ok(is_there)
 }

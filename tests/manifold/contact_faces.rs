@@ -10,6 +10,7 @@ use swiftprox::pair::{
 use swiftprox::polyhedron::FacePart;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
+use testkit::models;
 use testkit::random::{Random, rotation};
 use testkit::shapes::{cuboid, hull, lattice_box};
 
@@ -57,12 +58,8 @@ const NOISES: [Noise; 9] = [
 ];
 
 fn prism(sides: usize, radius: f64, half_height: f64) -> Vec<Vector> {
-    let corner = |k: usize| {
-        let angle = std::f64::consts::TAU * (k / 2) as f64 / sides as f64;
-        let height = if k.is_multiple_of(2) { -half_height } else { half_height };
-        Vector::new(radius * angle.cos(), radius * angle.sin(), height)
-    };
-    (0..2 * sides).map(corner).collect()
+    let unit = models::prism(sides as u32, half_height).unwrap().vertices;
+    unit.iter().map(|p| Vector::new(radius * p.x, radius * p.y, p.z)).collect()
 }
 
 /// A body whose lower and upper faces are known.

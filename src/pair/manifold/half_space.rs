@@ -6,8 +6,8 @@ use super::id::id_of;
 use super::outline::{Axes, Outline};
 use super::patch::facing;
 use super::places::{CommonPoint, Origin};
-use super::reduction::{ROOM, Reduction};
-use super::{Sink, witness};
+use super::reduction::{Thinned, four_of};
+use super::{Fill, Sink, witness};
 use crate::base::double_double::{DoubleDouble, wide_difference, wide_dot, widen};
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -35,7 +35,7 @@ pub fn half_space_manifold(
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
     let capacity = points.len();
-    let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
+    let mut write = |place: usize, fill: Fill| fill(&mut points[place]);
     half_space_manifold_into(body, half_space, config, &mut Sink { capacity, written: 0, write: &mut write })
 }
 
@@ -66,7 +66,7 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
     let axes = Axes::new(&up, &up);
     let outline = Outline::new(polyhedron, body.pose, Vector::zeros(), &axes, patch);
     let plane = Plane::new(body, half_space);
-    let mut reduction = Reduction::<ROOM>::new([0; FOUR], polyhedron.radius);
+    let mut thinned = Thinned::new(&[0; FOUR]);
     let (mut found, mut is_deep) = (0, false);
     for corner in 0..outline.count {
         let [least, most] = plane.gap(outline.vertex(corner));
@@ -80,22 +80,21 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
             let mut spots = [place; 2];
             (spots[0].z, spots[1].z) = (0.5 * (least + most), 0.0);
             let origin = Origin::Corner(CommonCorner::Vertex { body: 0, corner });
-            reduction.add(&CommonPoint { origin, spots, error: 0.5 * (most - least) });
+            thinned.add(&CommonPoint { origin, spots, error: 0.5 * (most - least) });
         } else {
-            points.push(|| plane.point(outline.vertex(corner), &normal));
+            points.push(|point| *point = plane.point(outline.vertex(corner), &normal));
         }
     }
     if config.reduces {
-        let (chosen, _) = reduction.chosen();
-        for place in chosen.iter().flatten() {
+        for place in four_of(thinned.places(), &[0; FOUR], polyhedron.radius).into_iter().flatten() {
             if let Origin::Corner(CommonCorner::Vertex { corner, .. }) = place.origin {
-                points.push(|| plane.point(outline.vertex(corner), &normal));
+                points.push(|point| *point = plane.point(outline.vertex(corner), &normal));
             }
         }
     }
     // The face most parallel to the plane need not hold the lowest vertex.
     if !is_deep {
-        points.insist(&witness(&contact));
+        points.insist(|point| *point = witness(&contact));
         found += 1;
     }
     answer.reference = if found > 1 { 1 } else { 0 };

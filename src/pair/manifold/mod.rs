@@ -34,10 +34,10 @@ pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
 use id::id_of;
 use outline::{Axes, Outline};
-use overlay::FEW;
+use overlay::Overlay;
 use patch::{COINCIDENT, Facing, facing};
-use places::{Origin, View};
-use reduction::{LITTLE_ROOM, ROOM, Reduction};
+use places::{CommonPoint, Origin, View};
+use reduction::{Thinned, four_of};
 
 /// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is
 /// none.
@@ -55,9 +55,12 @@ pub fn manifold(
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
     let capacity = points.len();
-    let mut write = |place: usize, point: &ManifoldPoint| points[place] = *point;
+    let mut write = |place: usize, fill: Fill| fill(&mut points[place]);
     manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write })
 }
+
+/// Fills all members of a point where it is to be: what was just written number by number is not copied (rule R1).
+pub(crate) type Fill<'a> = &'a mut dyn FnMut(&mut ManifoldPoint);
 
 /// Where points go.
 pub(crate) struct Sink<'a> {
@@ -65,23 +68,23 @@ pub(crate) struct Sink<'a> {
     pub capacity: usize,
     /// How many have been written.
     pub written: usize,
-    /// Writes one at its place.
-    pub write: &'a mut dyn FnMut(usize, &ManifoldPoint),
+    /// Has one filled at its place.
+    pub write: &'a mut dyn FnMut(usize, Fill),
 }
 
 impl Sink<'_> {
-    fn push(&mut self, point: impl FnOnce() -> ManifoldPoint) {
+    fn push(&mut self, mut fill: impl FnMut(&mut ManifoldPoint)) {
         if self.written < self.capacity {
-            (self.write)(self.written, &point());
+            (self.write)(self.written, &mut fill);
             self.written += 1;
         }
     }
 
     /// Adds one that must be among them, in place of the last where there is no room.
-    fn insist(&mut self, point: &ManifoldPoint) {
+    fn insist(&mut self, fill: impl FnMut(&mut ManifoldPoint)) {
         if self.capacity > 0 {
             self.written = self.written.min(self.capacity - 1);
-            self.push(|| *point);
+            self.push(fill);
         }
     }
 }
@@ -144,8 +147,11 @@ fn of_bodies(
     let poses = bodies.map(|body| body.pose);
     let of_polyhedra = swept::contact_of_polyhedra(&radii, poses, contact);
     let config = ManifoldConfig { margin: radii.with(config.margin), ..*config };
-    let mut write = |place: usize, point: &ManifoldPoint| {
-        (points.write)(place, &swept::point_of_bodies(&radii, poses, &contact.normal, point));
+    let mut write = |place: usize, fill: Fill| {
+        (points.write)(place, &mut |point| {
+            fill(point);
+            *point = swept::point_of_bodies(&radii, poses, &contact.normal, point);
+        });
     };
     let mut sink = Sink { capacity: points.capacity, written: points.written, write: &mut write };
     let manifold = make(bodies, before, &config, &of_polyhedra, &mut sink);
@@ -198,7 +204,7 @@ fn make(
             return answer;
         }
     }
-    points.push(|| witness(contact));
+    points.push(|point| *point = witness(contact));
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
 }
@@ -212,13 +218,15 @@ struct Patches {
 /// The last reference stays while it is about as parallel. `None` where no patch is nearly parallel to the normal.
 fn choose_patches(bodies: [Placed; 2], contact: &SignedDistance, last: &Reference) -> Option<Patches> {
     let normal = Vector::from(contact.normal);
-    let facing = [0, 1].map(|i| {
+    // One by one (rule R1).
+    let towards = |i: usize| {
         let sticky = if last.body == i as u32 + 1 { STICKY } else { STICKY_INCIDENT };
         let direction = if i == 0 { -normal } else { normal };
         let last = (1..=2).contains(&last.body).then_some(last.patches[i]);
-        let witness = Vector::from([contact.local1, contact.local2][i]);
+        let witness = Vector::from(if i == 0 { contact.local1 } else { contact.local2 });
         facing(bodies[i], &direction, &witness, last, sticky)
-    });
+    };
+    let facing = [towards(0), towards(1)];
     let parallel = |i: usize| facing[i].map_or(-1.0, |facing| facing.parallel);
     let best = if parallel(1) > parallel(0) { 1 } else { 0 };
     let reference = match last.body {
@@ -252,42 +260,49 @@ fn clip(
     let patch = |i: usize| patches.facing[i].map(|facing| facing.patch);
     let beside = outline::first_side(polyhedra[patches.reference], patch(patches.reference));
     let axes = Axes::new(&contact.normal.into(), &poses[patches.reference].rotate(&beside));
-    let outlines = [(0, between), (1, Vector::zeros())]
-        .map(|(i, offset)| Outline::new(polyhedra[i], poses[i], offset, &axes, patch(i)));
+    let outlines = [
+        Outline::new(polyhedra[0], poses[0], between, &axes, patch(0)),
+        Outline::new(polyhedra[1], poses[1], Vector::zeros(), &axes, patch(1)),
+    ];
     let noise = outlines[0].thickness() + outlines[1].thickness();
     let precision = Precision { rounding, coincident: noise.max(COINCIDENT * size), reference: patches.reference };
     let origin = poses[1].transform(&polyhedra[1].centre);
     let witness_spots = [contact.world1, contact.world2].map(|p| axes.spot(&(Vector::from(p) - origin)));
-    let (margin, witness) = (config.margin, witness(contact));
-    let view = View { outlines, polyhedra, poses, precision, margin, witness: &witness, witness_spots };
+    let view = View { outlines: &outlines, poses, precision, margin: config.margin, contact, witness_spots };
 
     let numbers = [0, 1].map(|i| patch(i).map_or(0, |patch| patch.number(polyhedra[i])));
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };
+    let mut overlay = Overlay::NONE;
+    let are_few = overlay.fill(&view).is_some();
     if !config.reduces {
-        return view.visit(|place| match place.origin {
-            Origin::Witness => points.insist(&witness),
-            Origin::Corner(_) => points.push(|| view.point(place)),
-        });
+        let mut write = |place: &CommonPoint| match place.origin {
+            Origin::Witness => points.insist(|point| *point = witness(contact)),
+            Origin::Corner(corner) => points.push(|point| view.fill(point, place, corner)),
+        };
+        if !are_few {
+            return view.sweep(write);
+        }
+        overlay.places().iter().for_each(&mut write);
+        return overlay.places().len();
     }
     let is_same = (last.body, last.patches) == (now.body, now.patches);
     let kept = if is_same { last.kept } else { [0; FOUR] };
-    if view.outlines.iter().all(|outline| outline.count <= FEW) {
-        reduce(&view, Reduction::<LITTLE_ROOM>::new(kept, size), &mut now.kept, points)
-    } else {
-        reduce(&view, Reduction::<ROOM>::new(kept, size), &mut now.kept, points)
+    let mut write = |places: &[CommonPoint]| {
+        for (place, key) in four_of(places, &kept, size).into_iter().zip(&mut now.kept) {
+            let Some(place) = place else { continue };
+            *key = place.key();
+            points.push(|point| match place.origin {
+                Origin::Witness => *point = witness(contact),
+                Origin::Corner(corner) => view.fill(point, place, corner),
+            });
+        }
+    };
+    if are_few {
+        write(overlay.places());
+        return overlay.places().len();
     }
-}
-
-/// Writes the points that stay, and notes them; how many there are.
-fn reduce<const N: usize>(
-    view: &View,
-    mut reduction: Reduction<N>,
-    kept: &mut [u32; FOUR],
-    points: &mut Sink,
-) -> usize {
-    let found = view.visit(|place| reduction.add(place));
-    let chosen;
-    (chosen, *kept) = reduction.chosen();
-    chosen.iter().flatten().for_each(|place| points.push(|| view.point(place)));
+    let mut thinned = Thinned::new(&kept);
+    let found = view.sweep(|place| thinned.add(place));
+    write(thinned.places());
     found
 }

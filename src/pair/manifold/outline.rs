@@ -2,6 +2,7 @@
 
 use super::patch::Patch;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, divisor};
+use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
 
 /// Axes of a contact: two across its normal, and that.
@@ -76,8 +77,10 @@ pub struct Outline<'a> {
     pub is_counter_clockwise: bool,
     /// R⁻¹.
     inverse: Option<Matrix>,
-    /// The patch's normal up to its length, in the axes of the contact.
-    normal: Option<Vector>,
+    /// The patch's normal up to its length, in the axes of the contact, and that length.
+    normal: Option<(Vector, f64)>,
+    /// Where the first corner is.
+    first: Vector,
 }
 
 impl<'a> Outline<'a> {
@@ -94,13 +97,28 @@ impl<'a> Outline<'a> {
         // In the world it is (R⁻¹)ᵀ·n, which is R·n where R is orthonormal up to rounding.
         let normal_of =
             |patch: Patch| inverse.map(|inverse| axes.spot(&(inverse.transpose() * patch.normal(polyhedron))));
-        let normal = patch.and_then(normal_of);
+        let normal = patch.and_then(normal_of).map(|normal| (normal, normal.norm()));
         let [first, second] = &axes.across;
         let turn = Matrix::from_rows(&[first.transpose(), second.transpose(), axes.normal.transpose()]) * rotation;
         let origin = axes.spot(&offset);
         let is_counter_clockwise =
             patch.is_none_or(|patch| turn.row(2).transpose().dot(patch.normal(polyhedron)) >= 0.0);
-        Outline { polyhedron, offset, axes, turn, origin, patch, count, is_counter_clockwise, inverse, normal }
+        let first = Vector::zeros();
+        let mut outline = Outline {
+            polyhedron,
+            offset,
+            axes,
+            turn,
+            origin,
+            patch,
+            count,
+            is_counter_clockwise,
+            inverse,
+            normal,
+            first,
+        };
+        outline.first = outline.spot(0);
+        outline
     }
 
     /// The vertex at a corner.
@@ -117,6 +135,23 @@ impl<'a> Outline<'a> {
             position -= face.normal * (face.normal.dot(&position) - face.middle);
         }
         self.turn * position + self.origin
+    }
+
+    /// As [`spot`](Outline::spot), of four corners: their coordinates in the body's frame make those here.
+    #[inline(always)]
+    pub fn spots<L: Lanes>(&self, [mut x, mut y, mut z]: [L; 3]) -> [L; 3] {
+        if let Some(Patch::Contact(face)) = self.patch {
+            let face = &self.polyhedron.contact_faces.faces[face as usize];
+            let [across, along, up] = [face.normal.x, face.normal.y, face.normal.z].map(L::splat);
+            let height = across.mul(x).add(along.mul(y)).add(up.mul(z)).sub(L::splat(face.middle));
+            (x, y, z) = (x.sub(across.mul(height)), y.sub(along.mul(height)), z.sub(up.mul(height)));
+        }
+        let mut spots = [x; 3];
+        for (row, spot) in spots.iter_mut().enumerate() {
+            let [a, b, c] = [self.turn[(row, 0)], self.turn[(row, 1)], self.turn[(row, 2)]].map(L::splat);
+            *spot = a.mul(x).add(b.mul(y)).add(c.mul(z)).add(L::splat(self.origin[row]));
+        }
+        spots
     }
 
     /// The caller's indices of the ends of the side from a corner to the next.
@@ -145,7 +180,7 @@ impl<'a> Outline<'a> {
     /// whatever R is.
     pub fn slack(&self) -> f64 {
         match (self.patch, self.normal) {
-            (Some(Patch::Contact(_)), Some(normal)) if normal.z.abs() > STEEPEST => {
+            (Some(Patch::Contact(_)), Some((normal, _))) if normal.z.abs() > STEEPEST => {
                 0.5 * self.thickness() / normal.z.abs()
             }
             (Some(Patch::Contact(_)), _) => f64::INFINITY,
@@ -157,24 +192,24 @@ impl<'a> Outline<'a> {
     /// edge.
     pub fn height_at(&self, x: f64, y: f64, rounding: f64) -> Option<(f64, f64)> {
         let Some(patch) = self.patch else {
-            let (from, to) = (self.spot(0), self.spot(self.count - 1));
+            let (from, to) = (self.first, self.spot(self.count - 1));
             let along = to - from;
             let share =
                 ((x - from.x) * along.x + (y - from.y) * along.y) / divisor(along.x * along.x + along.y * along.y);
             return Some((from.z + along.z * share.clamp(0.0, 1.0), rounding));
         };
-        let normal = self.normal?;
-        if !(normal.z.abs() > STEEPEST * normal.norm()) {
+        let (normal, length) = self.normal?;
+        if !(normal.z.abs() > STEEPEST * length) {
             return None;
         }
-        let corner = self.spot(0);
+        let corner = self.first;
         let rise = (normal.x * (x - corner.x) + normal.y * (y - corner.y)) / normal.z;
         // Off by that of the corner it is measured from and by its own.
         let slack = match patch {
             Patch::Merged(face) => self.polyhedron.faces[face as usize].slack,
             Patch::Contact(_) => 0.0,
         };
-        let error = 2.0 * (slack + rounding) * normal.norm() / normal.z.abs();
+        let error = 2.0 * (slack + rounding) * length / normal.z.abs();
         Some((corner.z - rise, error + self.slack()))
     }
 

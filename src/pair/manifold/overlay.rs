@@ -1,12 +1,17 @@
 //! The common part of two outlines of few corners, where no corner is near a side of the other: all corners against all sides at
 //! once, as bits. It says what the [sweep](super::clip) says, sooner, and leaves to that whatever is in doubt.
 
-use super::clip::{CommonCorner, Precision, Spot};
+use super::clip::CommonCorner;
 use super::outline::Outline;
+use super::places::{CommonPoint, Origin, View};
 use crate::base::math::Vector;
+use crate::base::simd::{self, Kernel, Lanes};
 
 /// Corners of an outline: a mask has so many bits.
 pub const FEW: usize = 8;
+
+/// Lanes that hold them.
+const FOURS: usize = FEW / 4;
 
 /// Corners of a common part: each is on the boundary of both outlines or a corner of one.
 const MOST_CORNERS: usize = 2 * FEW;
@@ -14,62 +19,87 @@ const MOST_CORNERS: usize = 2 * FEW;
 /// Within so many times what is [`coincident`](Precision::coincident) the sweep takes two corners for one.
 const DOUBT: f64 = 4.0;
 
-/// The corners of the common part.
+/// The points of the common part whose gap is at most the margin; and the witness points, if others are there and none is as deep.
 pub struct Overlay {
-    spots: [Spot; MOST_CORNERS],
+    places: [CommonPoint; MOST_CORNERS + 1],
     count: usize,
 }
 
-/// The corners of an outline and the sides that begin there.
-struct Few {
+/// The corners of an outline and the sides that begin there. Lanes past the last corner repeat it.
+struct Few<L> {
+    x: [L; FOURS],
+    y: [L; FOURS],
     corners: [Vector; FEW],
     count: usize,
     /// 1 if they go around counter-clockwise, else −1.
     turn: f64,
 }
 
-impl Few {
-    fn of(outline: &Outline) -> Option<Few> {
-        if outline.patch.is_none() || !(3..=FEW).contains(&outline.count) {
-            return None;
-        }
-        let mut corners = [Vector::zeros(); FEW];
-        for (corner, spot) in corners[..outline.count].iter_mut().enumerate() {
-            *spot = outline.spot(corner);
-        }
-        Some(Few { corners, count: outline.count, turn: if outline.is_counter_clockwise { 1.0 } else { -1.0 } })
+impl<L: Lanes> Few<L> {
+    #[inline(always)]
+    fn none() -> Few<L> {
+        let zeros = [L::splat(0.0); FOURS];
+        Few { x: zeros, y: zeros, corners: [Vector::zeros(); FEW], count: 0, turn: 0.0 }
     }
 
+    /// Makes them those of an outline that has area and few corners.
+    #[inline(always)]
+    fn fill(&mut self, outline: &Outline) {
+        self.count = outline.count;
+        self.turn = if outline.is_counter_clockwise { 1.0 } else { -1.0 };
+        for four in 0..self.count.div_ceil(4) {
+            let mut positions = [L::splat(0.0); 4];
+            for (lane, position) in positions.iter_mut().enumerate() {
+                let vertex = outline.vertex((4 * four + lane).min(self.count - 1));
+                *position = L::from_vector(&outline.polyhedron.vertices[vertex as usize].position);
+            }
+            let [x, y, z] = outline.spots(L::components(&positions));
+            (self.x[four], self.y[four]) = (x, y);
+            let (x, y, z) = (x.to_array(), y.to_array(), z.to_array());
+            for lane in 0..4 {
+                self.corners[4 * four + lane] = Vector::new(x[lane], y[lane], z[lane]);
+            }
+        }
+    }
+
+    #[inline(always)]
     fn ends(&self, side: usize) -> [&Vector; 2] {
         [&self.corners[side], &self.corners[if side + 1 < self.count { side + 1 } else { 0 }]]
     }
 
     /// How far inside a side a place is, times the side's length.
+    #[inline(always)]
     fn inside(&self, side: usize, place: &Vector) -> f64 {
         let [from, to] = self.ends(side);
         self.turn * ((to.x - from.x) * (place.y - from.y) - (to.y - from.y) * (place.x - from.x))
     }
 
     /// Of each side the corners of another outline that are outside of it; `None` where one is as near as `doubt`.
-    fn outside(&self, other: &Few, doubt: f64) -> Option<[u8; FEW]> {
+    #[inline(always)]
+    fn outside(&self, other: &Few<L>, doubt: f64) -> Option<[u8; FEW]> {
         let mut outside = [0; FEW];
-        let mut is_doubtful = false;
         for (side, outside) in outside[..self.count].iter_mut().enumerate() {
             let [from, to] = self.ends(side);
             let (x, y) = (self.turn * (to.x - from.x), self.turn * (to.y - from.y));
             // At least as long as the side: the sum does not underflow where squares do.
-            let limit = doubt * (x.abs() + y.abs());
-            for (corner, place) in other.corners[..other.count].iter().enumerate() {
-                let inside = x * (place.y - from.y) - y * (place.x - from.x);
-                // True of a NaN.
-                is_doubtful |= !(inside.abs() > limit);
-                *outside |= u8::from(inside < 0.0) << corner;
+            let limit = L::splat(doubt * (x.abs() + y.abs()));
+            for four in 0..other.count.div_ceil(4) {
+                let across = L::splat(x).mul(other.y[four].sub(L::splat(from.y)));
+                let inside = across.sub(L::splat(y).mul(other.x[four].sub(L::splat(from.x))));
+                let beyond = limit.negate().greater(inside);
+                // A NaN fails both comparisons.
+                if (beyond | inside.greater(limit)) & 0b1111 != 0b1111 {
+                    return None;
+                }
+                *outside |= (beyond as u8 & 0b1111) << (4 * four);
             }
+            *outside &= (0xff_u32 >> (FEW - other.count)) as u8;
         }
-        (!is_doubtful).then_some(outside)
+        Some(outside)
     }
 
     /// Bits of the sides whose ends are on different sides of something, of bits of corners.
+    #[inline(always)]
     fn crossing_sides(&self, outside: u8) -> u8 {
         let next = outside >> 1 | (outside & 1) << (self.count - 1);
         outside ^ next
@@ -77,70 +107,105 @@ impl Few {
 }
 
 impl Overlay {
-    /// Of two outlines; `None` where the sweep has to tell.
-    pub fn of(outlines: &[Outline; 2], precision: &Precision) -> Option<Overlay> {
-        let few = [Few::of(&outlines[0])?, Few::of(&outlines[1])?];
-        let doubt = DOUBT * precision.coincident;
-        let outside = [few[0].outside(&few[1], doubt)?, few[1].outside(&few[0], doubt)?];
-        let mut overlay = Overlay {
-            spots: [Spot {
-                corner: CommonCorner::Vertex { body: 0, corner: 0 },
-                spots: [Vector::zeros(); 2],
-                error: 0.0,
-            }; MOST_CORNERS],
-            count: 0,
-        };
-        for body in 0..2 {
-            let of_any = outside[1 - body].iter().fold(0, |any, corners| any | corners);
-            for corner in (0..few[body].count).filter(|corner| of_any >> corner & 1 == 0) {
-                let place = few[body].corners[corner];
-                overlay.push(Spot { corner: CommonCorner::Vertex { body, corner }, spots: [place; 2], error: 0.0 })?;
-            }
+    pub const NONE: Overlay = Overlay { places: [CommonPoint::NOWHERE; MOST_CORNERS + 1], count: 0 };
+
+    /// Makes it that of two outlines; `None` where the sweep has to tell. In place, as it is large.
+    pub fn fill(&mut self, view: &View) -> Option<()> {
+        let are_few = |outline: &Outline| outline.patch.is_some() && (3..=FEW).contains(&outline.count);
+        if !view.outlines.iter().all(are_few) {
+            return None;
         }
-        let corner_count = overlay.count;
-        let crossed = outside[1].map(|outside| few[0].crossing_sides(outside));
-        for (first, &beyond) in outside[0][..few[0].count].iter().enumerate() {
-            let mut seconds = few[1].crossing_sides(beyond);
-            while seconds != 0 {
-                let second = seconds.trailing_zeros() as usize;
-                seconds &= seconds - 1;
-                if crossed[second] >> first & 1 == 1 {
-                    overlay.push(crossing(&few, [first, second], precision.rounding))?;
-                }
-            }
-        }
-        // At a corner as sharp as that crossings may be at one place though the corner is not.
-        let crossings = &overlay.spots[corner_count..overlay.count];
-        for (at, spot) in crossings.iter().enumerate() {
-            let is_near = |other: &Spot| {
-                let off = other.spots[0] - spot.spots[0];
-                off.x.abs() <= doubt && off.y.abs() <= doubt
-            };
-            if crossings[..at].iter().any(is_near) {
-                return None;
-            }
-        }
-        Some(overlay)
+        simd::dispatch_to_avx2(&mut Filling { overlay: self, view })
     }
 
-    /// `None` where there is no room, as of outlines that are not convex.
-    fn push(&mut self, spot: Spot) -> Option<()> {
-        *self.spots.get_mut(self.count)? = spot;
+    /// Adds one that is near; whether it may be as deep as the witness points. `None` where there is no room, as of outlines that
+    /// are not convex.
+    #[inline(always)]
+    fn push(&mut self, view: &View, place: CommonPoint) -> Option<bool> {
+        if !(place.error.is_finite() && view.is_near(&place)) {
+            return Some(false);
+        }
+        let is_deep = view.is_deep(&place);
+        *self.places[..MOST_CORNERS].get_mut(self.count)? = place;
         self.count += 1;
-        Some(())
+        Some(is_deep)
     }
 
-    /// The corners of the common part.
-    pub fn spots(&self) -> &[Spot] {
-        &self.spots[..self.count]
+    pub fn places(&self) -> &[CommonPoint] {
+        &self.places[..self.count]
     }
 }
 
-/// Where two sides cross.
+struct Filling<'a> {
+    overlay: &'a mut Overlay,
+    view: &'a View<'a>,
+}
+
+impl Kernel for Filling<'_> {
+    type Output = Option<()>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<()> {
+        let View { outlines, precision, .. } = self.view;
+        let mut few = [Few::<L>::none(), Few::none()];
+        few[0].fill(&outlines[0]);
+        few[1].fill(&outlines[1]);
+        let doubt = DOUBT * precision.coincident;
+        let outside = [few[0].outside(&few[1], doubt)?, few[1].outside(&few[0], doubt)?];
+        let mut is_deep = false;
+        for body in 0..2 {
+            let of_any = outside[1 - body].iter().fold(0, |any, corners| any | corners);
+            for corner in 0..few[body].count {
+                if of_any >> corner & 1 == 1 {
+                    continue;
+                }
+                let spot = few[body].corners[corner];
+                let Some((height, error)) = self.view.height_over(body, &spot) else { continue };
+                let mut spots = [spot; 2];
+                spots[1 - body].z = height;
+                let origin = Origin::Corner(CommonCorner::Vertex { body, corner });
+                is_deep |= self.overlay.push(self.view, CommonPoint { origin, spots, error })?;
+            }
+        }
+        let mut crossings = [[0.0; 2]; MOST_CORNERS];
+        let mut crossing_count = 0;
+        let crossed = outside[1].map(|outside| few[0].crossing_sides(outside));
+        for first in 0..few[0].count {
+            let mut seconds = few[1].crossing_sides(outside[0][first]);
+            while seconds != 0 {
+                let second = seconds.trailing_zeros() as usize;
+                seconds &= seconds - 1;
+                if crossed[second] >> first & 1 == 0 {
+                    continue;
+                }
+                let (spots, error) = crossing(&few, [first, second], precision.rounding);
+                // At a corner as sharp as that crossings may be at one place though the corner is not.
+                for [x, y] in &crossings[..crossing_count] {
+                    if (x - spots[0].x).abs() <= doubt && (y - spots[0].y).abs() <= doubt {
+                        return None;
+                    }
+                }
+                *crossings.get_mut(crossing_count)? = [spots[0].x, spots[0].y];
+                crossing_count += 1;
+                let origin = Origin::Corner(CommonCorner::Crossing { sides: [first, second] });
+                let error = error + self.view.error_at_crossings();
+                is_deep |= self.overlay.push(self.view, CommonPoint { origin, spots, error })?;
+            }
+        }
+        if self.overlay.count > 0 && !is_deep {
+            self.overlay.places[self.overlay.count] = self.view.witness();
+            self.overlay.count += 1;
+        }
+        Some(())
+    }
+}
+
+/// Where two sides cross on either outline, and by how much the gap there may be off as they cross at a small angle.
 ///
 /// How far an end is inside the other's line is off by less than twice the `rounding`, so the share of the side up to the crossing
 /// by that over how far both ends are apart across the line; each height changes along its side by so much of its rise.
-fn crossing(few: &[Few; 2], sides: [usize; 2], rounding: f64) -> Spot {
+#[inline(always)]
+fn crossing<L: Lanes>(few: &[Few<L>; 2], sides: [usize; 2], rounding: f64) -> ([Vector; 2], f64) {
     let mut error = 0.0;
     let mut spots = [Vector::zeros(); 2];
     for body in 0..2 {
@@ -153,17 +218,18 @@ fn crossing(few: &[Few; 2], sides: [usize; 2], rounding: f64) -> Spot {
         let off = (2.0 * rounding * length / (before - after).abs()).min(1.0);
         error += off * (to.z - from.z).abs();
     }
-    Spot { corner: CommonCorner::Crossing { sides }, spots, error }
+    (spots, error)
 }
 
 #[cfg(test)]
 mod tests {
+    use super::super::clip::Precision;
     use super::*;
     use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
     use crate::build::assembly::build;
-    use crate::pair::manifold::clip::common_part;
     use crate::pair::manifold::outline::Axes;
     use crate::pair::manifold::patch::{COINCIDENT, Patch};
+    use crate::pair::signed_distance::SignedDistance;
     use crate::polyhedron::Polyhedron;
     use crate::random::Random;
 
@@ -183,13 +249,14 @@ mod tests {
         Some(Patch::Merged(best as u32))
     }
 
-    /// A corner of a common part in a form that can be sorted, and where it is.
-    fn told(spot: &Spot) -> (usize, [usize; 2], [Vector; 2], f64) {
-        let (kind, place) = match spot.corner {
-            CommonCorner::Vertex { body, corner } => (body, [corner, 0]),
-            CommonCorner::Crossing { sides } => (2, sides),
+    /// A point of a common part in a form that can be sorted, and where it is.
+    fn told(place: &CommonPoint) -> (usize, [usize; 2], [Vector; 2], f64) {
+        let (kind, sides) = match place.origin {
+            Origin::Corner(CommonCorner::Vertex { body, corner }) => (body, [corner, 0]),
+            Origin::Corner(CommonCorner::Crossing { sides }) => (2, sides),
+            Origin::Witness => (3, [0; 2]),
         };
-        (kind, place, spot.spots, spot.error)
+        (kind, sides, place.spots, place.error)
     }
 
     /// Faces beside each other, in each other, far apart and tilted: the same corners at the same places as the sweep's; and hardly
@@ -220,13 +287,24 @@ mod tests {
                 .map(|(i, offset)| Outline::new(&bodies[i], &poses[i], offset, &axes, patches[i]));
             let size = 4.0;
             let precision = Precision { rounding: 64.0 * U * size, coincident: COINCIDENT * size, reference: 0 };
-            let Some(overlay) = Overlay::of(&outlines, &precision) else {
+            // Witness points that are no deeper than any other.
+            let contact = SignedDistance { lower: 0.0, upper: f64::INFINITY, ..SignedDistance::default() };
+            let view = View {
+                outlines: &outlines,
+                poses: [&poses[0], &poses[1]],
+                precision,
+                margin: f64::INFINITY,
+                contact: &contact,
+                witness_spots: [Vector::zeros(); 2],
+            };
+            let mut overlay = Overlay::NONE;
+            if overlay.fill(&view).is_none() {
                 left += 1;
                 continue;
-            };
+            }
             let mut swept = Vec::new();
-            common_part(&outlines, &precision, |spot| swept.push(told(spot)));
-            let mut found: Vec<_> = overlay.spots().iter().map(told).collect();
+            view.sweep(|place| swept.push(told(place)));
+            let mut found: Vec<_> = overlay.places().iter().map(told).collect();
             let by_corner = |a: &(usize, [usize; 2], [Vector; 2], f64), b: &(usize, [usize; 2], [Vector; 2], f64)| {
                 (a.0, a.1).cmp(&(b.0, b.1))
             };
@@ -236,10 +314,9 @@ mod tests {
             for (own, other) in found.iter().zip(&swept) {
                 assert_eq!((own.0, own.1), (other.0, other.1), "{round}");
                 for k in 0..2 {
-                    // A corner is put over the other outline later; where sides cross both heights count.
                     let off = own.2[k] - other.2[k];
                     let allowed = precision.rounding + 4.0 * (own.3 + other.3);
-                    assert!(off.xy().norm() <= 1e-9 && (own.0 < 2 || off.z.abs() <= 1e-9 + allowed), "{round} {off:?}");
+                    assert!(off.xy().norm() <= 1e-9 && off.z.abs() <= 1e-9 + allowed, "{round} {off:?}");
                 }
             }
             compared += 1;

@@ -13,6 +13,9 @@ pub const COINCIDENT: f64 = f64::from_bits((1023 - 27) << 52);
 /// Corners of the patch of before that are looked at; a climb takes about as long.
 const MOST_LOOKED_AT: usize = 8;
 
+/// Of bodies with no more vertices than this all are looked at sooner than a climb ends.
+const SOONER_CLIMBED: usize = 32;
+
 /// A polygon that a manifold is made over.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Patch {
@@ -128,9 +131,11 @@ fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector, 
             return Some(vertex);
         }
     }
-    let (reached, _) = polyhedron.support(towards, tables::farthest(polyhedron, towards).unwrap_or(first));
-    if height(reached) >= far {
-        return Some(reached);
+    if polyhedron.vertices.len() > SOONER_CLIMBED {
+        let (reached, _) = polyhedron.support(towards, tables::farthest(polyhedron, towards).unwrap_or(first));
+        if height(reached) >= far {
+            return Some(reached);
+        }
     }
     (0..polyhedron.vertices.len() as u32).reduce(|a, b| if height(b) > height(a) { b } else { a })
 }

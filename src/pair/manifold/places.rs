@@ -4,22 +4,20 @@ use super::answer::ManifoldPoint;
 use super::clip::{CommonCorner, Precision, Spot, common_part};
 use super::id::id_of;
 use super::outline::Outline;
-use super::overlay::Overlay;
 use crate::base::math::{Pose, Vector};
 use crate::pair::answer::{Feature, FeatureKind};
 use crate::pair::contact::{PlacedPoints, label, placed_points};
-use crate::polyhedron::Polyhedron;
+use crate::pair::signed_distance::SignedDistance;
 use crate::solve::state::FeatureId;
 
 /// Two outlines seen along the normal, and the pair of witness points.
 pub struct View<'a> {
-    pub outlines: [Outline<'a>; 2],
-    pub polyhedra: [&'a Polyhedron; 2],
+    pub outlines: &'a [Outline<'a>; 2],
     pub poses: [&'a Pose; 2],
     pub precision: Precision,
     pub margin: f64,
     /// The pair of witness points, and where they are.
-    pub witness: &'a ManifoldPoint,
+    pub contact: &'a SignedDistance,
     pub witness_spots: [Vector; 2],
 }
 
@@ -42,9 +40,12 @@ pub struct CommonPoint {
 }
 
 impl CommonPoint {
-    /// Fills what holds no place yet.
-    pub const NOWHERE: CommonPoint =
-        CommonPoint { origin: Origin::Witness, spots: [Vector::new(0.0, 0.0, 0.0); 2], error: 0.0 };
+    /// Fills what holds no place yet: zeros.
+    pub const NOWHERE: CommonPoint = CommonPoint {
+        origin: Origin::Corner(CommonCorner::Vertex { body: 0, corner: 0 }),
+        spots: [Vector::new(0.0, 0.0, 0.0); 2],
+        error: 0.0,
+    };
 
     pub fn gap(&self) -> f64 {
         self.spots[0].z - self.spots[1].z
@@ -66,75 +67,95 @@ impl CommonPoint {
 impl View<'_> {
     /// Calls `visit` with each point whose gap is at most the margin, and last, if others are there and none is as deep, with the
     /// witness points: patches most parallel to the normal need not hold them. How many it were.
-    pub fn visit(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
+    pub fn sweep(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
         let (mut count, mut is_deep) = (0, false);
-        let mut look_at = |spot: &Spot| {
+        common_part(self.outlines, &self.precision, |spot: &Spot| {
             if let Some(place) = self.place(spot)
-                && place.gap() - place.error <= self.margin
+                && self.is_near(&place)
             {
-                is_deep |= place.gap() - place.error <= self.witness.gap_upper + self.precision.rounding;
+                is_deep |= self.is_deep(&place);
                 count += 1;
                 visit(&place);
             }
-        };
-        match Overlay::of(&self.outlines, &self.precision) {
-            Some(overlay) => overlay.spots().iter().for_each(&mut look_at),
-            None => common_part(&self.outlines, &self.precision, look_at),
-        }
+        });
         if count > 0 && !is_deep {
-            let error = 0.5 * (self.witness.gap_upper - self.witness.gap_lower);
-            visit(&CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error });
+            visit(&self.witness());
             count += 1;
         }
         count
     }
 
+    /// Whether a place may have a gap of at most the margin.
+    #[inline(always)]
+    pub fn is_near(&self, place: &CommonPoint) -> bool {
+        place.gap() - place.error <= self.margin
+    }
+
+    /// Whether a place may be as deep as the witness points.
+    #[inline(always)]
+    pub fn is_deep(&self, place: &CommonPoint) -> bool {
+        place.gap() - place.error <= self.contact.upper + self.precision.rounding
+    }
+
+    /// The pair of witness points as a place.
+    pub fn witness(&self) -> CommonPoint {
+        let error = 0.5 * (self.contact.upper - self.contact.lower);
+        CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error }
+    }
+
     fn place(&self, spot: &Spot) -> Option<CommonPoint> {
-        let rounding = self.precision.rounding;
         let mut spots = spot.spots;
         let error = match spot.corner {
             CommonCorner::Vertex { body, .. } => {
-                let (height, error) = self.outlines[1 - body].height_at(spots[0].x, spots[0].y, rounding)?;
+                let (height, error) = self.height_over(body, &spots[0])?;
                 spots[1 - body].z = height;
-                error + self.outlines[body].slack() + rounding
+                error
             }
-            CommonCorner::Crossing { .. } => {
-                let [first, second] = self.outlines.each_ref().map(Outline::slack);
-                spot.error + first + second + 2.0 * rounding
-            }
+            CommonCorner::Crossing { .. } => spot.error + self.error_at_crossings(),
         };
         error.is_finite().then_some(CommonPoint { origin: Origin::Corner(spot.corner), spots, error })
     }
 
-    pub fn point(&self, place: &CommonPoint) -> ManifoldPoint {
-        let Origin::Corner(corner) = place.origin else { return *self.witness };
+    /// How high the other outline is over a corner of a body's, and by how much the gap there may be off. `None` where that outline
+    /// has no height.
+    #[inline(always)]
+    pub fn height_over(&self, body: usize, place: &Vector) -> Option<(f64, f64)> {
+        let rounding = self.precision.rounding;
+        let (height, error) = self.outlines[1 - body].height_at(place.x, place.y, rounding)?;
+        Some((height, error + self.outlines[body].slack() + rounding))
+    }
+
+    /// By how much the gap may be off where sides cross at a right angle.
+    #[inline(always)]
+    pub fn error_at_crossings(&self) -> f64 {
+        self.outlines[0].slack() + self.outlines[1].slack() + 2.0 * self.precision.rounding
+    }
+
+    /// Says all of a point at a corner of the common part.
+    pub fn fill(&self, point: &mut ManifoldPoint, place: &CommonPoint, corner: CommonCorner) {
+        let polyhedra = [0, 1].map(|i| self.outlines[i].polyhedron);
         let centred = [0, 1].map(|i| match corner {
             CommonCorner::Vertex { body, corner } if body == i => {
                 let vertex = self.outlines[i].vertex(corner);
-                self.polyhedra[i].vertices[vertex as usize].position
+                polyhedra[i].vertices[vertex as usize].position
             }
             // R has an inverse: det R > 0.
             _ => self.outlines[i].local(&place.spots[i]).unwrap_or_else(Vector::zeros),
         });
-        let features = [0, 1].map(|i| self.feature(corner, i, &centred[i]));
-        let PlacedPoints { local, world } = placed_points(self.polyhedra, self.poses, &centred);
+        let [feature1, feature2] = [0, 1].map(|i| self.feature(corner, i, &centred[i]));
+        let PlacedPoints { local, world } = placed_points(polyhedra, self.poses, &centred);
+        [point.local1, point.local2] = local;
+        [point.world1, point.world2] = world;
         let gap = place.gap();
-        ManifoldPoint {
-            local1: local[0],
-            local2: local[1],
-            world1: world[0],
-            world2: world[1],
-            gap_lower: gap - place.error,
-            gap_upper: gap + place.error,
-            feature1: features[0],
-            feature2: features[1],
-            id: id_of(&features[0], &features[1]),
-        }
+        (point.gap_lower, point.gap_upper) = (gap - place.error, gap + place.error);
+        (point.feature1, point.feature2) = (feature1, feature2);
+        point.id = id_of(&feature1, &feature2);
     }
 
     /// What holds the point on a body: its own vertex, its side, or its patch.
     fn feature(&self, corner: CommonCorner, body: usize, point: &Vector) -> Feature {
-        let (outline, polyhedron) = (&self.outlines[body], self.polyhedra[body]);
+        let outline = &self.outlines[body];
+        let polyhedron = outline.polyhedron;
         match corner {
             CommonCorner::Vertex { body: own, corner } if own == body => {
                 label(polyhedron, FeatureId::Vertex(outline.vertex(corner)), point)

@@ -11,33 +11,28 @@ const AS_DEEP: f64 = 1e-5;
 /// The part of the area that those of before must have of the best.
 const AS_LARGE: f64 = 0.9;
 
-/// Places at hand, as of two outlines of few corners, so that less has to be cleared …
-pub const LITTLE_ROOM: usize = 24;
-
-/// … and as of any. Of more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other reaches farther
-/// by more than 2 % of the manifold.
-pub const ROOM: usize = 64;
+/// Places at hand. Of more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other reaches farther by
+/// more than 2 % of the manifold.
+const ROOM: usize = 64;
 
 /// Directions in which places are told from each other where there is no room.
 const DIRECTIONS: usize = 16;
 
-/// Places of which some stay.
-pub struct Reduction<const N: usize> {
-    places: [CommonPoint; N],
+/// Any number of places, thinned out where there is no room.
+pub struct Thinned<'a> {
+    places: [CommonPoint; ROOM],
     count: usize,
-    /// The keys of those that stayed the last time, in order; 0 for none.
-    kept: [u32; FOUR],
-    /// What is a length next to the pair.
-    size: f64,
+    /// The keys of those that stayed the last time.
+    kept: &'a [u32; FOUR],
 }
 
-impl<const N: usize> Reduction<N> {
-    pub fn new(kept: [u32; FOUR], size: f64) -> Reduction<N> {
-        Reduction { places: [CommonPoint::NOWHERE; N], count: 0, kept, size }
+impl Thinned<'_> {
+    pub fn new(kept: &[u32; FOUR]) -> Thinned<'_> {
+        Thinned { places: [CommonPoint::NOWHERE; ROOM], count: 0, kept }
     }
 
     pub fn add(&mut self, place: &CommonPoint) {
-        if self.count == N {
+        if self.count == ROOM {
             self.thin_out();
         }
         self.places[self.count] = *place;
@@ -46,7 +41,7 @@ impl<const N: usize> Reduction<N> {
 
     /// Leaves the deepest place, those of before, and the farthest in each direction: a third of them at most.
     fn thin_out(&mut self) {
-        let mut stays = [false; N];
+        let mut stays = [false; ROOM];
         stays[most(&self.places, |place| -place.gap())] = true;
         for direction in 0..DIRECTIONS {
             let (sine, cosine) = (std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
@@ -61,37 +56,46 @@ impl<const N: usize> Reduction<N> {
         }
     }
 
-    /// Those that stay, and their keys.
-    pub fn chosen(&self) -> ([Option<CommonPoint>; FOUR], [u32; FOUR]) {
-        let places = &self.places[..self.count];
-        if self.count <= FOUR {
-            let chosen = std::array::from_fn(|i| places.get(i).copied());
-            return (chosen, keys_of(&chosen));
-        }
-        let best = self.best();
-        let before = self.kept.map(|key| places.iter().find(|place| key != 0 && place.key() == key).copied());
-        let deepest = |chosen: &[Option<CommonPoint>; FOUR]| {
-            chosen.iter().flatten().map(CommonPoint::gap).fold(f64::INFINITY, f64::min)
-        };
-        let is_as_good = keys_of(&before) == self.kept
-            && deepest(&before) <= deepest(&best) + AS_DEEP * self.size
-            && area(&before) >= AS_LARGE * area(&best);
-        let chosen = if is_as_good { before } else { best };
-        (chosen, keys_of(&chosen))
+    pub fn places(&self) -> &[CommonPoint] {
+        &self.places[..self.count]
     }
+}
 
-    fn best(&self) -> [Option<CommonPoint>; FOUR] {
-        let places = &self.places[..self.count];
-        let first = &places[most(places, |place| -place.gap())];
-        let second = &places[most(places, |place| apart(first, place).norm_squared())];
-        let line = apart(first, second);
-        let side = |place: &CommonPoint| line.perp(&apart(first, place));
-        let extreme = |sign: f64| {
-            let place = &places[most(places, |place| sign * side(place))];
-            (sign * side(place) > place.error * line.norm()).then_some(*place)
-        };
-        [Some(*first), Some(*second), extreme(1.0), extreme(-1.0)]
+/// Four places, or fewer.
+type Four<'a> = [Option<&'a CommonPoint>; FOUR];
+
+/// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is what is a length next to
+/// the pair.
+pub fn four_of<'a>(places: &'a [CommonPoint], kept: &[u32; FOUR], size: f64) -> Four<'a> {
+    if places.len() <= FOUR {
+        return std::array::from_fn(|i| places.get(i));
     }
+    let best = best_of(places);
+    let Some(before) = these(places, kept) else { return best };
+    let deepest = |four: &Four| four.iter().flatten().map(|place| place.gap()).fold(f64::INFINITY, f64::min);
+    let is_as_good = deepest(&before) <= deepest(&best) + AS_DEEP * size && area(&before) >= AS_LARGE * area(&best);
+    if is_as_good { before } else { best }
+}
+
+/// Those of such keys; `None` where one of them is no more.
+fn these<'a>(places: &'a [CommonPoint], keys: &[u32; FOUR]) -> Option<Four<'a>> {
+    let mut these = [None; FOUR];
+    for (place, key) in these.iter_mut().zip(keys).filter(|(_, key)| **key != 0) {
+        *place = Some(places.iter().find(|place| place.key() == *key)?);
+    }
+    Some(these)
+}
+
+fn best_of(places: &[CommonPoint]) -> Four<'_> {
+    let first = &places[most(places, |place| -place.gap())];
+    let second = &places[most(places, |place| apart(first, place).norm_squared())];
+    let line = apart(first, second);
+    let side = |place: &CommonPoint| line.perp(&apart(first, place));
+    let extreme = |sign: f64| {
+        let place = &places[most(places, |place| sign * side(place))];
+        (sign * side(place) > place.error * line.norm()).then_some(place)
+    };
+    [Some(first), Some(second), extreme(1.0), extreme(-1.0)]
 }
 
 type Across = nalgebra::Vector2<f64>;
@@ -114,13 +118,9 @@ fn most(places: &[CommonPoint], measure: impl Fn(&CommonPoint) -> f64) -> usize 
     best.0
 }
 
-fn keys_of(chosen: &[Option<CommonPoint>; FOUR]) -> [u32; FOUR] {
-    chosen.map(|place| place.map_or(0, |place| place.key()))
-}
-
 /// Twice the area of a quadrilateral whose first two places are one diagonal; one that is missing is where the first is.
-fn area(chosen: &[Option<CommonPoint>; FOUR]) -> f64 {
-    let Some(first) = &chosen[0] else { return 0.0 };
-    let arm = |place: &Option<CommonPoint>| place.map_or(Across::zeros(), |place| apart(first, &place));
-    arm(&chosen[1]).perp(&(arm(&chosen[3]) - arm(&chosen[2]))).abs()
+fn area(four: &Four) -> f64 {
+    let Some(first) = four[0] else { return 0.0 };
+    let arm = |place: Option<&CommonPoint>| place.map_or(Across::zeros(), |place| apart(first, place));
+    arm(four[1]).perp(&(arm(four[3]) - arm(four[2]))).abs()
 }

@@ -3,8 +3,8 @@
 use crate::base::error::{Result, check_range};
 use crate::base::memory::{extend, push, reserve};
 use crate::pair::{
-    self, DepthCache, DepthConfig, DepthEnding, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
-    Placed, Reference, Sink, manifold_of,
+    self, DepthCache, DepthConfig, DepthEnding, Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome,
+    PairAnswer, Placed, Reference, Sink, manifold_of,
 };
 use crate::scene::search::query::{Contact, ContactDetail, SceneContacts, SceneQuery};
 
@@ -91,9 +91,12 @@ impl Contacts {
         config: &ManifoldConfig,
     ) -> Result<Manifold> {
         let mut written = Ok(());
-        let mut write = |_: usize, point: &ManifoldPoint| {
+        let mut write = |_: usize, fill: Fill| {
             if written.is_ok() {
-                written = push(&mut self.points, *point);
+                written = push(&mut self.points, ManifoldPoint::default());
+            }
+            if let (Ok(()), Some(point)) = (&written, self.points.last_mut()) {
+                fill(point);
             }
         };
         let mut sink = Sink { capacity: usize::MAX, written: 0, write: &mut write };

@@ -162,7 +162,8 @@ impl Pyramid {
         if !(3..=MOST_CORNERS).contains(&usize::from(self.base)) || ring > MOST_CORNERS {
             return false;
         }
-        let [count1, count2] = frame.polyhedra().map(|polyhedron| polyhedron.vertices.len());
+        let [polyhedron1, polyhedron2] = frame.polyhedra();
+        let (count1, count2) = (polyhedron1.vertices.len(), polyhedron2.vertices.len());
         let mut largest = [0; 2];
         for pair in &self.pairs[..=ring] {
             largest = [largest[0].max(pair[0]), largest[1].max(pair[1])];
@@ -260,7 +261,8 @@ impl Pyramid {
             *position = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position).to_array();
         }
         let base = usize::from(self.base);
-        let [p, q, r] = [0, base / 3, 2 * base / 3].map(|corner| L::load(&positions[corner]));
+        let p = L::load(&positions[0]);
+        let (q, r) = (L::load(&positions[base / 3]), L::load(&positions[2 * base / 3]));
         let across = q.sub(p).cross(r.sub(p));
         let direction = across.div(L::splat(across.dot(across).max(LEAST_SQUARE).sqrt()));
         let mut height = f64::INFINITY;
@@ -314,15 +316,16 @@ impl Pyramid {
             let to_q = direction.cross(q);
             // Twice the areas that the foot spans with two corners each.
             let areas = [to_q.dot(r), direction.cross(r).dot(p), -to_q.dot(p)];
-            let [x, y, z] = areas.map(|area| if area > 0.0 { area } else { 0.0 });
+            let (x, y, z) = (positive(areas[0]), positive(areas[1]), positive(areas[2]));
             let share = 1.0 / (x + y + z);
             (weights, triangle) = ([x * share, y * share, z * share], index);
             if (areas[0] >= 0.0) & (areas[1] >= 0.0) & (areas[2] >= 0.0) {
                 break;
             }
         }
-        let [a, b, c, _] = surface.triangles[triangle].map(usize::from);
-        let [_, y, z] = weights.map(L::splat);
+        let [a, b, c, _] = surface.triangles[triangle];
+        let (a, b, c) = (usize::from(a), usize::from(b), usize::from(c));
+        let (y, z) = (L::splat(weights[1]), L::splat(weights[2]));
         let first = L::load(&positions[a]);
         let point = L::load(&positions[c]).sub(first).mul_add(z, L::load(&positions[b]).sub(first).mul_add(y, first));
         let off = point.sub(foot);
@@ -340,6 +343,12 @@ impl Pyramid {
         let (triangle, triangles) = (triangle as u8, surface.count as u32);
         Some(Rest { lower, upper, depth, direction, points, pairs, triangle, triangles })
     }
+}
+
+/// The positive part of a number; 0 of a NaN.
+#[inline(always)]
+fn positive(x: f64) -> f64 {
+    if x > 0.0 { x } else { 0.0 }
 }
 
 /// The convex combination of three vertices, of the second and the third with these weights: exactly a vertex where all are one.
