@@ -348,6 +348,24 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);
     const auto events = scene.try_query_events();
     CHECK(swiftprox::began(events.value).size() == 1 && swiftprox::ended(events.value).empty());
+    const std::array<Pose, 2> placed{Pose::at(10, 0, 0), Pose::at(0.75, 0, 0)};
+    CHECK(scene.try_query_placed_pieces(pieces, placed, 1, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 3);
+    CHECK(scene.try_query_placed_pieces(pieces, placed, 2, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
+    const std::array<swiftprox::ObjectOptions, 2> each{};
+    const auto more = scene.try_add_shapes(pieces, each);
+    CHECK(more && more.value.size() == 2 && scene.try_object_ids().value.size() == 5);
+    CHECK_OK(scene.try_set_piece_user_data(c.value, 1, 77).status);
+    CHECK(scene.try_piece_user_data(c.value, 1).value == 77 && scene.try_piece_user_data(c.value).value == 0);
+    CHECK_OK(scene.try_remove_objects(more.value).status);
+    CHECK(scene.try_remove_objects(more.value).status == SWIFTPROX_ERROR_HANDLE);
+    auto listener = swiftprox::Listener::try_create();
+    CHECK_OK(listener.status);
+    const auto heard = swiftprox::try_listen(scene, listener.value, SWIFTPROX_QUERY_KIND_CONTACT, query);
+    CHECK(heard && swiftprox::pairs(heard.value.answer).size() == 1 && swiftprox::pairs(heard.value.events).size() == 1);
+    const swiftprox_pair_event &event = swiftprox::pairs(heard.value.events)[0];
+    CHECK(event.state == SWIFTPROX_EVENT_STATE_BEGAN && swiftprox::points(heard.value.events, event).size() == 4);
+    swiftprox::Listener none;
+    CHECK(swiftprox::try_listen(scene, none, SWIFTPROX_QUERY_KIND_CONTACT).status == SWIFTPROX_ERROR_NULL_POINTER);
 
     // A filter goes with the scene, wherever that is moved.
     int asked = 0;

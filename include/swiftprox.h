@@ -1917,6 +1917,23 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
                                             struct swiftprox_object_id *id);
 
 /**
+ * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
+ * `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
+ * receives the ids.
+ *
+ * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
+ * swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_add_shapes(struct swiftprox_scene *scene,
+                                            const struct swiftprox_shape *const *shapes,
+                                            const struct swiftprox_object_options *options,
+                                            size_t count,
+                                            struct swiftprox_object_id *ids);
+
+/**
  * Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
  * with the arguments and the errors of both. Both options may be null for the defaults.
  *
@@ -1947,8 +1964,9 @@ swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
                                           struct swiftprox_object_id *id);
 
 /**
- * Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
- * whatever those of its original are. On failure nothing is added and `*id` is null.
+ * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user data,
+ * as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On failure
+ * nothing is added and `*id` is null.
  *
  * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  * SWIFTPROX_ERROR_MEMORY.
@@ -1971,6 +1989,20 @@ swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id);
+
+/**
+ * Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
+ *
+ * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of this
+ * scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or ids is
+ * null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_remove_objects(struct swiftprox_scene *scene,
+                                                const struct swiftprox_object_id *ids,
+                                                size_t count);
 
 /**
  * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
@@ -2123,6 +2155,35 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_user_data(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id,
                                                uint64_t user_data);
+
+/**
+ * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
+ * the object and the piece.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *scene,
+                                                     struct swiftprox_object_id id,
+                                                     uint32_t piece,
+                                                     uint64_t user_data);
+
+/**
+ * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scene *scene,
+                                                     struct swiftprox_object_id id,
+                                                     uint32_t piece,
+                                                     uint64_t *user_data);
 
 /** What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it. */
 typedef struct swiftprox_object_info {
@@ -2457,6 +2518,26 @@ swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
                                               const struct swiftprox_scene_query *query,
                                               struct swiftprox_scene_answer *answer);
 
+/**
+ * As swiftprox_scene_query_placed, of a body of `piece_count` convex pieces: `poses` holds 12 doubles for each, where it is in the
+ * world. piece2 of a result says which of them it is. Objects are asked whose groups have a bit of `mask` (UINT32_MAX: all in some
+ * group), whatever their own masks, activation and filters say.
+ *
+ * SWIFTPROX_ERROR_POSE: a pose is refused; the message says which. SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an
+ * unknown kind. Other errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *scene,
+                                                     const struct swiftprox_shape *const *pieces,
+                                                     const double *poses,
+                                                     size_t piece_count,
+                                                     uint32_t mask,
+                                                     swiftprox_query_kind kind,
+                                                     const struct swiftprox_scene_query *query,
+                                                     struct swiftprox_scene_answer *answer);
+
 /** A pair of objects, the earlier created first. */
 typedef struct swiftprox_object_pair {
   /** The earlier created object. */
@@ -2489,8 +2570,9 @@ typedef struct swiftprox_scene_events {
 
 /**
  * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
- * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
- * failure `*events` is empty, and what was near stays remembered.
+ * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
+ * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
+ * is empty, and what was near stays remembered.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
  * or events is null. SWIFTPROX_ERROR_POISONED.
@@ -2991,6 +3073,128 @@ swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
                                             struct swiftprox_scratch *scratch,
                                             struct swiftprox_scene_cast_answer *answers,
                                             size_t edge_count);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_listener What has begun, goes on and has ended
+ * @{
+ */
+
+/** What has become of a pair or of a contact point since the listener's last query. */
+typedef enum swiftprox_event_state SWIFTPROX_INT32 {
+  /** It is listed and was not. */
+  SWIFTPROX_EVENT_STATE_BEGAN = 1,
+  /** It is listed and was. */
+  SWIFTPROX_EVENT_STATE_PERSISTS = 2,
+  /** It was listed and is not. */
+  SWIFTPROX_EVENT_STATE_ENDED = 3
+} swiftprox_event_state;
+
+/** A pair of convex pieces that is listed, or was when the listener last asked. */
+typedef struct swiftprox_pair_event {
+  /** The earlier created object; it may have been removed since where the pair has ended. */
+  struct swiftprox_object_id object1;
+  /** The later created object. */
+  struct swiftprox_object_id object2;
+  /** The caller's own number of object 1; of a pair that has ended the one of then. */
+  uint64_t user_data1;
+  /** The caller's own number of object 2. */
+  uint64_t user_data2;
+  /** The caller's own number of the piece of object 1; as those of the objects. */
+  uint64_t piece_user_data1;
+  /** The caller's own number of the piece of object 2. */
+  uint64_t piece_user_data2;
+  /** Which piece of object 1. */
+  uint32_t piece1;
+  /** Which piece of object 2. */
+  uint32_t piece2;
+  /** What has become of the two pieces. */
+  swiftprox_event_state state;
+  /** What has become of the two objects, which are listed if any of their pieces are. */
+  swiftprox_event_state objects_state;
+  /** Its place among the pairs of the answer, and among contacts if they were asked for; SIZE_MAX where it has ended. */
+  size_t result;
+  /** Where among all points of the events its own begin. */
+  size_t first_point;
+  /** How many: those of its contact in their order, and behind them those that are gone. */
+  size_t point_count;
+} swiftprox_pair_event;
+
+/** A contact point that there is, or was when the listener last asked. */
+typedef struct swiftprox_point_event {
+  /** The point's id: within a pair points of equal ids are one for events. */
+  uint64_t id;
+  /** Its place among the points of the contacts; SIZE_MAX where it is gone. */
+  size_t point;
+  /** What has become of it. */
+  swiftprox_event_state state;
+} swiftprox_point_event;
+
+/** What a listener hears. */
+typedef struct swiftprox_listener_events {
+  /**
+   * All pairs that the query lists, and those that were listed and are not, in the order of results. Owned by the listener,
+   * valid until it asks again or its end. Null when count is 0.
+   */
+  const struct swiftprox_pair_event *pairs;
+  /** How many. */
+  size_t count;
+  /**
+   * Their points, where the query asks for manifolds: those of a pair begin at its first_point. Owned and valid as pairs are.
+   * Null when point_count is 0.
+   */
+  const struct swiftprox_point_event *points;
+  /** How many. */
+  size_t point_count;
+} swiftprox_listener_events;
+
+/**
+ * Remembers what was listed when it last asked a scene (swiftprox_scene_listen(crate::scene::Scene::listen)), and nothing else: what
+ * other listeners ask does not change what it hears. Of another scene it hears that all pairs of the one before have ended.
+ */
+typedef struct swiftprox_listener swiftprox_listener;
+
+/**
+ * Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
+ * `*listener` is null.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_listener_create(struct swiftprox_listener **listener);
+
+/**
+ * Gives back what swiftprox_listener_create made, and the events that it owns. Null is ignored.
+ *
+ * Experimental.
+ */
+void swiftprox_listener_destroy(struct swiftprox_listener *listener);
+
+/**
+ * As the query of that kind over all pairs, and what has changed since the listener last asked: which pairs of pieces and which
+ * contact points have begun, which persist and which have ended. The first time all begin. Contacts with query->detail
+ * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts hands over where they are.
+ *
+ * A pair counts as long as the query lists it; of another tolerance, another listener. Each listener remembers for itself: what
+ * others and other queries ask changes nothing of that. Removed objects, deactivated pairs and all that a former scene listed have
+ * ended. A recording notes the query. The tolerance of contacts is 0 and of others infinity unless query says otherwise.
+ *
+ * On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
+ * unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
+ * of swiftprox_scene_query_contacts.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_listen(struct swiftprox_scene *scene,
+                                        struct swiftprox_listener *listener,
+                                        swiftprox_query_kind kind,
+                                        const struct swiftprox_scene_query *query,
+                                        struct swiftprox_scene_answer *answer,
+                                        struct swiftprox_listener_events *events);
 
 /** @} */
 

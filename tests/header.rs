@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 23] = [
+const SOURCES: [&str; 24] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -27,6 +27,7 @@ const SOURCES: [&str; 23] = [
     "src/scene/search/query.rs",
     "src/scene/search/statistics.rs",
     "src/scene/search/events.rs",
+    "src/scene/search/listener.rs",
     "src/scene/sets/nearest.rs",
     "src/scene/sets/first_hit.rs",
     "src/scene/sets/rays.rs",

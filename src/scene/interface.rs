@@ -15,7 +15,8 @@ use crate::pair::{self, Outcome};
 use crate::scene::change::{Change, Themselves};
 use crate::scene::door::Scene;
 use crate::scene::recording::Recording;
-use crate::scene::search::query::{SceneAnswer, SceneContacts, SceneEvents, SceneQuery, Subject};
+use crate::scene::search::listener::{Listener, ListenerEvents};
+use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneContacts, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::object::{ObjectId, ObjectOptions};
 use crate::scene::world::object_view::Object;
@@ -101,6 +102,16 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_user_data(&mut self, id: ObjectId, user_data: u64) -> Result<()> {
         self.doing(Change::UserData(id, user_data))
+    }
+
+    /// Sets the caller's number of a piece, which [`Object::piece_user_data`] and the events of listeners give; 0 before. Results
+    /// name the object and the piece.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for a piece that the object does not
+    /// have, [`Error::Memory`].
+    pub fn set_piece_user_data(&mut self, id: ObjectId, piece: u32, user_data: u64) -> Result<()> {
+        self.doing(Change::PieceUserData { object: id, piece, user_data })
     }
 
     // --- Poses -------------------------------------------------------------------------------------------------------------------
@@ -282,7 +293,24 @@ impl Scene {
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
-        self.ask(&Subject::Placed(shape, *pose), kind, query)
+        let pieces = [(shape.clone(), *pose)];
+        self.ask(&Subject::Placed(PlacedBody { pieces: pieces[..].into(), mask: None }), kind, query)
+    }
+
+    /// As [`Scene::query_placed`], of a body of several convex pieces, each with its pose in the world: `piece2` of a result says
+    /// which. Objects are asked whose groups ([`ObjectOptions::groups`]) have a bit of `mask`, whatever their own masks, activation
+    /// and filters say.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] without pieces, and as [`Scene::query_placed`].
+    pub fn query_placed_pieces(
+        &mut self,
+        pieces: &[(Arc<Shape>, Pose)],
+        mask: u32,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<SceneAnswer<'_>> {
+        self.ask(&Subject::Placed(PlacedBody { pieces: pieces.into(), mask: Some(mask) }), kind, query)
     }
 
     /// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first
@@ -298,6 +326,26 @@ impl Scene {
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
         self.ask(&Subject::Events, kind, &query)?;
         self.search.compare(&self.world.objects)
+    }
+
+    /// As the query of this kind, and which of the pairs and contact points that it lists were not listed when the listener last
+    /// asked, which were, and which are no more. Every listener remembers for itself: queries of others change nothing of that. A
+    /// recording notes the query.
+    ///
+    /// # Errors
+    /// As [`Scene::query_intersection`]; [`Error::Argument`] if the query is to stop early, [`Error::Memory`]. The listener still
+    /// remembers what was listed when it last asked.
+    pub fn listen<'a>(
+        &'a mut self,
+        listener: &'a mut Listener,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<(SceneAnswer<'a>, ListenerEvents<'a>)> {
+        Listener::check(query)?;
+        self.ask(&Subject::AllPairs, kind, query)?;
+        let answer = self.search.answer();
+        listener.hear(&answer, &self.world)?;
+        Ok((answer, listener.events()))
     }
 
     /// What the last query said beside its answers: [`SceneAnswer::contacts`].

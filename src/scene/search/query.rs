@@ -1,5 +1,8 @@
 //! What a query over a scene is asked for, and what it says.
 
+use std::borrow::Cow;
+
+use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::pair::{DepthAnswer, Levels, Manifold, ManifoldPoint, PairAnswer, Refinement, Start};
 use crate::scene::world::object::ObjectId;
@@ -41,13 +44,38 @@ pub struct SceneQuery {
 }
 
 /// What a query is about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Subject<Object, Shape> {
+#[derive(Debug, Clone)]
+pub(crate) enum Subject<'a, Object, Shape: Clone> {
     AllPairs,
     Object(Object),
-    Placed(Shape, Pose),
+    Placed(PlacedBody<'a, Shape>),
     /// What has changed since the last query of this kind; its distance is the query's tolerance.
     Events,
+}
+
+/// A body that is in no scene, put somewhere for one question.
+#[derive(Debug, Clone)]
+pub(crate) struct PlacedBody<'a, Shape: Clone> {
+    /// Its convex pieces, and where each is in the world.
+    pub pieces: Cow<'a, [(Shape, Pose)]>,
+    /// Objects are asked whose groups have a bit of it; without one all.
+    pub mask: Option<u32>,
+}
+
+impl<Shape: Clone> PlacedBody<'_, Shape> {
+    /// Refuses a body of no pieces, and poses that are not accepted.
+    ///
+    /// # Errors
+    /// [`Error::Argument`], [`Error::Pose`].
+    pub fn check(&self, rotation_limit: f64) -> Result<()> {
+        match &*self.pieces {
+            [] => Err(Error::Argument("a placed body needs at least one piece".into())),
+            [(_, pose)] => pose.check(rotation_limit),
+            pieces => (0..).zip(pieces).try_for_each(|(k, (_, pose)): (usize, _)| {
+                pose.check(rotation_limit).map_err(|error| error.about(&format!("pose {k} of {}", pieces.len())))
+            }),
+        }
+    }
 }
 
 /// What a query of contacts says of each pair beside its answer.
