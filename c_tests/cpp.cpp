@@ -176,6 +176,10 @@ static void pairs()
     std::array<swiftprox_manifold_point, 8> points;
     const auto manifold = swiftprox::try_manifold({box, here}, {box, into}, manifolds, points);
     CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
+    CHECK_OK(swiftprox::try_manifold_verify({box, here}, {box, into}, manifolds, manifold.value, points).status);
+    CHECK(swiftprox::gap(points[0]) <= points[0].gap_upper && swiftprox::gap(points[0]) >= points[0].gap_lower);
+    const auto both = swiftprox::try_manifold_with_distance({box, here}, {box, into}, manifolds, points);
+    CHECK(both && both.value.manifold.point_count == 4 && both.value.distance.lower == both.value.manifold.lower);
     const swiftprox_half_space ground{{0, 0, 2}, -1};
     const auto above = swiftprox::try_half_space_distance({box, Pose::at(0, 0, 0.25)}, ground);
     CHECK(above && above.value.lower <= 0.25 && 0.25 <= above.value.upper && above.value.normal[2] == 1);
