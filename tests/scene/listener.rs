@@ -160,7 +160,8 @@ fn listeners_hear_what_changed_for_themselves() {
         let [x, y, z] = [(); 3].map(|()| scale * random.uniform(-1.0, 1.0));
         (Pose::new(&random.rotation(), &swiftprox::math::Vector::new(x, y, z)), random.below(6))
     };
-    let mut ids: Vec<ObjectId> = (0..25).map(|k| add(&mut scene, &[cube.clone()], place(2.0).0, k)).collect();
+    let mut ids: Vec<ObjectId> =
+        (0..25).map(|k| add(&mut scene, std::slice::from_ref(&cube), place(2.0).0, k)).collect();
     let mut listeners = [(); 3].map(|()| (Listener::default(), Keys::new()));
     let asked = [(Query::Contact, TOUCHING), (Query::Contact, NEAR), (Query::Distance, NEAR)];
     let (mut heard, mut next) = (0, 25);
@@ -173,7 +174,7 @@ fn listeners_hear_what_changed_for_themselves() {
         match place(1.0).1 {
             0 => {
                 scene.remove_object(ids.swap_remove(3)).unwrap();
-                ids.push(add(&mut scene, &[cube.clone()], place(2.0).0, next));
+                ids.push(add(&mut scene, std::slice::from_ref(&cube), place(2.0).0, next));
                 next += 1;
             }
             1 => drop(scene.query_events(0.1).unwrap()),
