@@ -336,7 +336,7 @@ static void scenes(const std::string &folder)
 
     swiftprox::SceneQuery query;
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
-    const auto touching = scene.try_query_contacts(query);
+    const auto touching = scene.try_query_contact(query);
     CHECK(touching && touching.value.count == 1 && touching.value.intersecting == 1);
     std::size_t listed = 0;
     for (const swiftprox_pair_result &pair : swiftprox::pairs(touching.value)) {
@@ -347,7 +347,7 @@ static void scenes(const std::string &folder)
     const auto where = scene.try_get_contacts();
     CHECK(swiftprox::contacts(where.value).size() == 1);
     CHECK(swiftprox::points(where.value, swiftprox::contacts(where.value)[0]).size() == 4);
-    CHECK(scene.try_query_exact_distance().value.count == 5); // pairs of pieces
+    CHECK(scene.try_query_distance().value.count == 5); // pairs of pieces
     CHECK(scene.try_query_object(c.value, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);
     const auto events = scene.try_query_events();
@@ -362,6 +362,7 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_piece_user_data(c.value, 1).value == 77 && scene.try_piece_user_data(c.value).value == 0);
     CHECK_OK(scene.try_remove_objects(more.value).status);
     CHECK(scene.try_remove_objects(more.value).status == SWIFTPROX_ERROR_HANDLE);
+    CHECK(SWIFTPROX_OBJECT_ID_NULL == swiftprox_object_id{} && !scene.try_is_object_valid(SWIFTPROX_OBJECT_ID_NULL).value);
     auto listener = swiftprox::Listener::try_create();
     CHECK_OK(listener.status);
     const auto heard = swiftprox::try_listen(scene, listener.value, SWIFTPROX_QUERY_KIND_CONTACT, query);
@@ -382,7 +383,7 @@ static void scenes(const std::string &folder)
 
     CHECK_OK(other.try_set_pairs({}).status);
     CHECK(other.try_query_intersection().value.count == 0);
-    CHECK_OK(other.try_find_pairs().status);
+    CHECK_OK(other.try_reset_pairs().status);
     CHECK_OK(other.try_deactivate_pair(a.value, b.value).status);
     CHECK(!other.try_is_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
     CHECK(other.try_query_intersection().value.count == 0);

@@ -232,12 +232,12 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     /* Nothing was asked, nothing is said. */
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL && contacts.points == NULL && contacts.point_count == 0);
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 1 && contacts.count == 0);
 
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 1 && contacts.count == 1 && contacts.point_count == 0);
     CHECK(answer.pairs[0].object1.bits == ground.bits && answer.pairs[0].object2.bits == sunk.bits);
@@ -253,7 +253,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     /* The manifold of the near pair, too, and a margin that leaves it out. */
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     query.distance_tolerance = 0.01;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 2 && contacts.count == 2 && contacts.point_count == 8);
     for (i = 0; i < contacts.count; ++i) {
@@ -269,7 +269,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     }
     query.margin = 0.001;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 2 && contacts.point_count == 4);
     CHECK(contacts.contacts[1].manifold.outcome == SWIFTPROX_OUTCOME_BEYOND);
@@ -283,12 +283,12 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
     CHECK(none.count == 0 && none.contacts == NULL);
     query.margin = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL);
     query.margin = 0;
     memcpy(&query.detail, &unknown, sizeof unknown);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 

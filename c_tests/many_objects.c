@@ -75,6 +75,8 @@ static void all_or_none(void)
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ids[1]", swiftprox_scene_remove_objects(scene, twice, 2));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ids", swiftprox_scene_remove_objects(scene, NULL, 2));
     CHECK(object_count() == COUNT);
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "null", swiftprox_scene_remove_object(scene, SWIFTPROX_OBJECT_ID_NULL));
+    SWIFTPROX_IGNORE(swiftprox_scene_remove_objects(scene, twice, 2));
 }
 
 static void numbers_of_pieces(void)

@@ -3,7 +3,9 @@
  *
  * Conventions, which hold for every function below:
  *
- * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments.
+ * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments. What is asked has one name over all layers: intersection,
+ * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Former names stand at the
+ * end of this file. Flags are an int32_t: given, any number but 0 is yes; returned, yes is 1.
  *
  * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused, and compilers warn where
  * one is ignored. swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
@@ -74,7 +76,10 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** Stands before functions whose status is not to be ignored: compilers warn. */
+/**
+ * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and C++17,
+ * and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines it as nothing.
+ */
 #ifndef SWIFTPROX_NODISCARD
 #if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
 #define SWIFTPROX_NODISCARD [[nodiscard]]
@@ -82,6 +87,24 @@
 #define SWIFTPROX_NODISCARD __attribute__((warn_unused_result))
 #else
 #define SWIFTPROX_NODISCARD
+#endif
+#endif
+
+/** Makes a call and ignores its status on purpose, with no warning in any standard. */
+#define SWIFTPROX_IGNORE(call) ((void)!(call))
+
+/** Stands before former names: compilers warn and say the new one, unless SWIFTPROX_NO_DEPRECATION_WARNINGS is defined. */
+#ifndef SWIFTPROX_DEPRECATED
+#if defined(SWIFTPROX_NO_DEPRECATION_WARNINGS)
+#define SWIFTPROX_DEPRECATED(name)
+#elif (defined(__cplusplus) && __cplusplus >= 201402L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SWIFTPROX_DEPRECATED(name) [[deprecated("use " #name)]]
+#elif defined(__GNUC__)
+#define SWIFTPROX_DEPRECATED(name) __attribute__((deprecated("use " #name)))
+#elif defined(_MSC_VER)
+#define SWIFTPROX_DEPRECATED(name) __declspec(deprecated("use " #name))
+#else
+#define SWIFTPROX_DEPRECATED(name)
 #endif
 #endif
 
@@ -1245,7 +1268,7 @@ typedef struct swiftprox_manifold_config {
    * the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
    * cover about as much. 0 (the default): all.
    */
-  uint32_t reduces;
+  int32_t reduces;
 } swiftprox_manifold_config;
 
 /**
@@ -1672,7 +1695,7 @@ typedef struct swiftprox_ray_answer {
   /** Whether there is such a part. */
   swiftprox_ray_outcome outcome;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  uint32_t exact;
+  int32_t exact;
   /** `entry[0]` <= where it begins <= `entry[1]`; 0 from inside. */
   double entry[2];
   /** `exit[0]` <= where it ends <= `exit[1]`: where the ray leaves the body, or `t_max` if that comes first. */
@@ -1774,7 +1797,7 @@ typedef struct swiftprox_support_vertex {
   /** Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any. */
   uint32_t vertex;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  uint32_t exact;
+  int32_t exact;
   /** Where it is, in the body's local frame. */
   double local[3];
   /** Where it is in the world, rounded. */
@@ -1909,7 +1932,13 @@ swiftprox_status swiftprox_scene_destroy(struct swiftprox_scene *scene);
 typedef struct swiftprox_object_id {
   uint64_t bits;
 } swiftprox_object_id;
-/** Names no object. */
+
+/** Names no object. In C it is a compound literal of C99; swiftprox_object_id id = {0} does in every standard. */
+#if defined(__cplusplus)
+#define SWIFTPROX_OBJECT_ID_NULL (swiftprox_object_id())
+#else
+#define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
+#endif
 
 /** How an object begins. Fill it with swiftprox_object_options_init, then change what should differ. */
 typedef struct swiftprox_object_options {
@@ -2290,7 +2319,8 @@ swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *sc
                                                 double *upper_corner);
 
 /**
- * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
+ * Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
+ * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
  * the shape longer than the object. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
@@ -2311,7 +2341,7 @@ swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
  * @{
  */
 
-/** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries. */
+/** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
 #define SWIFTPROX_DEFAULT_TOLERANCE (-1.0)
 
 /** What a query of contacts says of each pair beside its answer. */
@@ -2339,19 +2369,19 @@ typedef struct swiftprox_scene_query {
    * swiftprox_scene_query_intersection does without it, but refuses one out of range.
    */
   double distance_tolerance;
-  /** swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0. */
+  /** swiftprox_scene_query_approximate: upper - lower of a pair may be as large as this ... Default: 0. */
   double absolute_error;
   /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
+   * swiftprox_scene_query_approximate: finite, it is what upper - lower of all listed pairs together may come to,
    * whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
    * answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
    * does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**
-   * swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+   * swiftprox_scene_query_approximate: steps of marching after which a pair stops with what it has, 1 or more. Default:
    * UINT32_MAX, no limit.
    */
   uint32_t step_budget;
@@ -2363,13 +2393,14 @@ typedef struct swiftprox_scene_query {
   /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
-   * swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
+   * swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
    * from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
    */
   double margin;
   /**
-   * swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
-   * are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
+   * swiftprox_scene_query_contact: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
+   * are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
+   * SWIFTPROX_CONTACT_DETAIL_NONE.
    */
   swiftprox_contact_detail detail;
 } swiftprox_scene_query;
@@ -2439,45 +2470,34 @@ swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scen
                                                     struct swiftprox_scene_answer *answer);
 
 /**
- * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
- * swiftprox_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features;
- * of an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
-                                                 const struct swiftprox_scene_query *query,
-                                                 struct swiftprox_scene_answer *answer);
-
-/**
  * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
- * says of each. Errors as of swiftprox_scene_query_intersection.
+ * says of each: of a separated pair distance, lower, upper, points in all frames, normal and features; of an intersecting one the
+ * proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
-                                                      const struct swiftprox_scene_query *query,
-                                                      struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_distance(struct swiftprox_scene *scene,
+                                                const struct swiftprox_scene_query *query,
+                                                struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+ * As swiftprox_scene_query_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
  * for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
  * (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
-                                                            const struct swiftprox_scene_query *query,
-                                                            struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_approximate(struct swiftprox_scene *scene,
+                                                   const struct swiftprox_scene_query *query,
+                                                   struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+ * As swiftprox_scene_query_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
  * says otherwise, so that only pairs that touch or intersect are listed.
  *
- * With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
+ * With a query->detail the answers say what those of swiftprox_scene_query_distance do. swiftprox_scene_get_contacts then
  * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
  *
  * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
@@ -2485,9 +2505,9 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
-                                                const struct swiftprox_scene_query *query,
-                                                struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_contact(struct swiftprox_scene *scene,
+                                               const struct swiftprox_scene_query *query,
+                                               struct swiftprox_scene_answer *answer);
 
 /** What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing. */
 typedef struct swiftprox_contact {
@@ -2879,14 +2899,15 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * From now on the scene finds the pairs that are near, as it did before swiftprox_scene_set_pairs.
+ * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
+ * before.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
+swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 
@@ -3241,7 +3262,7 @@ void swiftprox_listener_destroy(struct swiftprox_listener *listener);
  *
  * On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
  * unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
- * of swiftprox_scene_query_contacts.
+ * of swiftprox_scene_query_contact.
  *
  * Experimental.
  */
@@ -3601,6 +3622,66 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  */
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_former Former names, for programs that were written with them
+ * @{
+ */
+
+/**
+ * Former name of swiftprox_scene_query_distance, which lists what is within a tolerance.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
+                                                 const struct swiftprox_scene_query *query,
+                                                 struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_distance.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
+                                                      const struct swiftprox_scene_query *query,
+                                                      struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_approximate.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_approximate)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
+                                                            const struct swiftprox_scene_query *query,
+                                                            struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_contact.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_contact)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
+                                                const struct swiftprox_scene_query *query,
+                                                struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_reset_pairs.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_reset_pairs)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 

@@ -275,32 +275,25 @@ class SceneView
             return swiftprox_scene_query_intersection(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_tolerance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_distance(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_tolerance(scene_, &c, answer);
+            return swiftprox_scene_query_distance(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_exact_distance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_approximate(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_exact_distance(scene_, &c, answer);
+            return swiftprox_scene_query_approximate(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_approximate_distance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_contact(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_approximate_distance(scene_, &c, answer);
-        });
-    }
-    Result<swiftprox_scene_answer> try_query_contacts(const SceneQuery &query = {})
-    {
-        const swiftprox_scene_query c = query.to_c();
-        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_contacts(scene_, &c, answer);
+            return swiftprox_scene_query_contact(scene_, &c, answer);
         });
     }
     /** What the last query of contacts said beside its answers. */
@@ -394,7 +387,7 @@ class SceneView
         const swiftprox_object_id *ids = pairs.empty() ? detail::no_pairs() : pairs.data()->data();
         return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
     }
-    Result<void> try_find_pairs() { return detail::status(swiftprox_scene_find_pairs(scene_)); }
+    Result<void> try_reset_pairs() { return detail::status(swiftprox_scene_reset_pairs(scene_)); }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
     Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
 
@@ -453,13 +446,12 @@ class SceneView
     Box object_box(swiftprox_object_id id) const { return take(try_object_box(id)); }
     Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
     swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
-    swiftprox_scene_answer query_tolerance(const SceneQuery &query = {}) { return take(try_query_tolerance(query)); }
-    swiftprox_scene_answer query_exact_distance(const SceneQuery &query = {}) { return take(try_query_exact_distance(query)); }
-    swiftprox_scene_answer query_approximate_distance(const SceneQuery &query = {})
+    swiftprox_scene_answer query_distance(const SceneQuery &query = {}) { return take(try_query_distance(query)); }
+    swiftprox_scene_answer query_approximate(const SceneQuery &query = {})
     {
-        return take(try_query_approximate_distance(query));
+        return take(try_query_approximate(query));
     }
-    swiftprox_scene_answer query_contacts(const SceneQuery &query = {}) { return take(try_query_contacts(query)); }
+    swiftprox_scene_answer query_contact(const SceneQuery &query = {}) { return take(try_query_contact(query)); }
     swiftprox_scene_contacts get_contacts() const { return take(try_get_contacts()); }
     swiftprox_scene_answer query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
     {
@@ -493,7 +485,7 @@ class SceneView
     }
     void filter_again() { take(try_filter_again()); }
     void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
-    void find_pairs() { take(try_find_pairs()); }
+    void reset_pairs() { take(try_reset_pairs()); }
     void record(const std::string &path) { take(try_record(path)); }
     void end_recording() { take(try_end_recording()); }
 #endif

@@ -229,7 +229,7 @@ pub struct CManifoldConfig {
     /// Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
     /// the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
     /// cover about as much. 0 (the default): all.
-    pub reduces: u32,
+    pub reduces: i32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.

@@ -73,7 +73,7 @@ pub unsafe extern "C" fn swiftprox_listener_destroy(listener: *mut Listener) {
 ///
 /// On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
 /// unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
-/// of swiftprox_scene_query_contacts.
+/// of swiftprox_scene_query_contact.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_listen(
     scene: *mut SceneHandle,

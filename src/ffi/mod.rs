@@ -41,5 +41,6 @@ pub mod listener;
 pub mod object_set;
 pub mod pair_batch;
 pub mod record;
+pub mod former_names;
 
 pub use failure::StatusCode;

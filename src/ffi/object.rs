@@ -400,7 +400,8 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_box(
     })
 }
 
-/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
+/// Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
+/// uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
 /// the shape longer than the object. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.

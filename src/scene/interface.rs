@@ -230,44 +230,35 @@ impl Scene {
         self.ask(&Subject::AllPairs, Query::Intersection, query)
     }
 
-    /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
-    /// [`Scene::query_exact_distance`] do.
-    ///
-    /// # Errors
-    /// As [`Scene::query_intersection`].
-    pub fn query_tolerance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        self.query_exact_distance(query)
-    }
-
     /// Lists the pairs whose distance is at most the distance tolerance, and the intersecting ones, with distance, witness
     /// points, normal and features ([`pair::distance`]).
     ///
     /// # Errors
     /// As [`Scene::query_intersection`].
-    pub fn query_exact_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Distance, query)
     }
 
-    /// As [`Scene::query_exact_distance`], and intersecting pairs have finite witness points and a unit normal as well
+    /// As [`Scene::query_distance`], and intersecting pairs have finite witness points and a unit normal as well
     /// ([`pair::contact`]).
     ///
-    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_exact_distance`] do, and
+    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_distance`] do, and
     /// [`SceneAnswer::contacts`] how deep each pair is, and where its objects meet: what [`pair::depth()`] and [`pair::manifold()`]
     /// say.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`], for a margin as well; and [`Error::Memory`] when that for depths and points is not there.
-    pub fn query_contacts(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_contact(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Contact, query)
     }
 
-    /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower
+    /// As [`Scene::query_distance`], each distance as narrow as the query asks for and no narrower
     /// ([`pair::approximate`]). A pair whose step budget ran out before the verdict ([`Outcome::Undecided`]) is listed and does
     /// not count as intersecting.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`].
-    pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_approximate(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Approximate, query)
     }
 

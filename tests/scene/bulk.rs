@@ -45,8 +45,8 @@ fn together_is_as_one_by_one() {
         ids[1].push(single.add_object(vec![shape.clone()], options).unwrap());
     }
     for step in 0..3 {
-        let said = told(together.query_exact_distance(&query).unwrap().pairs);
-        assert_eq!(said, told(single.query_exact_distance(&query).unwrap().pairs));
+        let said = told(together.query_distance(&query).unwrap().pairs);
+        assert_eq!(said, told(single.query_distance(&query).unwrap().pairs));
         assert!(said.len() > 20, "{}", said.len());
         let gone = ids.each_mut().map(|ids| ids.drain(step * 3..step * 3 + 30).collect::<Vec<ObjectId>>());
         together.remove_objects(&gone[0]).unwrap();

@@ -178,7 +178,7 @@ fn listeners_hear_what_changed_for_themselves() {
                 next += 1;
             }
             1 => drop(scene.query_events(0.1).unwrap()),
-            2 => drop(scene.query_contacts(&NEAR).unwrap()),
+            2 => drop(scene.query_contact(&NEAR).unwrap()),
             who => {
                 let (kind, query) = asked[who - 3];
                 let (listener, was) = &mut listeners[who - 3];

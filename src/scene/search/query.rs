@@ -16,17 +16,17 @@ pub struct SceneQuery {
     /// to +∞ (the default: all pairs, which takes time in proportion to their number).
     /// [`query_intersection`](crate::scene::Scene::query_intersection) does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): `upper − lower` of a pair may be as large as this …
+    /// [Approximate queries](crate::scene::Scene::query_approximate): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed
+    /// [Approximate queries](crate::scene::Scene::query_approximate): finite, it is what `upper − lower` of all listed
     /// pairs together may come to, whatever the two errors say, beside what exact answers take. Pairs that maps of support
     /// functions or levels of detail may answer with a share of it take one, all the same; others are answered as by exact
     /// queries, and so are all where the scene does not keep all pairs
     /// ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default: +∞.
     pub error_budget: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as
+    /// [Approximate queries](crate::scene::Scene::query_approximate): as
     /// [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
     pub step_budget: u32,
     /// Which levels of detail queries go through.
@@ -35,10 +35,10 @@ pub struct SceneQuery {
     pub refinement: Refinement,
     /// Where marching starts in each pair.
     pub start: Start,
-    /// [Contacts](crate::scene::Scene::query_contacts): what is said of each pair beside its answer. `absolute_error`,
+    /// [Contacts](crate::scene::Scene::query_contact): what is said of each pair beside its answer. `absolute_error`,
     /// `relative_error` and `step_budget` are then those of the depths.
     pub detail: ContactDetail,
-    /// [Contacts](crate::scene::Scene::query_contacts): pairs farther apart have no manifold, and points with a larger gap do not
+    /// [Contacts](crate::scene::Scene::query_contact): pairs farther apart have no manifold, and points with a larger gap do not
     /// belong to one; from 0 to +∞. It is the distance tolerance if that is less. Default: +∞.
     pub margin: f64,
 }
