@@ -473,7 +473,8 @@ static void scenes(void)
     swiftprox_pair_tuning_init(&tuning);
     any_number(&tuning.refinement, -3);
     query.tuning = &tuning;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3", swiftprox_scene_query_contact(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3",
+                swiftprox_scene_query_contact(scene, &query, &answer));
     query.struct_size = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_query_intersection(scene, NULL, NULL));

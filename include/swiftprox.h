@@ -4,8 +4,8 @@
  * Conventions, which hold for every function below:
  *
  * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments. What is asked has one name over all layers: intersection,
- * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Former names stand at the
- * end of this file. Flags are an int32_t: given, any number but 0 is yes; returned, yes is 1.
+ * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Former names stand at
+ * the end of this file. Flags are an int32_t: given, any number but 0 is yes; returned, yes is 1.
  *
  * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused, and compilers warn where
  * one is ignored. swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
@@ -77,8 +77,9 @@
 #include <stdint.h>
 
 /**
- * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and C++17,
- * and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines it as nothing.
+ * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and
+ * C++17, and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines this as
+ * nothing.
  */
 #ifndef SWIFTPROX_NODISCARD
 #if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
@@ -1308,8 +1309,8 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
                                          struct swiftprox_manifold *manifold);
 
 /**
- * As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or minus
- * the depth, and the witness points. `distance` is reset on failure, too.
+ * As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
+ * minus the depth, and the witness points. `distance` is reset on failure, too.
  *
  * Stable.
  */
@@ -1334,19 +1335,19 @@ double swiftprox_manifold_point_gap(const struct swiftprox_manifold_point *point
 
 /**
  * Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
- * then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds for
- * these shapes and poses.
+ * then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+ * for these shapes and poses.
  *
  * Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
  * swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
- * least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its surface,
- * on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no farther than b
- * from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance of
- * swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was left
- * out.
+ * least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its
+ * surface, on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no
+ * farther than b from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance
+ * of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was
+ * left out.
  *
- * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces are
- * thick at most. That a face is complete is not checked.
+ * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
+ * are thick at most. That a face is complete is not checked.
  *
  * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
  * the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
@@ -2050,9 +2051,9 @@ swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
                                           struct swiftprox_object_id *id);
 
 /**
- * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user data,
- * as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On failure
- * nothing is added and `*id` is null.
+ * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
+ * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
+ * failure nothing is added and `*id` is null.
  *
  * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  * SWIFTPROX_ERROR_MEMORY.
@@ -2079,9 +2080,9 @@ swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
 /**
  * Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
  *
- * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of this
- * scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or ids is
- * null. SWIFTPROX_ERROR_POISONED.
+ * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
+ * this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+ * ids is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -3228,8 +3229,8 @@ typedef struct swiftprox_listener_events {
 } swiftprox_listener_events;
 
 /**
- * Remembers what was listed when it last asked a scene (swiftprox_scene_listen(crate::scene::Scene::listen)), and nothing else: what
- * other listeners ask does not change what it hears. Of another scene it hears that all pairs of the one before have ended.
+ * Remembers what was listed when it last asked a scene, and nothing else: what other listeners ask does not change what it hears.
+ * Of another scene it hears that all pairs of the one before have ended.
  */
 typedef struct swiftprox_listener swiftprox_listener;
 

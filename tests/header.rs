@@ -41,8 +41,9 @@ const BEFORE: &str = "\
 #include <stdint.h>
 
 /**
- * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and C++17,
- * and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines it as nothing.
+ * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and
+ * C++17, and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines this as
+ * nothing.
  */
 #ifndef SWIFTPROX_NODISCARD
 #if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)

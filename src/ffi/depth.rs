@@ -353,8 +353,8 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
     }
 }
 
-/// As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or minus
-/// the depth, and the witness points. `distance` is reset on failure, too.
+/// As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
+/// minus the depth, and the witness points. `distance` is reset on failure, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
     shape1: *const Shape,
@@ -406,19 +406,19 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
 }
 
 /// Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
-/// then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds for
-/// these shapes and poses.
+/// then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+/// for these shapes and poses.
 ///
 /// Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
 /// swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
-/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its surface,
-/// on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no farther than b
-/// from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance of
-/// swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was left
-/// out.
+/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its
+/// surface, on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no
+/// farther than b from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance
+/// of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was
+/// left out.
 ///
-/// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces are
-/// thick at most. That a face is complete is not checked.
+/// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
+/// are thick at most. That a face is complete is not checked.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
 /// the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.

@@ -189,9 +189,9 @@ pub unsafe extern "C" fn swiftprox_scene_add_file(
     }
 }
 
-/// Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user data,
-/// as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On failure
-/// nothing is added and `*id` is null.
+/// Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
+/// data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
+/// failure nothing is added and `*id` is null.
 ///
 /// SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
 /// SWIFTPROX_ERROR_MEMORY.

@@ -128,7 +128,8 @@ fn an_interval_that_misses_the_truth_by_one_double_is_refused() {
     }
 }
 
-/// Each number is changed to what no number may be, each count and enumerator to another one; points are moved to where no contact is.
+/// Each number is changed to what no number may be, each count and enumerator to another one; points are moved to where no contact
+/// is.
 #[test]
 fn forgeries_are_refused() {
     let ([upper, lower], poses) = stacked(-0.0625, 0.3);

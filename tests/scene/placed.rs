@@ -33,8 +33,8 @@ fn all_objects_within_the_tolerance_of_a_placed_shape_are_listed() {
     }
 }
 
-/// A body of several pieces against groups of objects: for each piece what the query of that piece alone says of these, in the order
-/// of results, with a list of near pairs and without, and the same again from a recording.
+/// A body of several pieces against groups of objects: for each piece what the query of that piece alone says of these, in the
+/// order of results, with a list of near pairs and without, and the same again from a recording.
 #[test]
 fn a_placed_body_of_several_pieces_asks_the_groups_of_its_mask() {
     let mut random = Random::new(0x91ec);

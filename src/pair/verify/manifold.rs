@@ -30,10 +30,10 @@ const AWAY: f64 = -0.1;
 ///
 /// | what is said | what is proved or checked |
 /// |---|---|
-/// | verdict, `lower`, `upper` | proved without tolerance, as by [`verify`](super::verify) and [`verify_depth`](super::verify_depth) |
+/// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
 /// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
 /// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
-/// | points on the bodies | no farther than b from the surface, on a face that looks towards the other body; the same in both frames |
+/// | points on the bodies | no farther than b off the surface, on a face that looks at the other body; one point in both frames |
 /// | their features | they are there; a point is no farther than b from its vertex or edge |
 /// | a gap | that of the two points along the normal is in it, up to the allowance a; at most the margin |
 /// | both points | in line along the normal up to b |

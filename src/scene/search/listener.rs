@@ -1,5 +1,5 @@
-//! What a listener hears: which pairs and contact points are listed that were not when it last asked, which still are, and which are
-//! no more. Each listener remembers for itself.
+//! What a listener hears: which pairs and contact points are listed that were not when it last asked, which still are, and which
+//! are no more. Each listener remembers for itself.
 
 use std::cmp::Ordering;
 
@@ -84,8 +84,8 @@ impl<'a> ListenerEvents<'a> {
     }
 }
 
-/// Remembers what was listed when it last asked a scene ([`Scene::listen`](crate::scene::Scene::listen)), and nothing else: what
-/// other listeners ask does not change what it hears. Of another scene it hears that all pairs of the one before have ended.
+/// Remembers what was listed when it last asked a scene, and nothing else: what other listeners ask does not change what it hears.
+/// Of another scene it hears that all pairs of the one before have ended.
 #[derive(Debug, Default)]
 pub struct Listener {
     was: Listed,
