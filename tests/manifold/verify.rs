@@ -53,6 +53,14 @@ fn float_cube(random: &mut Random) -> Shape {
     Shape::from_points(&corners, &ShapeOptions::default()).unwrap()
 }
 
+/// A turned prism with coordinates of three to six decimals.
+fn rounded_prism(random: &mut Random) -> Shape {
+    let (mesh, turn) = (prism(3 + random.below(60) as u32, 0.75).unwrap(), random.rotation());
+    let scale = [1e3, 1e4, 1e6][random.below(3)];
+    let corners: Vec<Vector> = mesh.vertices.iter().map(|v| (turn * v).map(|x| (x * scale).round() / scale)).collect();
+    Shape::from_points(&corners, &ShapeOptions::default()).unwrap()
+}
+
 fn swept(points: &[Vector], swept_radius: f64) -> Shape {
     let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
     Shape::from_points(points, &options).unwrap()
@@ -61,16 +69,16 @@ fn swept(points: &[Vector], swept_radius: f64) -> Shape {
 fn any_shape(random: &mut Random, kind: usize) -> Shape {
     let of_mesh = |mesh| Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
     match kind {
-        0 => cuboid([0.5 + random.uniform(0.0, 1.0), 1.0, 0.25]),
+        0 => cuboid([1.0, 0.25, 0.5].map(|half| half * random.power(-20, 1))),
         1 => of_mesh(random_hull(30, random.next_u64()).unwrap()),
-        2 => of_mesh(prism(3 + random.below(20) as u32, 0.75).unwrap()),
+        2 => rounded_prism(random),
         3 => float_cube(random),
         4 => swept(&[Vector::new(-1.0, 0.0, 0.0), Vector::new(1.0, 0.5, 0.0)], 0.25),
         _ => swept(&[0, 1, 2, 3].map(|_| random.vector()), 0.125),
     }
 }
 
-/// Manifolds of boxes, hulls, prisms, rounded cubes, capsules and rounded tetrahedra, near each other and in each other: all hold,
+/// Manifolds of needles and boxes, hulls, cubes and prisms of few digits, capsules and round tetrahedra, near each other and in each other: all hold,
 /// whatever cache is handed over and however many points there was room for.
 #[test]
 fn what_queries_say_holds() {
