@@ -349,7 +349,7 @@ static void pairs(void)
 static void still_usable(swiftprox_scene *scene, int line)
 {
     swiftprox_scene_answer answer;
-    check_that(swiftprox_scene_query_exact_distance(scene, NULL, &answer) == SWIFTPROX_OK && answer.count == 1 &&
+    check_that(swiftprox_scene_query_distance(scene, NULL, &answer) == SWIFTPROX_OK && answer.count == 1 &&
                    answer.pairs[0].answer.lower <= 2 && 2 <= answer.pairs[0].answer.upper,
                "the scene is usable", swiftprox_library_last_error_message(), __FILE__, line);
 }
@@ -462,10 +462,10 @@ static void scenes(void)
     /* Asking. */
     swiftprox_scene_query_init(&query);
     query.distance_tolerance = -2;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_tolerance(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
     query.distance_tolerance = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
     swiftprox_scene_query_init(&query);
     query.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));
@@ -473,9 +473,10 @@ static void scenes(void)
     swiftprox_pair_tuning_init(&tuning);
     any_number(&tuning.refinement, -3);
     query.tuning = &tuning;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3",
+                swiftprox_scene_query_contact(scene, &query, &answer));
     query.struct_size = 0;
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_query_intersection(scene, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_shrink(NULL));
     still_usable(scene, __LINE__);

@@ -44,7 +44,7 @@ static swiftprox_status call(int which, int round)
         pose[3] = round % 7;
         return swiftprox_scene_set_pose(scene, ids[round % OBJECTS], pose);
     case 1:
-        return swiftprox_scene_query_contacts(scene, NULL, &answer);
+        return swiftprox_scene_query_contact(scene, NULL, &answer);
     case 2:
         status = swiftprox_scene_add_object(scene, &piece, 1, NULL, &id);
         if (status == SWIFTPROX_OK) {
@@ -65,7 +65,7 @@ static swiftprox_status call(int which, int round)
     case 7:
         return swiftprox_scene_is_pair_active(scene, ids[0], ids[1], &active);
     default:
-        return swiftprox_scene_query_approximate_distance(scene, NULL, &answer);
+        return swiftprox_scene_query_approximate(scene, NULL, &answer);
     }
 }
 
@@ -99,7 +99,7 @@ static void test_threads(void)
     }
     CHECK(done > 0);
     CHECK_OK(swiftprox_scene_activate_all(scene));
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK(answer.count == OBJECTS * (OBJECTS - 1) / 2);
 }
 

@@ -176,6 +176,10 @@ static void pairs()
     std::array<swiftprox_manifold_point, 8> points;
     const auto manifold = swiftprox::try_manifold({box, here}, {box, into}, manifolds, points);
     CHECK(manifold && manifold.value.point_count == 4 && manifold.value.reference != 0);
+    CHECK_OK(swiftprox::try_manifold_verify({box, here}, {box, into}, manifolds, manifold.value, points).status);
+    CHECK(swiftprox::gap(points[0]) <= points[0].gap_upper && swiftprox::gap(points[0]) >= points[0].gap_lower);
+    const auto both = swiftprox::try_manifold_with_distance({box, here}, {box, into}, manifolds, points);
+    CHECK(both && both.value.manifold.point_count == 4 && both.value.distance.lower == both.value.manifold.lower);
     const swiftprox_half_space ground{{0, 0, 2}, -1};
     const auto above = swiftprox::try_half_space_distance({box, Pose::at(0, 0, 0.25)}, ground);
     CHECK(above && above.value.lower <= 0.25 && 0.25 <= above.value.upper && above.value.normal[2] == 1);
@@ -332,7 +336,7 @@ static void scenes(const std::string &folder)
 
     swiftprox::SceneQuery query;
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
-    const auto touching = scene.try_query_contacts(query);
+    const auto touching = scene.try_query_contact(query);
     CHECK(touching && touching.value.count == 1 && touching.value.intersecting == 1);
     std::size_t listed = 0;
     for (const swiftprox_pair_result &pair : swiftprox::pairs(touching.value)) {
@@ -343,11 +347,30 @@ static void scenes(const std::string &folder)
     const auto where = scene.try_get_contacts();
     CHECK(swiftprox::contacts(where.value).size() == 1);
     CHECK(swiftprox::points(where.value, swiftprox::contacts(where.value)[0]).size() == 4);
-    CHECK(scene.try_query_exact_distance().value.count == 5); // pairs of pieces
+    CHECK(scene.try_query_distance().value.count == 5); // pairs of pieces
     CHECK(scene.try_query_object(c.value, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);
     const auto events = scene.try_query_events();
     CHECK(swiftprox::began(events.value).size() == 1 && swiftprox::ended(events.value).empty());
+    const std::array<Pose, 2> placed{Pose::at(10, 0, 0), Pose::at(0.75, 0, 0)};
+    CHECK(scene.try_query_placed_pieces(pieces, placed, 1, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 3);
+    CHECK(scene.try_query_placed_pieces(pieces, placed, 2, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
+    const std::array<swiftprox::ObjectOptions, 2> each{};
+    const auto more = scene.try_add_shapes(pieces, each);
+    CHECK(more && more.value.size() == 2 && scene.try_object_ids().value.size() == 5);
+    CHECK_OK(scene.try_set_piece_user_data(c.value, 1, 77).status);
+    CHECK(scene.try_piece_user_data(c.value, 1).value == 77 && scene.try_piece_user_data(c.value).value == 0);
+    CHECK_OK(scene.try_remove_objects(more.value).status);
+    CHECK(scene.try_remove_objects(more.value).status == SWIFTPROX_ERROR_HANDLE);
+    CHECK(SWIFTPROX_OBJECT_ID_NULL == swiftprox_object_id{} && !scene.try_is_object_valid(SWIFTPROX_OBJECT_ID_NULL).value);
+    auto listener = swiftprox::Listener::try_create();
+    CHECK_OK(listener.status);
+    const auto heard = swiftprox::try_listen(scene, listener.value, SWIFTPROX_QUERY_KIND_CONTACT, query);
+    CHECK(heard && swiftprox::pairs(heard.value.answer).size() == 1 && swiftprox::pairs(heard.value.events).size() == 1);
+    const swiftprox_pair_event &event = swiftprox::pairs(heard.value.events)[0];
+    CHECK(event.state == SWIFTPROX_EVENT_STATE_BEGAN && swiftprox::points(heard.value.events, event).size() == 4);
+    swiftprox::Listener none;
+    CHECK(swiftprox::try_listen(scene, none, SWIFTPROX_QUERY_KIND_CONTACT).status == SWIFTPROX_ERROR_NULL_POINTER);
 
     // A filter goes with the scene, wherever that is moved.
     int asked = 0;
@@ -360,7 +383,7 @@ static void scenes(const std::string &folder)
 
     CHECK_OK(other.try_set_pairs({}).status);
     CHECK(other.try_query_intersection().value.count == 0);
-    CHECK_OK(other.try_find_pairs().status);
+    CHECK_OK(other.try_reset_pairs().status);
     CHECK_OK(other.try_deactivate_pair(a.value, b.value).status);
     CHECK(!other.try_is_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
     CHECK(other.try_query_intersection().value.count == 0);

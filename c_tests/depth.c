@@ -71,14 +71,28 @@ static void manifolds(const swiftprox_shape *a, const swiftprox_shape *b)
     swiftprox_manifold_config config;
     swiftprox_manifold_point points[8];
     swiftprox_manifold manifold;
+    swiftprox_signed_distance distance;
     swiftprox_manifold_config_init(&config);
     config.margin = 0.01;
     place(there, 0, 0, 0);
     place(here, 0.125, 0.25, 0.995);
     CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 8, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_INTERSECTING && manifold.point_count == 4 && manifold.found_count == 4);
+    CHECK_OK(swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 8, &manifold));
+    manifold.lower = manifold.upper = -0.004;
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "overlap",
+                swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 4, &manifold));
+    CHECK_OK(swiftprox_pair_manifold_with_distance(a, here, b, there, &cache, &config, points, 8, &manifold, &distance));
+    CHECK(distance.outcome == SWIFTPROX_OUTCOME_INTERSECTING && fabs(distance.distance + 0.005) < 1e-12);
+    CHECK(distance.lower == manifold.lower && distance.upper == manifold.upper && manifold.point_count == 4);
+    CHECK(fabs(distance.world2[2] - distance.world1[2] - 0.005) < 1e-12);
+    points[2].gap_lower = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "point 2",
+                swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 4, &manifold));
+    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 8, &manifold));
     for (i = 0; i < 4; ++i) {
         CHECK(points[i].gap_lower <= -0.005 + 1e-12 && points[i].gap_upper >= -0.005 - 1e-12);
+        CHECK(fabs(swiftprox_manifold_point_gap(&points[i]) + 0.005) < 1e-12);
         for (j = 0; j < i; ++j) {
             CHECK(points[i].id != points[j].id);
         }
@@ -100,6 +114,7 @@ static void mistakes(const swiftprox_shape *a)
     swiftprox_manifold_config manifold_config;
     swiftprox_depth_answer answer;
     swiftprox_manifold manifold;
+    swiftprox_manifold_point point;
     const int32_t unknown = 77;
     place(here, 0, 0, 0);
     place(bent, 0, 0, NAN);
@@ -131,6 +146,21 @@ static void mistakes(const swiftprox_shape *a)
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && isnan(manifold.lower));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
                 swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 4, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "distance",
+                swiftprox_pair_manifold_with_distance(a, here, a, here, &manifold_cache, NULL, NULL, 0, &manifold, NULL));
+    CHECK(isnan(swiftprox_manifold_point_gap(NULL)));
+    CHECK_OK(swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
+    CHECK_OK(swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "0 points of 1",
+                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, NULL, 0, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache",
+                swiftprox_pair_manifold_verify(a, here, a, here, NULL, NULL, &point, 1, &manifold));
+    memcpy(&point.feature2.kind, &unknown, sizeof unknown);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "points[0].feature2.kind",
+                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
+    memcpy(&manifold.outcome, &unknown, sizeof unknown);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome",
+                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 0, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "manifold",
                 swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 0, NULL));
     CHECK(strcmp(swiftprox_library_depth_ending_string(SWIFTPROX_DEPTH_ENDING_NARROW), "narrow") == 0);
@@ -202,12 +232,12 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     /* Nothing was asked, nothing is said. */
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL && contacts.points == NULL && contacts.point_count == 0);
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 1 && contacts.count == 0);
 
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 1 && contacts.count == 1 && contacts.point_count == 0);
     CHECK(answer.pairs[0].object1.bits == ground.bits && answer.pairs[0].object2.bits == sunk.bits);
@@ -223,7 +253,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     /* The manifold of the near pair, too, and a margin that leaves it out. */
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     query.distance_tolerance = 0.01;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 2 && contacts.count == 2 && contacts.point_count == 8);
     for (i = 0; i < contacts.count; ++i) {
@@ -239,7 +269,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     }
     query.margin = 0.001;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 2 && contacts.point_count == 4);
     CHECK(contacts.contacts[1].manifold.outcome == SWIFTPROX_OUTCOME_BEYOND);
@@ -253,12 +283,12 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
     CHECK(none.count == 0 && none.contacts == NULL);
     query.margin = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL);
     query.margin = 0;
     memcpy(&query.detail, &unknown, sizeof unknown);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 

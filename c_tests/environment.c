@@ -448,9 +448,8 @@ static void tell_contacts(const swiftprox_scene *scene)
 
 static void ask_a_scene(void)
 {
-    scene_query *const queries[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_tolerance,
-                                    swiftprox_scene_query_exact_distance, swiftprox_scene_query_contacts,
-                                    swiftprox_scene_query_approximate_distance};
+    scene_query *const queries[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_distance,
+                                    swiftprox_scene_query_contact, swiftprox_scene_query_approximate};
     const swiftprox_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
     swiftprox_scene_statistics statistics;
     swiftprox_scene_query query;

@@ -115,8 +115,8 @@ double by_c(const Task& task, int steps)
             must(swiftprox_scene_set_transform(scene, ids[static_cast<std::size_t>(i)], R, T));
         }
         swiftprox_scene_answer answer;
-        must(task.asks_contacts ? swiftprox_scene_query_contacts(scene, &query, &answer)
-                                : swiftprox_scene_query_exact_distance(scene, &query, &answer));
+        must(task.asks_contacts ? swiftprox_scene_query_contact(scene, &query, &answer)
+                                : swiftprox_scene_query_distance(scene, &query, &answer));
         for (std::size_t k = 0; k < answer.count; ++k) {
             const swiftprox_pair_result& pair = answer.pairs[k];
             sum += pair.answer.distance + static_cast<double>(pair.user_data1);

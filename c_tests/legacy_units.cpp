@@ -39,7 +39,7 @@ int main()
     const double pose[12] = {1, 0, 0, 3, 0, 1, 0, 0, 0, 0, 1, 0};
     CHECK_OK(swiftprox_scene_set_pose(scene, objects[1], pose));
     swiftprox_scene_answer answer;
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK(answer.count == 1 && !(answer.pairs[0].answer.distance < distances[0]) && !(answer.pairs[0].answer.distance > distances[0]));
     CHECK_OK(swiftprox_scene_destroy(scene));
     return check_report("legacy_units");

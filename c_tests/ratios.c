@@ -64,7 +64,7 @@ typedef swiftprox_status (*ask_function)(swiftprox_scene *, const swiftprox_scen
 static swiftprox_scene *scene;
 static swiftprox_object_id ids[BOXES];
 static swiftprox_scene_query query;
-static ask_function ask = swiftprox_scene_query_exact_distance;
+static ask_function ask = swiftprox_scene_query_distance;
 
 /* Where object i is in a step: the second of two on its orbit, boxes turning in rows. */
 static void place(enum work work, int i, int step, double pose[12])
@@ -139,7 +139,7 @@ static void count_near_boxes(const swiftprox_shape *box)
         swiftprox_scene_query_init(&query);
         query.distance_tolerance = 2.5;
         if (way > 0) {
-            ask = swiftprox_scene_query_approximate_distance;
+            ask = swiftprox_scene_query_approximate;
         }
         if (way == 1) {
             query.absolute_error = 0.1;

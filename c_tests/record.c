@@ -72,11 +72,11 @@ static size_t session(swiftprox_scene *scene, double *sums)
         if (step == 12)
             CHECK_OK(swiftprox_scene_set_pairs(scene, ids, CUBES / 2));
         if (step == 16)
-            CHECK_OK(swiftprox_scene_find_pairs(scene));
+            CHECK_OK(swiftprox_scene_reset_pairs(scene));
         if (step % 7 == 6)
             CHECK_OK(swiftprox_scene_shrink(scene));
         if (step % 3 == 0)
-            CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+            CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
         else if (step % 3 == 1)
             CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
         else
@@ -159,7 +159,7 @@ static void played_back(void)
     /* From the middle of its life to its end. */
     CHECK_OK(swiftprox_scene_record(scene, path));
     swiftprox_scene_answer answer;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, NULL, &answer));
     CHECK_OK(swiftprox_scene_destroy(scene));
     CHECK(play(0, NULL, &ending, &cut_off) == 1 && ending == SWIFTPROX_OK && !cut_off);
 }

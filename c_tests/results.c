@@ -73,7 +73,7 @@ static void results_stay(const swiftprox_shape *shape)
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     make_row(scene, shape, ids);
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK(answer.count == PAIRS);
     swiftprox_pair_result *const copy = malloc(answer.count * sizeof *copy);
     memcpy(copy, answer.pairs, answer.count * sizeof *copy);
@@ -108,7 +108,7 @@ static void results_stay(const swiftprox_shape *shape)
     /* So does the pair at which a query stopped. */
     swiftprox_scene_query_init(&query);
     query.early_exit = 1;
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &found));
+    CHECK_OK(swiftprox_scene_query_distance(scene, &query, &found));
     CHECK(found.found != NULL);
     const swiftprox_pair_result stopped_at = *found.found;
     CHECK_OK(swiftprox_scene_remove_object(scene, found.found->object1));
@@ -117,7 +117,7 @@ static void results_stay(const swiftprox_shape *shape)
 
     /* A refused query says nothing. */
     query.error_budget = -1;
-    CHECK(swiftprox_scene_query_contacts(scene, &query, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_scene_query_contact(scene, &query, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(none.count == 0 && none.pairs == NULL && none.found == NULL);
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
@@ -132,15 +132,15 @@ static void contacts_touch(const swiftprox_shape *shape)
     add(scene, shape, 1.5);
     swiftprox_scene_query_init(&query);
     for (int i = 0; i < 2; ++i) {
-        CHECK_OK(swiftprox_scene_query_contacts(scene, i == 0 ? NULL : &query, &answer));
+        CHECK_OK(swiftprox_scene_query_contact(scene, i == 0 ? NULL : &query, &answer));
         /* a touches b, b overlaps the third, which a is away from. */
         CHECK(answer.count == 2 && answer.pairs[0].object1.bits == a.bits && answer.pairs[0].object2.bits == b.bits);
         CHECK(answer.pairs[0].answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
     }
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 3);
     query.distance_tolerance = 1;
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK(answer.count == 3);
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
@@ -155,21 +155,21 @@ static void memory_comes_back(const swiftprox_shape *shape)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     make_row(scene, shape, ids);
     const size_t objects = held - without;
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     const size_t most = held - without;
     CHECK(most > objects + PAIRS * sizeof(swiftprox_pair_result));
 
     /* The results go; what the pairs remember stays, so that the next query makes as few steps. Without results none is given
      * again: each pair is tested. */
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK_OK(swiftprox_scene_shrink(scene));
     CHECK_OK(swiftprox_scene_reset_statistics(scene));
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &before));
     CHECK_OK(swiftprox_scene_shrink(scene));
     CHECK(held - without < most - PAIRS * sizeof(swiftprox_pair_result));
     CHECK_OK(swiftprox_scene_reset_statistics(scene));
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &after));
     CHECK(answer.count == PAIRS && memcmp(&before, &after, sizeof before) == 0);
 
@@ -181,7 +181,7 @@ static void memory_comes_back(const swiftprox_shape *shape)
     CHECK_OK(swiftprox_scene_shrink(scene));
     CHECK_OK(swiftprox_scene_shrink(scene));
     CHECK(held - without <= objects);
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK(answer.count == 0);
     CHECK_OK(swiftprox_scene_destroy(scene));
     CHECK(held == without);

@@ -42,7 +42,7 @@ static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 static int lists(swiftprox_scene *scene, size_t count, const double *distances)
 {
     swiftprox_scene_answer answer;
-    int right = CHECK_OK(swiftprox_scene_query_exact_distance(scene, NULL, &answer)) && answer.count == count;
+    int right = CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer)) && answer.count == count;
     for (size_t i = 0; right && i < count; ++i)
         right = fabs(answer.pairs[i].answer.distance - distances[i]) < 1e-13 &&
                 (answer.pairs[i].answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING) == (distances[i] == 0);
@@ -65,12 +65,12 @@ static void queries(void)
 
     swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
-    CHECK_OK(swiftprox_scene_query_tolerance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 2 && is(answer.pairs[1].object1, b) && is(answer.pairs[1].object2, c));
     CHECK(answer.pairs[0].answer.proof_count > 0 && isnan(answer.pairs[0].answer.world1[0]));
     CHECK(fabs(answer.pairs[1].answer.world1[0] - 1.5) < 1e-13 && answer.pairs[1].answer.normal[0] == -1);
 
-    CHECK_OK(swiftprox_scene_query_contacts(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK(answer.count == 2);
     /* Points on both, in both frames, and the normal from object 2 to object 1. */
     const swiftprox_pair_answer *apart = &answer.pairs[1].answer;
@@ -80,7 +80,7 @@ static void queries(void)
 
     CHECK(answer.found == NULL);
     query.early_exit = 1;
-    CHECK_OK(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.intersecting == 1 && answer.count == 0 && answer.pairs == NULL);
     CHECK(answer.found != NULL && is(answer.found->object1, a) && is(answer.found->object2, b));
     CHECK(answer.found->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING && answer.found->user_data2 == 5);
@@ -220,7 +220,7 @@ static void levels(void)
     asking.levels = SWIFTPROX_LEVELS_ALL;
     query.tuning = &asking;
     query.error_budget = 3;
-    CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_approximate(scene, &query, &answer));
     CHECK(answer.count == 3);
     CHECK_OK(swiftprox_shape_get_info(shape, &info));
     CHECK_OK(swiftprox_shape_get_tuning_info(shape, &has));
@@ -241,7 +241,7 @@ static void levels(void)
     CHECK(statistics.pairs == 3 && statistics.error_spent == 0);
     query.error_budget = 0;
     CHECK_OK(swiftprox_scene_reset_statistics(scene));
-    CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_approximate(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_statistics(scene, &statistics));
     CHECK(statistics.within_tolerance == 0 && statistics.by_level[0] == 3 && statistics.error_spent < 1e-12);
     CHECK_OK(swiftprox_scene_destroy(scene));
@@ -301,7 +301,7 @@ static void filters(void)
     CHECK(lists(scene, 2, (const double[]){0, 2}));
     CHECK_OK(swiftprox_scene_set_pairs(scene, NULL, 0));
     CHECK(lists(scene, 0, NULL));
-    CHECK_OK(swiftprox_scene_find_pairs(scene));
+    CHECK_OK(swiftprox_scene_reset_pairs(scene));
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
@@ -445,7 +445,7 @@ static void workers(void)
             set_pose_at(where.pose, 0.25 * i);
             CHECK_OK(swiftprox_scene_add_shape(scenes[s], shape, &where, &id));
         }
-        CHECK_OK(swiftprox_scene_query_exact_distance(scenes[s], NULL, &answers[s]));
+        CHECK_OK(swiftprox_scene_query_distance(scenes[s], NULL, &answers[s]));
         CHECK(answers[s].count == 80 * 79 / 2 && answers[s].intersecting);
     }
     swiftprox_shape_release(shape);

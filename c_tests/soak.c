@@ -163,7 +163,7 @@ static void query(void)
     case 1:
         ask_all(asked.distance_tolerance, none);
         asked.detail = (swiftprox_contact_detail)draw(4);
-        CHECK_OK(swiftprox_scene_query_contacts(scene, &asked, &answer));
+        CHECK_OK(swiftprox_scene_query_contact(scene, &asked, &answer));
         compare(&answer, 0);
         CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
         CHECK(contacts.count == (asked.detail != SWIFTPROX_CONTACT_DETAIL_NONE ? answer.count : 0));
@@ -171,7 +171,7 @@ static void query(void)
     case 2:
         ask_all(asked.distance_tolerance, none);
         asked.error_budget = 0.5;
-        CHECK_OK(swiftprox_scene_query_approximate_distance(scene, &asked, &answer));
+        CHECK_OK(swiftprox_scene_query_approximate(scene, &asked, &answer));
         compare(&answer, 0);
         break;
     case 3:
@@ -192,7 +192,7 @@ static void query(void)
         break;
     default:
         ask_all(asked.distance_tolerance, none);
-        CHECK_OK(swiftprox_scene_query_exact_distance(scene, &asked, &answer));
+        CHECK_OK(swiftprox_scene_query_distance(scene, &asked, &answer));
         compare(&answer, 0);
     }
 }
@@ -345,7 +345,7 @@ static void choose(int any)
         break;
     default:
         given_count = -1;
-        CHECK_OK(swiftprox_scene_find_pairs(scene));
+        CHECK_OK(swiftprox_scene_reset_pairs(scene));
     }
 }
 

@@ -93,7 +93,7 @@ static void use_own_scene(worker *worker)
         set_pose_at(options.pose, 3.0 * i, worker->number);
         REQUIRE(swiftprox_scene_add_object(own, &piece, 1, &options, &id) == SWIFTPROX_OK);
     }
-    REQUIRE(swiftprox_scene_query_exact_distance(own, NULL, &answer) == SWIFTPROX_OK && answer.count == SHAPES);
+    REQUIRE(swiftprox_scene_query_distance(own, NULL, &answer) == SWIFTPROX_OK && answer.count == SHAPES);
     REQUIRE(swiftprox_scene_remove_object(own, id) == SWIFTPROX_OK);
     /* Each thread fails in its own way and reads its own message. */
     REQUIRE(swiftprox_scene_remove_object(own, id) == SWIFTPROX_ERROR_HANDLE);
@@ -139,7 +139,7 @@ int main(int argument_count, char **arguments)
         if (swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFTPROX_OK)
             return 1;
     }
-    if (swiftprox_scene_query_exact_distance(scene, NULL, &answer) != SWIFTPROX_OK)
+    if (swiftprox_scene_query_distance(scene, NULL, &answer) != SWIFTPROX_OK)
         return 1;
     for (int i = 0; i < THREADS; ++i) {
         workers[i].number = i;

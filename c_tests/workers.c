@@ -99,7 +99,7 @@ static swiftprox_scene_answer ask(swiftprox_scene *scene)
     swiftprox_scene_query_init(&query);
     query.distance_tolerance = 0.15;
     swiftprox_scene_answer answer;
-    CHECK(swiftprox_scene_query_exact_distance(scene, &query, &answer) == SWIFTPROX_OK);
+    CHECK(swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK);
     return answer;
 }
 

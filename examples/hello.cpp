@@ -23,7 +23,7 @@ try {
     query.distance_tolerance = 1; // who is farther apart is not listed
     for (int step = 0; step < 4; ++step) {
         scene.set_pose(falling, swiftprox::Pose::at(0, 0, 7 - 0.75 * step));
-        const swiftprox_scene_answer near = scene.query_exact_distance(query);
+        const swiftprox_scene_answer near = scene.query_distance(query);
         std::printf("step %d: %zu near\n", step, near.count);
         for (const swiftprox_pair_result &pair : swiftprox::pairs(near)) {
             std::printf("  %s at %g\n", swiftprox::to_string(pair.answer.outcome), pair.answer.distance);

@@ -81,7 +81,7 @@ int main(int argc, char **argv)
         demand(swiftprox_scene_set_transform(scene, prism, upright, place));
 
         swiftprox_scene_answer answer; /* its list is the scene's, valid until its next query */
-        demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+        demand(swiftprox_scene_query_distance(scene, &query, &answer));
         printf("prism at height %g: %zu near\n", place[2], answer.count);
         for (size_t i = 0; i < answer.count; i++) {
             print_pair(&answer.pairs[i]);

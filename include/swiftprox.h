@@ -3,7 +3,9 @@
  *
  * Conventions, which hold for every function below:
  *
- * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments.
+ * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments. What is asked has one name over all layers: intersection,
+ * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Former names stand at
+ * the end of this file. Flags are an int32_t: given, any number but 0 is yes; returned, yes is 1.
  *
  * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused, and compilers warn where
  * one is ignored. swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
@@ -74,7 +76,11 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** Stands before functions whose status is not to be ignored: compilers warn. */
+/**
+ * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and
+ * C++17, and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines this as
+ * nothing.
+ */
 #ifndef SWIFTPROX_NODISCARD
 #if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
 #define SWIFTPROX_NODISCARD [[nodiscard]]
@@ -82,6 +88,24 @@
 #define SWIFTPROX_NODISCARD __attribute__((warn_unused_result))
 #else
 #define SWIFTPROX_NODISCARD
+#endif
+#endif
+
+/** Makes a call and ignores its status on purpose, with no warning in any standard. */
+#define SWIFTPROX_IGNORE(call) ((void)!(call))
+
+/** Stands before former names: compilers warn and say the new one, unless SWIFTPROX_NO_DEPRECATION_WARNINGS is defined. */
+#ifndef SWIFTPROX_DEPRECATED
+#if defined(SWIFTPROX_NO_DEPRECATION_WARNINGS)
+#define SWIFTPROX_DEPRECATED(name)
+#elif (defined(__cplusplus) && __cplusplus >= 201402L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SWIFTPROX_DEPRECATED(name) [[deprecated("use " #name)]]
+#elif defined(__GNUC__)
+#define SWIFTPROX_DEPRECATED(name) __attribute__((deprecated("use " #name)))
+#elif defined(_MSC_VER)
+#define SWIFTPROX_DEPRECATED(name) __declspec(deprecated("use " #name))
+#else
+#define SWIFTPROX_DEPRECATED(name)
 #endif
 #endif
 
@@ -1245,7 +1269,7 @@ typedef struct swiftprox_manifold_config {
    * the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
    * cover about as much. 0 (the default): all.
    */
-  uint32_t reduces;
+  int32_t reduces;
 } swiftprox_manifold_config;
 
 /**
@@ -1283,6 +1307,63 @@ swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
                                          struct swiftprox_manifold_point *points,
                                          size_t capacity,
                                          struct swiftprox_manifold *manifold);
+
+/**
+ * As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
+ * minus the depth, and the witness points. `distance` is reset on failure, too.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_manifold_with_distance(const struct swiftprox_shape *shape1,
+                                                       const double *pose1,
+                                                       const struct swiftprox_shape *shape2,
+                                                       const double *pose2,
+                                                       struct swiftprox_manifold_cache *cache,
+                                                       const struct swiftprox_manifold_config *config,
+                                                       struct swiftprox_manifold_point *points,
+                                                       size_t capacity,
+                                                       struct swiftprox_manifold *manifold,
+                                                       struct swiftprox_signed_distance *distance);
+
+/**
+ * The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
+ *
+ * Stable.
+ */
+double swiftprox_manifold_point_gap(const struct swiftprox_manifold_point *point);
+
+/**
+ * Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
+ * then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+ * for these shapes and poses.
+ *
+ * Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
+ * swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
+ * least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its
+ * surface, on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no
+ * farther than b from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance
+ * of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was
+ * left out.
+ *
+ * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
+ * are thick at most. That a face is complete is not checked.
+ *
+ * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
+ * the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_manifold_verify(const struct swiftprox_shape *shape1,
+                                                const double *pose1,
+                                                const struct swiftprox_shape *shape2,
+                                                const double *pose2,
+                                                const struct swiftprox_manifold_cache *cache,
+                                                const struct swiftprox_manifold_config *config,
+                                                const struct swiftprox_manifold_point *points,
+                                                size_t count,
+                                                const struct swiftprox_manifold *manifold);
 
 /** @} */
 
@@ -1615,7 +1696,7 @@ typedef struct swiftprox_ray_answer {
   /** Whether there is such a part. */
   swiftprox_ray_outcome outcome;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  uint32_t exact;
+  int32_t exact;
   /** `entry[0]` <= where it begins <= `entry[1]`; 0 from inside. */
   double entry[2];
   /** `exit[0]` <= where it ends <= `exit[1]`: where the ray leaves the body, or `t_max` if that comes first. */
@@ -1717,7 +1798,7 @@ typedef struct swiftprox_support_vertex {
   /** Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any. */
   uint32_t vertex;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  uint32_t exact;
+  int32_t exact;
   /** Where it is, in the body's local frame. */
   double local[3];
   /** Where it is in the world, rounded. */
@@ -1852,7 +1933,13 @@ swiftprox_status swiftprox_scene_destroy(struct swiftprox_scene *scene);
 typedef struct swiftprox_object_id {
   uint64_t bits;
 } swiftprox_object_id;
-/** Names no object. */
+
+/** Names no object. In C it is a compound literal of C99; swiftprox_object_id id = {0} does in every standard. */
+#if defined(__cplusplus)
+#define SWIFTPROX_OBJECT_ID_NULL (swiftprox_object_id())
+#else
+#define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
+#endif
 
 /** How an object begins. Fill it with swiftprox_object_options_init, then change what should differ. */
 typedef struct swiftprox_object_options {
@@ -1917,6 +2004,23 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
                                             struct swiftprox_object_id *id);
 
 /**
+ * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
+ * `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
+ * receives the ids.
+ *
+ * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
+ * swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_add_shapes(struct swiftprox_scene *scene,
+                                            const struct swiftprox_shape *const *shapes,
+                                            const struct swiftprox_object_options *options,
+                                            size_t count,
+                                            struct swiftprox_object_id *ids);
+
+/**
  * Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
  * with the arguments and the errors of both. Both options may be null for the defaults.
  *
@@ -1947,8 +2051,9 @@ swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
                                           struct swiftprox_object_id *id);
 
 /**
- * Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
- * whatever those of its original are. On failure nothing is added and `*id` is null.
+ * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
+ * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
+ * failure nothing is added and `*id` is null.
  *
  * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  * SWIFTPROX_ERROR_MEMORY.
@@ -1971,6 +2076,20 @@ swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id);
+
+/**
+ * Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
+ *
+ * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
+ * this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
+ * ids is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_remove_objects(struct swiftprox_scene *scene,
+                                                const struct swiftprox_object_id *ids,
+                                                size_t count);
 
 /**
  * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
@@ -2124,6 +2243,35 @@ swiftprox_status swiftprox_scene_set_user_data(struct swiftprox_scene *scene,
                                                struct swiftprox_object_id id,
                                                uint64_t user_data);
 
+/**
+ * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
+ * the object and the piece.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *scene,
+                                                     struct swiftprox_object_id id,
+                                                     uint32_t piece,
+                                                     uint64_t user_data);
+
+/**
+ * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
+ *
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scene *scene,
+                                                     struct swiftprox_object_id id,
+                                                     uint32_t piece,
+                                                     uint64_t *user_data);
+
 /** What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it. */
 typedef struct swiftprox_object_info {
   /** Set by the caller. */
@@ -2172,7 +2320,8 @@ swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *sc
                                                 double *upper_corner);
 
 /**
- * Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
+ * Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
+ * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
  * the shape longer than the object. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
@@ -2193,7 +2342,7 @@ swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
  * @{
  */
 
-/** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries. */
+/** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
 #define SWIFTPROX_DEFAULT_TOLERANCE (-1.0)
 
 /** What a query of contacts says of each pair beside its answer. */
@@ -2221,19 +2370,19 @@ typedef struct swiftprox_scene_query {
    * swiftprox_scene_query_intersection does without it, but refuses one out of range.
    */
   double distance_tolerance;
-  /** swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0. */
+  /** swiftprox_scene_query_approximate: upper - lower of a pair may be as large as this ... Default: 0. */
   double absolute_error;
   /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
   double relative_error;
   /**
-   * swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
+   * swiftprox_scene_query_approximate: finite, it is what upper - lower of all listed pairs together may come to,
    * whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
    * answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
    * does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**
-   * swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+   * swiftprox_scene_query_approximate: steps of marching after which a pair stops with what it has, 1 or more. Default:
    * UINT32_MAX, no limit.
    */
   uint32_t step_budget;
@@ -2245,13 +2394,14 @@ typedef struct swiftprox_scene_query {
   /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
-   * swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
+   * swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
    * from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
    */
   double margin;
   /**
-   * swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
-   * are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
+   * swiftprox_scene_query_contact: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
+   * are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
+   * SWIFTPROX_CONTACT_DETAIL_NONE.
    */
   swiftprox_contact_detail detail;
 } swiftprox_scene_query;
@@ -2321,45 +2471,34 @@ swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scen
                                                     struct swiftprox_scene_answer *answer);
 
 /**
- * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
- * swiftprox_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features;
- * of an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
-                                                 const struct swiftprox_scene_query *query,
-                                                 struct swiftprox_scene_answer *answer);
-
-/**
  * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
- * says of each. Errors as of swiftprox_scene_query_intersection.
+ * says of each: of a separated pair distance, lower, upper, points in all frames, normal and features; of an intersecting one the
+ * proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
-                                                      const struct swiftprox_scene_query *query,
-                                                      struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_distance(struct swiftprox_scene *scene,
+                                                const struct swiftprox_scene_query *query,
+                                                struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+ * As swiftprox_scene_query_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
  * for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
  * (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
-                                                            const struct swiftprox_scene_query *query,
-                                                            struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_approximate(struct swiftprox_scene *scene,
+                                                   const struct swiftprox_scene_query *query,
+                                                   struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+ * As swiftprox_scene_query_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
  * says otherwise, so that only pairs that touch or intersect are listed.
  *
- * With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
+ * With a query->detail the answers say what those of swiftprox_scene_query_distance do. swiftprox_scene_get_contacts then
  * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
  *
  * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
@@ -2367,9 +2506,9 @@ swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_sce
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
-                                                const struct swiftprox_scene_query *query,
-                                                struct swiftprox_scene_answer *answer);
+swiftprox_status swiftprox_scene_query_contact(struct swiftprox_scene *scene,
+                                               const struct swiftprox_scene_query *query,
+                                               struct swiftprox_scene_answer *answer);
 
 /** What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing. */
 typedef struct swiftprox_contact {
@@ -2457,6 +2596,26 @@ swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
                                               const struct swiftprox_scene_query *query,
                                               struct swiftprox_scene_answer *answer);
 
+/**
+ * As swiftprox_scene_query_placed, of a body of `piece_count` convex pieces: `poses` holds 12 doubles for each, where it is in the
+ * world. piece2 of a result says which of them it is. Objects are asked whose groups have a bit of `mask` (UINT32_MAX: all in some
+ * group), whatever their own masks, activation and filters say.
+ *
+ * SWIFTPROX_ERROR_POSE: a pose is refused; the message says which. SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an
+ * unknown kind. Other errors as of swiftprox_scene_query_intersection.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *scene,
+                                                     const struct swiftprox_shape *const *pieces,
+                                                     const double *poses,
+                                                     size_t piece_count,
+                                                     uint32_t mask,
+                                                     swiftprox_query_kind kind,
+                                                     const struct swiftprox_scene_query *query,
+                                                     struct swiftprox_scene_answer *answer);
+
 /** A pair of objects, the earlier created first. */
 typedef struct swiftprox_object_pair {
   /** The earlier created object. */
@@ -2489,8 +2648,9 @@ typedef struct swiftprox_scene_events {
 
 /**
  * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
- * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
- * failure `*events` is empty, and what was near stays remembered.
+ * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
+ * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
+ * is empty, and what was near stays remembered.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
  * or events is null. SWIFTPROX_ERROR_POISONED.
@@ -2740,14 +2900,15 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * From now on the scene finds the pairs that are near, as it did before swiftprox_scene_set_pairs.
+ * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
+ * before.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
+swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 
@@ -2991,6 +3152,128 @@ swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
                                             struct swiftprox_scratch *scratch,
                                             struct swiftprox_scene_cast_answer *answers,
                                             size_t edge_count);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_listener What has begun, goes on and has ended
+ * @{
+ */
+
+/** What has become of a pair or of a contact point since the listener's last query. */
+typedef enum swiftprox_event_state SWIFTPROX_INT32 {
+  /** It is listed and was not. */
+  SWIFTPROX_EVENT_STATE_BEGAN = 1,
+  /** It is listed and was. */
+  SWIFTPROX_EVENT_STATE_PERSISTS = 2,
+  /** It was listed and is not. */
+  SWIFTPROX_EVENT_STATE_ENDED = 3
+} swiftprox_event_state;
+
+/** A pair of convex pieces that is listed, or was when the listener last asked. */
+typedef struct swiftprox_pair_event {
+  /** The earlier created object; it may have been removed since where the pair has ended. */
+  struct swiftprox_object_id object1;
+  /** The later created object. */
+  struct swiftprox_object_id object2;
+  /** The caller's own number of object 1; of a pair that has ended the one of then. */
+  uint64_t user_data1;
+  /** The caller's own number of object 2. */
+  uint64_t user_data2;
+  /** The caller's own number of the piece of object 1; as those of the objects. */
+  uint64_t piece_user_data1;
+  /** The caller's own number of the piece of object 2. */
+  uint64_t piece_user_data2;
+  /** Which piece of object 1. */
+  uint32_t piece1;
+  /** Which piece of object 2. */
+  uint32_t piece2;
+  /** What has become of the two pieces. */
+  swiftprox_event_state state;
+  /** What has become of the two objects, which are listed if any of their pieces are. */
+  swiftprox_event_state objects_state;
+  /** Its place among the pairs of the answer, and among contacts if they were asked for; SIZE_MAX where it has ended. */
+  size_t result;
+  /** Where among all points of the events its own begin. */
+  size_t first_point;
+  /** How many: those of its contact in their order, and behind them those that are gone. */
+  size_t point_count;
+} swiftprox_pair_event;
+
+/** A contact point that there is, or was when the listener last asked. */
+typedef struct swiftprox_point_event {
+  /** The point's id: within a pair points of equal ids are one for events. */
+  uint64_t id;
+  /** Its place among the points of the contacts; SIZE_MAX where it is gone. */
+  size_t point;
+  /** What has become of it. */
+  swiftprox_event_state state;
+} swiftprox_point_event;
+
+/** What a listener hears. */
+typedef struct swiftprox_listener_events {
+  /**
+   * All pairs that the query lists, and those that were listed and are not, in the order of results. Owned by the listener,
+   * valid until it asks again or its end. Null when count is 0.
+   */
+  const struct swiftprox_pair_event *pairs;
+  /** How many. */
+  size_t count;
+  /**
+   * Their points, where the query asks for manifolds: those of a pair begin at its first_point. Owned and valid as pairs are.
+   * Null when point_count is 0.
+   */
+  const struct swiftprox_point_event *points;
+  /** How many. */
+  size_t point_count;
+} swiftprox_listener_events;
+
+/**
+ * Remembers what was listed when it last asked a scene, and nothing else: what other listeners ask does not change what it hears.
+ * Of another scene it hears that all pairs of the one before have ended.
+ */
+typedef struct swiftprox_listener swiftprox_listener;
+
+/**
+ * Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
+ * `*listener` is null.
+ *
+ * SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_listener_create(struct swiftprox_listener **listener);
+
+/**
+ * Gives back what swiftprox_listener_create made, and the events that it owns. Null is ignored.
+ *
+ * Experimental.
+ */
+void swiftprox_listener_destroy(struct swiftprox_listener *listener);
+
+/**
+ * As the query of that kind over all pairs, and what has changed since the listener last asked: which pairs of pieces and which
+ * contact points have begun, which persist and which have ended. The first time all begin. Contacts with query->detail
+ * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts hands over where they are.
+ *
+ * A pair counts as long as the query lists it; of another tolerance, another listener. Each listener remembers for itself: what
+ * others and other queries ask changes nothing of that. Removed objects, deactivated pairs and all that a former scene listed have
+ * ended. A recording notes the query. The tolerance of contacts is 0 and of others infinity unless query says otherwise.
+ *
+ * On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
+ * unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
+ * of swiftprox_scene_query_contact.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_listen(struct swiftprox_scene *scene,
+                                        struct swiftprox_listener *listener,
+                                        swiftprox_query_kind kind,
+                                        const struct swiftprox_scene_query *query,
+                                        struct swiftprox_scene_answer *answer,
+                                        struct swiftprox_listener_events *events);
 
 /** @} */
 
@@ -3340,6 +3623,66 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  */
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_former Former names, for programs that were written with them
+ * @{
+ */
+
+/**
+ * Former name of swiftprox_scene_query_distance, which lists what is within a tolerance.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
+                                                 const struct swiftprox_scene_query *query,
+                                                 struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_distance.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
+                                                      const struct swiftprox_scene_query *query,
+                                                      struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_approximate.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_approximate)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
+                                                            const struct swiftprox_scene_query *query,
+                                                            struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_query_contact.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_query_contact)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
+                                                const struct swiftprox_scene_query *query,
+                                                struct swiftprox_scene_answer *answer);
+
+/**
+ * Former name of swiftprox_scene_reset_pairs.
+ *
+ * Stable.
+ */
+SWIFTPROX_DEPRECATED(swiftprox_scene_reset_pairs)
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 

@@ -17,6 +17,7 @@
 
 #include "swiftprox/batch.hpp"
 #include "swiftprox/library.hpp"
+#include "swiftprox/listener.hpp"
 #include "swiftprox/motion.hpp"
 #include "swiftprox/ray.hpp"
 #include "swiftprox/pair.hpp"

@@ -537,7 +537,7 @@ fn a_scene_holds_shares_of_its_own() {
         // The scene's shares outlive the caller's.
         release(shape);
         let mut answer = MaybeUninit::<CSceneAnswer>::uninit();
-        assert_eq!(swiftprox_scene_query_exact_distance(scene, null(), answer.as_mut_ptr()), StatusCode::Ok);
+        assert_eq!(swiftprox_scene_query_distance(scene, null(), answer.as_mut_ptr()), StatusCode::Ok);
         let answer = answer.assume_init();
         assert_eq!((answer.count, answer.intersecting), (4, 0));
         for (k, pair) in std::slice::from_raw_parts(answer.pairs, answer.count).iter().enumerate() {

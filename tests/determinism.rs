@@ -204,14 +204,14 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
         let near = SceneQuery { distance_tolerance: 0.3, ..all };
         flight.add_list(scene.query_intersection(&all).unwrap(), true);
         flight.add_list(scene.query_intersection(&SceneQuery { early_exit: true, ..all }).unwrap(), true);
-        flight.add_list(scene.query_tolerance(&near).unwrap(), true);
-        flight.add_list(scene.query_exact_distance(&all).unwrap(), true);
-        flight.add_list(scene.query_exact_distance(&near).unwrap(), true);
-        flight.add_list(scene.query_contacts(&near).unwrap(), true);
+        flight.add_list(scene.query_distance(&near).unwrap(), true);
+        flight.add_list(scene.query_distance(&all).unwrap(), true);
+        flight.add_list(scene.query_distance(&near).unwrap(), true);
+        flight.add_list(scene.query_contact(&near).unwrap(), true);
         let coarse = SceneQuery { absolute_error: 0.05, levels: Levels::All, ..all };
-        flight.add_list(scene.query_approximate_distance(&coarse).unwrap(), true);
+        flight.add_list(scene.query_approximate(&coarse).unwrap(), true);
         let thrifty = SceneQuery { step_budget: 2, start: Start::Cold, refinement: Refinement::SingleSingle, ..coarse };
-        flight.add_list(scene.query_approximate_distance(&thrifty).unwrap(), false);
+        flight.add_list(scene.query_approximate(&thrifty).unwrap(), false);
 
         // Pairs of neighbours, each query with the cache that the last one left.
         for (k, cache) in caches.iter_mut().enumerate() {

@@ -123,8 +123,8 @@ fn scenes_list_the_same_in_every_environment() {
             // Not the ids, which no two scenes share.
             let listed = |pairs: &[PairResult]| pairs.iter().map(|pair| pair.answer).collect::<Vec<_>>();
             let intersecting = inside(environment, || listed(scene.query_intersection(&query).unwrap().pairs));
-            let contacts = inside(environment, || listed(scene.query_contacts(&query).unwrap().pairs));
-            let approximate = inside(environment, || listed(scene.query_approximate_distance(&query).unwrap().pairs));
+            let contacts = inside(environment, || listed(scene.query_contact(&query).unwrap().pairs));
+            let approximate = inside(environment, || listed(scene.query_approximate(&query).unwrap().pairs));
             said.push(format!("{intersecting:?} {contacts:?} {approximate:?}"));
         }
         said

@@ -68,7 +68,7 @@ fn scene_bytes(side: usize, room: f64) -> (usize, usize) {
         for (k, id) in ids.iter().enumerate() {
             scene.set_pose(*id, &pose(k, 1e-3 * f64::from(step))).unwrap();
         }
-        listed = scene.query_exact_distance(&query).unwrap().pairs.len();
+        listed = scene.query_distance(&query).unwrap().pairs.len();
     }
     let bytes = BYTES.get() - before - (ids.capacity() * size_of_val(&ids[0])) as isize;
     (bytes as usize, listed)

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 23] = [
+const SOURCES: [&str; 24] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -27,6 +27,7 @@ const SOURCES: [&str; 23] = [
     "src/scene/search/query.rs",
     "src/scene/search/statistics.rs",
     "src/scene/search/events.rs",
+    "src/scene/search/listener.rs",
     "src/scene/sets/nearest.rs",
     "src/scene/sets/first_hit.rs",
     "src/scene/sets/rays.rs",
@@ -39,7 +40,11 @@ const BEFORE: &str = "\
 #include <stddef.h>
 #include <stdint.h>
 
-/** Stands before functions whose status is not to be ignored: compilers warn. */
+/**
+ * Stands before functions whose status is not to be ignored: compilers warn. A cast to void silences the attribute of C23 and
+ * C++17, and not that of GCC before: SWIFTPROX_IGNORE does so everywhere. A program that wants no such warnings defines this as
+ * nothing.
+ */
 #ifndef SWIFTPROX_NODISCARD
 #if (defined(__cplusplus) && __cplusplus >= 201703L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
 #define SWIFTPROX_NODISCARD [[nodiscard]]
@@ -47,6 +52,24 @@ const BEFORE: &str = "\
 #define SWIFTPROX_NODISCARD __attribute__((warn_unused_result))
 #else
 #define SWIFTPROX_NODISCARD
+#endif
+#endif
+
+/** Makes a call and ignores its status on purpose, with no warning in any standard. */
+#define SWIFTPROX_IGNORE(call) ((void)!(call))
+
+/** Stands before former names: compilers warn and say the new one, unless SWIFTPROX_NO_DEPRECATION_WARNINGS is defined. */
+#ifndef SWIFTPROX_DEPRECATED
+#if defined(SWIFTPROX_NO_DEPRECATION_WARNINGS)
+#define SWIFTPROX_DEPRECATED(name)
+#elif (defined(__cplusplus) && __cplusplus >= 201402L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
+#define SWIFTPROX_DEPRECATED(name) [[deprecated(\"use \" #name)]]
+#elif defined(__GNUC__)
+#define SWIFTPROX_DEPRECATED(name) __attribute__((deprecated(\"use \" #name)))
+#elif defined(_MSC_VER)
+#define SWIFTPROX_DEPRECATED(name) __declspec(deprecated(\"use \" #name))
+#else
+#define SWIFTPROX_DEPRECATED(name)
 #endif
 #endif
 
@@ -75,6 +98,19 @@ const BEHIND_STATUS: &str = "\
 /** Does not compile where enums are not as large as an int32_t, as with -fshort-enums. */
 typedef char swiftprox_enums_are_32_bits[sizeof(swiftprox_status) == 4 ? 1 : -1];
 ";
+
+/// The id of no object: what C++ and C89 want otherwise.
+const BEHIND_OBJECT_ID: &str = "\
+/** Names no object. In C it is a compound literal of C99; swiftprox_object_id id = {0} does in every standard. */
+#if defined(__cplusplus)
+#define SWIFTPROX_OBJECT_ID_NULL (swiftprox_object_id())
+#else
+#define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
+#endif
+";
+
+/// What the comment of a former name begins with; the new one follows.
+const FORMER: &str = "Former name of ";
 
 /// Marks of functions; the head of swiftprox.h says what they mean.
 const STABLE: &str = "Stable.";
@@ -120,7 +156,8 @@ fn declarations(text: &str) -> Vec<String> {
         if !is_comment && !line.starts_with("#define swiftprox_") {
             depth += line.matches('{').count() as i32 - line.matches('}').count() as i32;
         }
-        if !line.starts_with("#define swiftprox_") {
+        // The null id is written by hand; what cbindgen says of it is the comment alone.
+        if !line.starts_with("#define swiftprox_") && line != "/** Names no object. */" {
             let last = all.last_mut().expect("the first is there");
             *last += line;
             last.push('\n');
@@ -174,8 +211,10 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
                 let declaration = declared.remove(line).unwrap_or_else(|| panic!("{line} is not declared"));
                 *text += &if is_function(&declaration) { marked(&declaration, mark) } else { declaration };
                 text.push('\n');
-                if line == "swiftprox_status" {
-                    *text += &format!("{BEHIND_STATUS}\n");
+                match line {
+                    "swiftprox_status" => *text += &format!("{BEHIND_STATUS}\n"),
+                    "swiftprox_object_id" => *text += &format!("{BEHIND_OBJECT_ID}\n"),
+                    _ => {}
                 }
             }
         }
@@ -206,7 +245,14 @@ fn marked(declaration: &str, mark: &str) -> String {
         Some(line) => format!("/**\n * {line}\n"),
         None => comment.trim_end_matches(' ').to_string(),
     };
-    format!("{} *\n * {mark}\n */\n{code}", comment.replace(" \n", "\n"))
+    format!("{} *\n * {mark}\n */\n{}{code}", comment.replace(" \n", "\n"), deprecation(&comment))
+}
+
+/// What stands before a former name: the attribute with the new one.
+fn deprecation(comment: &str) -> String {
+    let new =
+        comment.split_once(FORMER).map(|(_, rest)| rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next());
+    new.flatten().map_or_else(String::new, |new| format!("SWIFTPROX_DEPRECATED({new})\n"))
 }
 
 /// Ends a header.
@@ -501,6 +547,9 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
     });
 }
 
+/// A status that is ignored on purpose.
+const IGNORED: &str = "SWIFTPROX_IGNORE(swiftprox_scene_activate_all(scene));";
+
 /// Each of these compiles no more, under usual warnings that are errors here.
 #[test]
 fn compilers_see_what_is_mixed_up_or_ignored() {
@@ -511,6 +560,7 @@ fn compilers_see_what_is_mixed_up_or_ignored() {
         ("what decided, compared with a status's name", "return answer->decided_by == SWIFTPROX_OK;"),
         ("an outcome, compared with what decided", "return answer->outcome == answer->decided_by;"),
         ("an id for a number", "return id == 0;"),
+        ("a former name", "return swiftprox_scene_find_pairs(scene);"),
         ("a scene for a shape", "swiftprox_shape_release(scene);"),
     ] {
         let source = |line: &str| {
@@ -522,7 +572,7 @@ fn compilers_see_what_is_mixed_up_or_ignored() {
             )
         };
         with_compilers(|compiler, extension, standard| {
-            let sound = compile(&folder, compiler, extension, standard, &source(""));
+            let sound = compile(&folder, compiler, extension, standard, &source(IGNORED));
             assert!(sound.status.success(), "{}", String::from_utf8_lossy(&sound.stderr));
             let output = compile(&folder, compiler, extension, standard, &source(line));
             // To clang's C an enumerator is an int and no more.

@@ -422,12 +422,8 @@ fn scenes() {
 
     let (mut scene, ids) = row(60);
     type Query = for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<swiftprox::scene::SceneAnswer<'a>>;
-    let queries: [Query; 4] = [
-        Scene::query_intersection,
-        Scene::query_exact_distance,
-        Scene::query_contacts,
-        Scene::query_approximate_distance,
-    ];
+    let queries: [Query; 4] =
+        [Scene::query_intersection, Scene::query_distance, Scene::query_contact, Scene::query_approximate];
     for query in queries {
         scene.set_pair_active(ids[0], ids[5], false).unwrap(); // the list of pairs is out of date
         let statistics = *scene.statistics();
@@ -468,7 +464,7 @@ fn shared_queries() {
     let in_turn = |parts: usize, work: &(dyn Fn(usize) + Sync)| (0..parts).for_each(work);
     let query = SceneQuery { distance_tolerance: 0.15, ..SceneQuery::default() };
     let listed = |scene: &mut Scene| {
-        let said = scene.query_exact_distance(&query).unwrap();
+        let said = scene.query_distance(&query).unwrap();
         let of = |pair: &PairResult| (pair.user_data1, pair.user_data2, pair.answer.distance.to_bits());
         said.pairs.iter().map(of).collect::<Vec<_>>()
     };
@@ -478,8 +474,7 @@ fn shared_queries() {
     for number in numbers() {
         // Memory that the scene keeps it need not ask for again.
         let mut scene = lattice(Some(Workers::new(3, in_turn)));
-        let (said, came_to_that) =
-            without(number, false, || scene.query_exact_distance(&query).map(|said| said.pairs.len()));
+        let (said, came_to_that) = without(number, false, || scene.query_distance(&query).map(|said| said.pairs.len()));
         assert_eq!(listed(&mut scene), expected, "after block {number} was refused");
         if !came_to_that {
             assert_eq!(said, Ok(expected.len()));
@@ -529,7 +524,7 @@ fn contacts_of_scenes() {
     let mut refusals = 0;
     for number in 1.. {
         let (said, came_to_that) = without(number, number % 4 == 0, || {
-            scene.query_contacts(&query).map(|said| (said.pairs.len(), said.contacts.points.len()))
+            scene.query_contact(&query).map(|said| (said.pairs.len(), said.contacts.points.len()))
         });
         if !came_to_that {
             assert_eq!(said, Ok((59, 59 * 4)), "each stands on the next by four corners");

@@ -99,11 +99,10 @@ fn fly(scene: &mut Scene, ids: &[ObjectId]) -> [usize; 2] {
         };
         let count = allocations(|| {
             let answer = match step % 5 {
-                4 => scene.query_approximate_distance(&query),
+                4 => scene.query_approximate(&query),
                 0 => scene.query_intersection(&query),
-                1 => scene.query_tolerance(&query),
-                2 => scene.query_exact_distance(&query),
-                _ => scene.query_contacts(&query),
+                1 | 2 => scene.query_distance(&query),
+                _ => scene.query_contact(&query),
             };
             answer.unwrap();
         });

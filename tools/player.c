@@ -209,7 +209,7 @@ static int play_text(struct player *player, swiftprox_scene_answer *answer)
             return failed_in_line(player, move->line, status);
         }
     }
-    scene_query *const query = player->options->query ? player->options->query : swiftprox_scene_query_exact_distance;
+    scene_query *const query = player->options->query ? player->options->query : swiftprox_scene_query_distance;
     return query(player->scene, &player->query, answer) == SWIFTPROX_OK ? GOOD : player_failed();
 }
 
@@ -251,7 +251,7 @@ swiftprox_query_kind player_query_kind(const struct player *player)
         return player->info.kind;
     }
     return query == swiftprox_scene_query_intersection           ? SWIFTPROX_QUERY_KIND_INTERSECTION
-           : query == swiftprox_scene_query_contacts             ? SWIFTPROX_QUERY_KIND_CONTACT
-           : query == swiftprox_scene_query_approximate_distance ? SWIFTPROX_QUERY_KIND_APPROXIMATE
+           : query == swiftprox_scene_query_contact             ? SWIFTPROX_QUERY_KIND_CONTACT
+           : query == swiftprox_scene_query_approximate ? SWIFTPROX_QUERY_KIND_APPROXIMATE
                                                                  : SWIFTPROX_QUERY_KIND_DISTANCE;
 }

@@ -42,13 +42,13 @@ int main(int argc, char **argv)
     move(scene, ids[1], 0.75);
     move(scene, ids[2], 3);
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
-    demand(swiftprox_scene_query_contacts(scene, &query, &answer));
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
     query.distance_tolerance = 2;
-    demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    demand(swiftprox_scene_query_distance(scene, &query, &answer));
 
     /* A shape that is in no scene, beside the third; what is asked in vain is not played. */
     query.distance_tolerance = -3;
-    if (swiftprox_scene_query_exact_distance(scene, &query, &answer) == SWIFTPROX_OK) {
+    if (swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK) {
         return EXIT_FAILURE;
     }
     demand(swiftprox_scene_query_placed(scene, cube, there, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
@@ -59,7 +59,7 @@ int main(int argc, char **argv)
     move(scene, ids[2], 30);
     demand(swiftprox_scene_remove_object(scene, ids[1]));
     query.distance_tolerance = 1.5;
-    demand(swiftprox_scene_query_exact_distance(scene, &query, &answer));
+    demand(swiftprox_scene_query_distance(scene, &query, &answer));
 
     demand(swiftprox_scene_record(scene, NULL));
     demand(swiftprox_scene_destroy(scene));

@@ -93,10 +93,10 @@ static bool fits(const struct command_line *line, const struct arguments *argume
     const char *problem = NULL;
     if (command_line_has(line, "--tolerance") && player->query == swiftprox_scene_query_intersection) {
         problem = "--tolerance has no meaning for --query intersection";
-    } else if (command_line_has(line, "--error") && player->query != swiftprox_scene_query_approximate_distance &&
-               player->query != swiftprox_scene_query_contacts) {
+    } else if (command_line_has(line, "--error") && player->query != swiftprox_scene_query_approximate &&
+               player->query != swiftprox_scene_query_contact) {
         problem = "--error has a meaning for --query approximate and --query contact alone";
-    } else if (command_line_has(line, "--budget") && player->query != swiftprox_scene_query_approximate_distance) {
+    } else if (command_line_has(line, "--budget") && player->query != swiftprox_scene_query_approximate) {
         problem = "--budget has a meaning for --query approximate alone";
     } else if (player->verify && arguments->passes) {
         problem = "--verify has no meaning beside --bench, which times the queries alone";
@@ -117,9 +117,9 @@ static bool fits(const struct command_line *line, const struct arguments *argume
 static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
     static const char *const QUERIES[] = {"intersection", "distance", "contact", "approximate", NULL};
-    static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_exact_distance,
-                                                   swiftprox_scene_query_contacts,
-                                                   swiftprox_scene_query_approximate_distance};
+    static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_distance,
+                                                   swiftprox_scene_query_contact,
+                                                   swiftprox_scene_query_approximate};
     int query = -1, input = 0;
     size_t workers = 0;
     *arguments = (struct arguments){.player = {.tolerance = SWIFTPROX_DEFAULT_TOLERANCE, .budget = INFINITY}};

@@ -56,8 +56,8 @@ struct arguments {
 static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
 {
     static const char *const QUERIES[] = {"intersection", "distance", "contact", NULL};
-    static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_exact_distance,
-                                                   swiftprox_scene_query_contacts};
+    static scene_query *const QUERY_FUNCTIONS[] = {swiftprox_scene_query_intersection, swiftprox_scene_query_distance,
+                                                   swiftprox_scene_query_contact};
     int query = -1, input = 0;
     size_t workers = 1;
     *arguments = (struct arguments){.player = {.tolerance = SWIFTPROX_DEFAULT_TOLERANCE, .budget = INFINITY}, .passes = 5};
@@ -212,9 +212,9 @@ static int explore(const struct arguments *arguments, struct tune_scene *scene)
 static scene_query *query_of(const struct tune_scene *scene, const struct tune_setting *setting)
 {
     return scene->kind == SWIFTPROX_QUERY_KIND_INTERSECTION ? swiftprox_scene_query_intersection
-           : scene->kind == SWIFTPROX_QUERY_KIND_CONTACT    ? swiftprox_scene_query_contacts
-           : setting->error > 0                             ? swiftprox_scene_query_approximate_distance
-                                                            : swiftprox_scene_query_exact_distance;
+           : scene->kind == SWIFTPROX_QUERY_KIND_CONTACT    ? swiftprox_scene_query_contact
+           : setting->error > 0                             ? swiftprox_scene_query_approximate
+                                                            : swiftprox_scene_query_distance;
 }
 
 /* Plays a pass under a setting; the point becomes the best of the passes so far. */

@@ -91,7 +91,7 @@ class Tune(unittest.TestCase):
         recording = os.path.join(self.folder, "recording")
         subprocess.run([RECORDER, recording], check=True, timeout=60)
         said = self.tune(recording, "--passes", "1")
-        self.assertIn("swiftprox_scene_query_contacts(", said)
+        self.assertIn("swiftprox_scene_query_contact(", said)
         self.assertNotIn("shapes with", said)
         self.assertIn("swiftprox_scene_query_intersection(", self.tune(recording, "--query", "intersection", "--passes", "1"))
 

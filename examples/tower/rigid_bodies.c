@@ -218,7 +218,7 @@ static void find_all_contacts(struct world *world)
     swiftprox_scene_query_init(&query);
     query.distance_tolerance = MARGIN;
     swiftprox_scene_answer answer;
-    demand(swiftprox_scene_query_tolerance(world->scene, &query, &answer));
+    demand(swiftprox_scene_query_distance(world->scene, &query, &answer));
     world->depth = 0;
     for (size_t i = 0; i < MOST_PAIRS; i++) {
         world->pairs[i].is_near = false;

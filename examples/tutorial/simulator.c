@@ -151,7 +151,7 @@ static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct co
 
     swiftprox_scene_answer answer;
     swiftprox_scene_contacts contacts;
-    demand(swiftprox_scene_query_contacts(scene, &query, &answer));
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
     demand(swiftprox_scene_get_contacts(scene, &contacts));
 
     found->count = 0;

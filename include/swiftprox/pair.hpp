@@ -89,6 +89,27 @@ inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache
                                             points.size(), &result.value);
     return result;
 }
+/** A manifold with the signed distance that it is made from. */
+struct ManifoldWithDistance {
+    swiftprox_manifold manifold{};
+    swiftprox_signed_distance distance{};
+};
+inline Result<ManifoldWithDistance> try_manifold_with_distance(Placed a, Placed b, ManifoldCache &cache,
+                                                               Range<swiftprox_manifold_point> points,
+                                                               const ManifoldConfig &config = {}) noexcept
+{
+    const swiftprox_manifold_config c = config.to_c();
+    Result<ManifoldWithDistance> result;
+    result.status = swiftprox_pair_manifold_with_distance(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c,
+                                                          points.data(), points.size(), &result.value.manifold,
+                                                          &result.value.distance);
+    return result;
+}
+/** The best estimate of a point's gap. */
+inline double gap(const swiftprox_manifold_point &point) noexcept
+{
+    return swiftprox_manifold_point_gap(&point);
+}
 inline Result<swiftprox_signed_distance> try_half_space_distance(Placed body, const swiftprox_half_space &half_space) noexcept
 {
     Result<swiftprox_signed_distance> result;
@@ -116,6 +137,13 @@ inline Result<void> try_depth_verify(Placed a, Placed b, const DepthCache &cache
 {
     return detail::status(
         swiftprox_pair_depth_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &answer));
+}
+inline Result<void> try_manifold_verify(Placed a, Placed b, const ManifoldCache &cache, const swiftprox_manifold &manifold,
+                                        Range<const swiftprox_manifold_point> points, const ManifoldConfig &config = {}) noexcept
+{
+    const swiftprox_manifold_config c = config.to_c();
+    return detail::status(swiftprox_pair_manifold_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c,
+                                                         points.data(), points.size(), &manifold));
 }
 
 #if SWIFTPROX_HAS_EXCEPTIONS
@@ -152,6 +180,11 @@ inline swiftprox_manifold manifold(Placed a, Placed b, ManifoldCache &cache, Ran
 {
     return take(try_manifold(a, b, cache, points, config));
 }
+inline ManifoldWithDistance manifold_with_distance(Placed a, Placed b, ManifoldCache &cache, Range<swiftprox_manifold_point> points,
+                                                   const ManifoldConfig &config = {})
+{
+    return take(try_manifold_with_distance(a, b, cache, points, config));
+}
 inline swiftprox_signed_distance half_space_distance(Placed body, const swiftprox_half_space &half_space)
 {
     return take(try_half_space_distance(body, half_space));
@@ -168,6 +201,11 @@ inline void verify(Placed a, Placed b, const swiftprox_pair_answer &answer)
 inline void depth_verify(Placed a, Placed b, const DepthCache &cache, const swiftprox_depth_answer &answer)
 {
     take(try_depth_verify(a, b, cache, answer));
+}
+inline void manifold_verify(Placed a, Placed b, const ManifoldCache &cache, const swiftprox_manifold &manifold,
+                            Range<const swiftprox_manifold_point> points, const ManifoldConfig &config = {})
+{
+    take(try_manifold_verify(a, b, cache, manifold, points, config));
 }
 #endif
 

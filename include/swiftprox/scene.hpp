@@ -140,6 +140,31 @@ class SceneView
             return swiftprox_scene_copy_object(scene_, original, id);
         });
     }
+    /** An object of one convex piece for each shape: all or none. `options`: as many, or none for the defaults. */
+    Result<std::vector<swiftprox_object_id>> try_add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    {
+        Result<std::vector<swiftprox_object_id>> result;
+        if (!options.empty() && options.size() != shapes.size()) {
+            return detail::refused<std::vector<swiftprox_object_id>>("options: there are not as many as shapes");
+        }
+        std::vector<const swiftprox_shape *> pointers;
+        std::vector<swiftprox_object_options> c;
+        for (const Shape &shape : shapes) {
+            pointers.push_back(shape.get());
+        }
+        for (const ObjectOptions &each : options) {
+            c.push_back(each.to_c());
+        }
+        result.value.resize(shapes.size());
+        result.status = swiftprox_scene_add_shapes(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
+                                                   result.value.data());
+        return result;
+    }
+    /** All or none. */
+    Result<void> try_remove_objects(Range<const swiftprox_object_id> ids)
+    {
+        return detail::status(swiftprox_scene_remove_objects(scene_, ids.data(), ids.size()));
+    }
     Result<void> try_remove_object(swiftprox_object_id id) { return detail::status(swiftprox_scene_remove_object(scene_, id)); }
     Result<bool> try_is_object_valid(swiftprox_object_id id) const
     {
@@ -210,6 +235,16 @@ class SceneView
     {
         return detail::status(swiftprox_scene_set_user_data(scene_, id, user_data));
     }
+    Result<void> try_set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
+    {
+        return detail::status(swiftprox_scene_set_piece_user_data(scene_, id, piece, user_data));
+    }
+    Result<std::uint64_t> try_piece_user_data(swiftprox_object_id id, std::uint32_t piece = 0) const
+    {
+        return detail::asked<std::uint64_t>([&](std::uint64_t *user_data) {
+            return swiftprox_scene_get_piece_user_data(scene_, id, piece, user_data);
+        });
+    }
     Result<swiftprox_object_info> try_object_info(swiftprox_object_id id) const
     {
         return detail::asked<swiftprox_object_info>([&](swiftprox_object_info *info) {
@@ -240,32 +275,25 @@ class SceneView
             return swiftprox_scene_query_intersection(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_tolerance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_distance(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_tolerance(scene_, &c, answer);
+            return swiftprox_scene_query_distance(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_exact_distance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_approximate(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_exact_distance(scene_, &c, answer);
+            return swiftprox_scene_query_approximate(scene_, &c, answer);
         });
     }
-    Result<swiftprox_scene_answer> try_query_approximate_distance(const SceneQuery &query = {})
+    Result<swiftprox_scene_answer> try_query_contact(const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_approximate_distance(scene_, &c, answer);
-        });
-    }
-    Result<swiftprox_scene_answer> try_query_contacts(const SceneQuery &query = {})
-    {
-        const swiftprox_scene_query c = query.to_c();
-        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_contacts(scene_, &c, answer);
+            return swiftprox_scene_query_contact(scene_, &c, answer);
         });
     }
     /** What the last query of contacts said beside its answers. */
@@ -288,6 +316,23 @@ class SceneView
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
             return swiftprox_scene_query_placed(scene_, shape.get(), pose.data(), kind, &c, answer);
+        });
+    }
+    /** A body of several convex pieces, against the objects whose groups have a bit of the mask. */
+    Result<swiftprox_scene_answer> try_query_placed_pieces(Range<const Shape> pieces, Range<const Pose> poses, std::uint32_t mask,
+                                                           swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        if (poses.size() != pieces.size()) {
+            return detail::refused<swiftprox_scene_answer>("poses: there are not as many as pieces");
+        }
+        std::vector<const swiftprox_shape *> shapes;
+        for (const Shape &piece : pieces) {
+            shapes.push_back(piece.get());
+        }
+        const swiftprox_scene_query c = query.to_c();
+        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
+            return swiftprox_scene_query_placed_pieces(scene_, shapes.data(), detail::rows_of(poses), shapes.size(), mask, kind, &c,
+                                                       answer);
         });
     }
     Result<swiftprox_scene_events> try_query_events(double distance = 0)
@@ -342,7 +387,7 @@ class SceneView
         const swiftprox_object_id *ids = pairs.empty() ? detail::no_pairs() : pairs.data()->data();
         return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
     }
-    Result<void> try_find_pairs() { return detail::status(swiftprox_scene_find_pairs(scene_)); }
+    Result<void> try_reset_pairs() { return detail::status(swiftprox_scene_reset_pairs(scene_)); }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
     Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
 
@@ -363,6 +408,11 @@ class SceneView
         return take(try_add_file(path, shape_options, options));
     }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
+    std::vector<swiftprox_object_id> add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    {
+        return take(try_add_shapes(shapes, options));
+    }
+    void remove_objects(Range<const swiftprox_object_id> ids) { take(try_remove_objects(ids)); }
     void remove_object(swiftprox_object_id id) { take(try_remove_object(id)); }
     bool is_object_valid(swiftprox_object_id id) const { return take(try_is_object_valid(id)); }
     std::vector<swiftprox_object_id> object_ids() const { return take(try_object_ids()); }
@@ -384,17 +434,24 @@ class SceneView
     Pose piece_pose(swiftprox_object_id id, std::uint32_t piece = 0) const { return take(try_piece_pose(id, piece)); }
     void set_fixed(swiftprox_object_id id, bool fixed) { take(try_set_fixed(id, fixed)); }
     void set_user_data(swiftprox_object_id id, std::uint64_t user_data) { take(try_set_user_data(id, user_data)); }
+    void set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
+    {
+        take(try_set_piece_user_data(id, piece, user_data));
+    }
+    std::uint64_t piece_user_data(swiftprox_object_id id, std::uint32_t piece = 0) const
+    {
+        return take(try_piece_user_data(id, piece));
+    }
     swiftprox_object_info object_info(swiftprox_object_id id) const { return take(try_object_info(id)); }
     Box object_box(swiftprox_object_id id) const { return take(try_object_box(id)); }
     Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
     swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
-    swiftprox_scene_answer query_tolerance(const SceneQuery &query = {}) { return take(try_query_tolerance(query)); }
-    swiftprox_scene_answer query_exact_distance(const SceneQuery &query = {}) { return take(try_query_exact_distance(query)); }
-    swiftprox_scene_answer query_approximate_distance(const SceneQuery &query = {})
+    swiftprox_scene_answer query_distance(const SceneQuery &query = {}) { return take(try_query_distance(query)); }
+    swiftprox_scene_answer query_approximate(const SceneQuery &query = {})
     {
-        return take(try_query_approximate_distance(query));
+        return take(try_query_approximate(query));
     }
-    swiftprox_scene_answer query_contacts(const SceneQuery &query = {}) { return take(try_query_contacts(query)); }
+    swiftprox_scene_answer query_contact(const SceneQuery &query = {}) { return take(try_query_contact(query)); }
     swiftprox_scene_contacts get_contacts() const { return take(try_get_contacts()); }
     swiftprox_scene_answer query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
     {
@@ -404,6 +461,11 @@ class SceneView
                                         const SceneQuery &query = {})
     {
         return take(try_query_placed(shape, pose, kind, query));
+    }
+    swiftprox_scene_answer query_placed_pieces(Range<const Shape> pieces, Range<const Pose> poses, std::uint32_t mask,
+                                               swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        return take(try_query_placed_pieces(pieces, poses, mask, kind, query));
     }
     swiftprox_scene_events query_events(double distance = 0) { return take(try_query_events(distance)); }
     swiftprox_scene_statistics statistics() const { return take(try_statistics()); }
@@ -423,7 +485,7 @@ class SceneView
     }
     void filter_again() { take(try_filter_again()); }
     void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
-    void find_pairs() { take(try_find_pairs()); }
+    void reset_pairs() { take(try_reset_pairs()); }
     void record(const std::string &path) { take(try_record(path)); }
     void end_recording() { take(try_end_recording()); }
 #endif

@@ -4,13 +4,13 @@ use super::enumerators::{DepthEndingNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::pair::{CPairConfig, read_config};
-use super::pointers::{exclusive, input};
+use super::pointers::{array, exclusive, input, output};
 use super::structs::{Versioned, init_struct, read_struct};
 use crate::base::math::{Pose, ROTATION_LIMIT};
-use crate::pair::verify::verify_depth;
+use crate::pair::verify::{verify_depth, verify_manifold};
 use crate::pair::{
     self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Fill, Manifold, ManifoldCache,
-    ManifoldConfig, ManifoldPoint, Outcome, Placed, SignedDistance, Sink, manifold_into,
+    ManifoldConfig, ManifoldPoint, Outcome, SignedDistance, Sink, manifold_into,
 };
 use crate::shape::Shape;
 use std::ffi::c_char;
@@ -229,7 +229,7 @@ pub struct CManifoldConfig {
     /// Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
     /// the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
     /// cover about as much. 0 (the default): all.
-    pub reduces: u32,
+    pub reduces: i32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -335,14 +335,44 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
     capacity: usize,
     manifold: *mut Manifold,
 ) -> StatusCode {
+    let mut distance = SignedDistance::default();
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        swiftprox_pair_manifold_with_distance(
+            shape1,
+            pose1,
+            shape2,
+            pose2,
+            cache,
+            config,
+            points,
+            capacity,
+            manifold,
+            &raw mut distance,
+        )
+    }
+}
+
+/// As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
+/// minus the depth, and the witness points. `distance` is reset on failure, too.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *mut CManifoldCache,
+    config: *const CManifoldConfig,
+    points: *mut ManifoldPoint,
+    capacity: usize,
+    manifold: *mut Manifold,
+    distance: *mut SignedDistance,
+) -> StatusCode {
     let status = guard(|| {
-        if manifold.is_null() {
-            return Err(Failure::null("manifold"));
-        }
-        // SAFETY: not null, writable by the caller; what was there before is not looked at.
-        unsafe { manifold.write(Manifold::default()) };
-        // SAFETY: the header's pointer rules.
-        let (shape1, pose1, shape2, pose2, cache, config) = unsafe {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        let (shape1, pose1, shape2, pose2, cache, config, distance) = unsafe {
+            output(manifold, "manifold", Manifold::default())?;
+            output(distance, "distance", SignedDistance::default())?;
             (
                 input(shape1, "shape1")?,
                 input(pose1.cast::<Pose>(), "pose1")?,
@@ -350,6 +380,7 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
                 input(pose2.cast::<Pose>(), "pose2")?,
                 exclusive(cache.cast::<ManifoldCache>(), "cache")?,
                 read_manifold_config(config)?,
+                exclusive(distance, "distance")?,
             )
         };
         room_for_points(points, capacity)?;
@@ -361,17 +392,120 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
             });
         };
         let mut sink = Sink { capacity, written: 0, write: &mut write };
-        let bodies = [Placed { shape: shape1, pose: pose1 }, Placed { shape: shape2, pose: pose2 }];
-        let found = manifold_into(bodies, cache, &config, &mut sink)?;
+        let bodies = [shape1.at(pose1), shape2.at(pose2)];
+        let found = manifold_into(bodies, cache, &config, &mut sink, distance)?;
         // SAFETY: not null, writable by the caller.
         unsafe { manifold.write(found) };
         Ok(())
     });
     if status == StatusCode::ErrorBug {
         // SAFETY: null or writable by the caller.
-        unsafe { reset(cache.cast::<ManifoldCache>(), manifold) };
+        unsafe {
+            reset(cache.cast::<ManifoldCache>(), manifold);
+            reset(cache.cast::<ManifoldCache>(), distance);
+        }
     }
     status
+}
+
+/// Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
+/// then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+/// for these shapes and poses.
+///
+/// Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
+/// swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
+/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its
+/// surface, on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no
+/// farther than b from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance
+/// of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was
+/// left out.
+///
+/// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
+/// are thick at most. That a face is complete is not checked.
+///
+/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
+/// the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
+    shape1: *const Shape,
+    pose1: *const f64,
+    shape2: *const Shape,
+    pose2: *const f64,
+    cache: *const CManifoldCache,
+    config: *const CManifoldConfig,
+    points: *const ManifoldPoint,
+    count: usize,
+    manifold: *const Manifold,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        let (shape1, pose1, shape2, pose2, cache, config, points, manifold) = unsafe {
+            let manifold = read_manifold(manifold)?;
+            room_for_points(points, count)?;
+            (
+                input(shape1, "shape1")?,
+                input(pose1.cast::<Pose>(), "pose1")?,
+                input(shape2, "shape2")?,
+                input(pose2.cast::<Pose>(), "pose2")?,
+                input(cache.cast::<ManifoldCache>(), "cache")?,
+                read_manifold_config(config)?,
+                read_points(points, count.min(manifold.point_count as usize))?,
+                manifold,
+            )
+        };
+        Ok(verify_manifold([shape1.at(pose1), shape2.at(pose2)], cache, &config, manifold, points)?)
+    })
+}
+
+/// The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_manifold_point_gap(point: *const ManifoldPoint) -> f64 {
+    let mut gap = f64::NAN;
+    // The status is in the message and the log.
+    let _: StatusCode = guard(|| {
+        // SAFETY: the header's pointer rules.
+        gap = unsafe { input(point, "point") }?.gap();
+        Ok(())
+    });
+    gap
+}
+
+/// The caller's manifold to read, its enumerator checked.
+///
+/// # Safety
+/// `manifold` meets the header's pointer rules.
+unsafe fn read_manifold<'a>(manifold: *const Manifold) -> Checked<&'a Manifold> {
+    if manifold.is_null() {
+        return Err(Failure::null("manifold"));
+    }
+    // SAFETY: not null, readable by the caller; read as an integer, whatever it holds.
+    let outcome = unsafe { (&raw const (*manifold).outcome).cast::<i32>().read() };
+    read_enumerator::<Outcome>(outcome, "manifold->outcome", "swiftprox_outcome")?;
+    // SAFETY: not null, and valid, as has been checked.
+    Ok(unsafe { &*manifold })
+}
+
+/// The caller's points to read, their enumerators checked: those of the manifold, as behind them may be anything.
+///
+/// # Safety
+/// `points` points to `count` points, and meets the header's pointer rules.
+unsafe fn read_points<'a>(points: *const ManifoldPoint, count: usize) -> Checked<&'a [ManifoldPoint]> {
+    for k in 0..count {
+        // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
+        let kinds = unsafe {
+            let point = points.add(k);
+            [&raw const (*point).feature1.kind, &raw const (*point).feature2.kind].map(|kind| kind.cast::<i32>().read())
+        };
+        for (object, kind) in (1..).zip(kinds) {
+            read_enumerator::<FeatureKind>(
+                kind,
+                &format!("points[{k}].feature{object}.kind"),
+                "swiftprox_feature_kind",
+            )?;
+        }
+    }
+    // SAFETY: valid, as has been checked.
+    unsafe { array(points, count, "points") }
 }
 
 /// The caller's configuration in Rust's terms, or the defaults for null.

@@ -87,11 +87,12 @@ pub unsafe extern "C" fn swiftprox_scene_set_pairs(
     }
 }
 
-/// From now on the scene finds the pairs that are near, as it did before swiftprox_scene_set_pairs.
+/// Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
+/// before.
 ///
 /// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_find_pairs(scene: *mut SceneHandle) -> StatusCode {
+pub unsafe extern "C" fn swiftprox_scene_reset_pairs(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.set_pairs(None)?)) }
 }

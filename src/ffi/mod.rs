@@ -32,12 +32,15 @@ mod task_loan;
 pub mod workers;
 pub mod scene;
 pub mod object;
+pub mod many_objects;
 pub mod pose;
 pub mod query;
 pub mod filter;
 pub mod object_query;
+pub mod listener;
 pub mod object_set;
 pub mod pair_batch;
 pub mod record;
+pub mod former_names;
 
 pub use failure::StatusCode;

@@ -189,8 +189,9 @@ pub unsafe extern "C" fn swiftprox_scene_add_file(
     }
 }
 
-/// Adds an object with the pieces (shared), the pose, the fixedness and the user data of `original`. All its pairs are active,
-/// whatever those of its original are. On failure nothing is added and `*id` is null.
+/// Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
+/// data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
+/// failure nothing is added and `*id` is null.
 ///
 /// SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
 /// SWIFTPROX_ERROR_MEMORY.
@@ -306,6 +307,45 @@ pub unsafe extern "C" fn swiftprox_scene_set_user_data(
     unsafe { change(scene, |scene| Ok(scene.set_user_data(id, user_data)?)) }
 }
 
+/// Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
+/// the object and the piece.
+///
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_set_piece_user_data(
+    scene: *mut SceneHandle,
+    id: ObjectId,
+    piece: u32,
+    user_data: u64,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe { change(scene, |scene| Ok(scene.set_piece_user_data(id, piece, user_data)?)) }
+}
+
+/// Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
+///
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+/// SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_get_piece_user_data(
+    scene: *const SceneHandle,
+    id: ObjectId,
+    piece: u32,
+    user_data: *mut u64,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(user_data, "user_data", 0)?;
+        look(scene, |scene| {
+            let object = scene.object(id)?;
+            check_piece(&object, piece as usize)?;
+            user_data.write(object.piece_user_data(piece as usize));
+            Ok(())
+        })
+    })
+}
+
 /// Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
@@ -360,7 +400,8 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_box(
     })
 }
 
-/// Gives a piece of an object, by its number from 0. The scene owns the share: take one more with swiftprox_shape_retain to keep
+/// Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
+/// uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
 /// the shape longer than the object. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
@@ -394,6 +435,22 @@ pub(super) fn check_piece(object: &Object, piece: usize) -> Checked<()> {
         return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
     }
     Ok(())
+}
+
+/// How an object begins, in Rust's terms.
+///
+/// # Safety
+/// `options` meets the header's pointer rules.
+pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<ObjectOptions> {
+    // SAFETY: by the caller.
+    let options = unsafe { read_struct(options, CObjectOptions::DEFAULT) }?;
+    Ok(ObjectOptions {
+        pose: Pose::from_row_major(&options.pose),
+        fixed: options.fixed != 0,
+        user_data: options.user_data,
+        groups: groups_or_first(options.groups),
+        mask: mask_or_all(options.mask),
+    })
 }
 
 /// Groups as a program gives them: none are the first one.
@@ -437,14 +494,7 @@ unsafe fn add(
         // SAFETY: by the caller.
         unsafe { output(id, "id", ObjectId::NULL) }?;
         // SAFETY: by the caller.
-        let options = unsafe { read_struct(options, CObjectOptions::DEFAULT) }?;
-        let options = ObjectOptions {
-            pose: Pose::from_row_major(&options.pose),
-            fixed: options.fixed != 0,
-            user_data: options.user_data,
-            groups: groups_or_first(options.groups),
-            mask: mask_or_all(options.mask),
-        };
+        let options = unsafe { object_options(options) }?;
         made = Some((make()?, options));
         Ok(())
     });

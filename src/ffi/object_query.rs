@@ -4,10 +4,11 @@ use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Failure, StatusCode};
 use super::guard::guard;
 use super::object::share;
-use super::pointers::{input, output};
+use super::pointers::{array, input, output};
 use super::query::{CSceneAnswer, CSceneQuery, ask};
 use super::scene::{SceneHandle, change};
 use crate::base::math::Pose;
+use crate::base::memory::with_capacity;
 use crate::scene::object::ObjectId;
 use crate::scene::{ObjectPair, Query, SceneEvents};
 use crate::shape::Shape;
@@ -98,9 +99,46 @@ pub unsafe extern "C" fn swiftprox_scene_query_placed(
     }
 }
 
+/// As swiftprox_scene_query_placed, of a body of `piece_count` convex pieces: `poses` holds 12 doubles for each, where it is in the
+/// world. piece2 of a result says which of them it is. Objects are asked whose groups have a bit of `mask` (UINT32_MAX: all in some
+/// group), whatever their own masks, activation and filters say.
+///
+/// SWIFTPROX_ERROR_POSE: a pose is refused; the message says which. SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an
+/// unknown kind. Other errors as of swiftprox_scene_query_intersection.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_query_placed_pieces(
+    scene: *mut SceneHandle,
+    pieces: *const *const Shape,
+    poses: *const f64,
+    piece_count: usize,
+    mask: u32,
+    kind: QueryNumber,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    unsafe {
+        ask(
+            |scene, query| {
+                let poses = array(poses.cast::<Pose>(), piece_count, "poses")?;
+                let mut placed = with_capacity(piece_count)?;
+                for (k, (&piece, pose)) in array(pieces, piece_count, "pieces")?.iter().zip(poses).enumerate() {
+                    placed.push((share(piece, format_args!("pieces[{k}]"))?, *pose));
+                }
+                Ok(scene.query_placed_pieces(&placed, mask, read_kind(kind)?, query)?)
+            },
+            default_tolerance(kind),
+            scene,
+            query,
+            answer,
+        )
+    }
+}
+
 /// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
-/// lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. On
-/// failure `*events` is empty, and what was near stays remembered.
+/// lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
+/// scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
+/// is empty, and what was near stays remembered.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
 /// or events is null. SWIFTPROX_ERROR_POISONED.
@@ -124,11 +162,11 @@ pub unsafe extern "C" fn swiftprox_scene_query_events(
     }
 }
 
-fn read_kind(kind: QueryNumber) -> Result<Query, Failure> {
+pub(super) fn read_kind(kind: QueryNumber) -> Result<Query, Failure> {
     read_enumerator(kind, "kind", "swiftprox_query_kind")
 }
 
 /// Of contacts 0, of all others infinity.
-fn default_tolerance(kind: QueryNumber) -> f64 {
+pub(super) fn default_tolerance(kind: QueryNumber) -> f64 {
     if kind == Query::Contact as i32 { 0.0 } else { f64::INFINITY }
 }

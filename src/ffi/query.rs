@@ -14,7 +14,7 @@ use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };
 
-/// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contacts, infinity for all other queries.
+/// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
 pub const DEFAULT_TOLERANCE: f64 = -1.0;
 
 /// What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ.
@@ -27,16 +27,16 @@ pub struct CSceneQuery {
     /// to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
     /// swiftprox_scene_query_intersection does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// swiftprox_scene_query_approximate_distance: upper - lower of a pair may be as large as this ... Default: 0.
+    /// swiftprox_scene_query_approximate: upper - lower of a pair may be as large as this ... Default: 0.
     pub absolute_error: f64,
     /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// swiftprox_scene_query_approximate_distance: finite, it is what upper - lower of all listed pairs together may come to,
+    /// swiftprox_scene_query_approximate: finite, it is what upper - lower of all listed pairs together may come to,
     /// whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
     /// answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
     /// does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
     pub error_budget: f64,
-    /// swiftprox_scene_query_approximate_distance: steps of marching after which a pair stops with what it has, 1 or more. Default:
+    /// swiftprox_scene_query_approximate: steps of marching after which a pair stops with what it has, 1 or more. Default:
     /// UINT32_MAX, no limit.
     pub step_budget: u32,
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
@@ -44,11 +44,12 @@ pub struct CSceneQuery {
     pub early_exit: i32,
     /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
-    /// swiftprox_scene_query_contacts: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
+    /// swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
     /// from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
     pub margin: f64,
-    /// swiftprox_scene_query_contacts: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
-    /// are then those of the depths. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
+    /// swiftprox_scene_query_contact: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
+    /// are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
+    /// SWIFTPROX_CONTACT_DETAIL_NONE.
     pub detail: ContactDetailNumber,
 }
 
@@ -129,59 +130,47 @@ pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     unsafe { ask(|scene, query| Ok(scene.query_intersection(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
-/// swiftprox_scene_query_exact_distance do: of a separated pair distance, lower, upper, points in all frames, normal and features;
-/// of an intersecting one the proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_tolerance(
-    scene: *mut SceneHandle,
-    query: *const CSceneQuery,
-    answer: *mut CSceneAnswer,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { ask(|scene, query| Ok(scene.query_tolerance(query)?), f64::INFINITY, scene, query, answer) }
-}
-
 /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
-/// says of each. Errors as of swiftprox_scene_query_intersection.
+/// says of each: of a separated pair distance, lower, upper, points in all frames, normal and features; of an intersecting one the
+/// proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_exact_distance(
+pub unsafe extern "C" fn swiftprox_scene_query_distance(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(|scene, query| Ok(scene.query_exact_distance(query)?), f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_exact_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
+/// As swiftprox_scene_query_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
 /// for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
 /// (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_approximate_distance(
+pub unsafe extern "C" fn swiftprox_scene_query_approximate(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(|scene, query| Ok(scene.query_approximate_distance(query)?), f64::INFINITY, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_approximate(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_exact_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
+/// As swiftprox_scene_query_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
 /// says otherwise, so that only pairs that touch or intersect are listed.
 ///
-/// With a query->detail the answers say what those of swiftprox_scene_query_exact_distance do. swiftprox_scene_get_contacts then
+/// With a query->detail the answers say what those of swiftprox_scene_query_distance do. swiftprox_scene_get_contacts then
 /// hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
 ///
 /// Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_contacts(
+pub unsafe extern "C" fn swiftprox_scene_query_contact(
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { ask(|scene, query| Ok(scene.query_contacts(query)?), 0.0, scene, query, answer) }
+    unsafe { ask(|scene, query| Ok(scene.query_contact(query)?), 0.0, scene, query, answer) }
 }
 
 /// What a query of contacts said beside its answers.
@@ -348,11 +337,11 @@ mod tests {
 
             let mut answer = CSceneAnswer { count: 7, intersecting: 7, ..CSceneAnswer::EMPTY };
             let mut statistics = SceneStatistics::default();
-            assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_query_contact(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
             assert_eq!(swiftprox_scene_activate_all(broken), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
-            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_contact(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(sound), StatusCode::Ok);
         }
@@ -374,7 +363,7 @@ mod tests {
             let status = ask(
                 |scene, query| {
                     // Half of it is done.
-                    let _ = scene.query_contacts(query);
+                    let _ = scene.query_contact(query);
                     panic!("injected")
                 },
                 0.0,
@@ -384,11 +373,11 @@ mod tests {
             );
             assert_eq!(status, StatusCode::ErrorBug);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
-            assert_eq!(swiftprox_scene_query_contacts(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
-            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_contact(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_query_contact(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!((answer.count, answer.intersecting), (1, 1));
             assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);
-            assert_eq!(swiftprox_scene_query_contacts(sound, null(), &mut answer), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_query_contact(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(sound), StatusCode::Ok);
         }
         assert_eq!(Arc::strong_count(&shape), 1, "a poisoned scene gives its shares back, too");

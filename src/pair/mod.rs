@@ -31,7 +31,9 @@ pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatisti
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;
 pub(crate) use manifold::{Fill, Known, Reference, Sink, half_space_manifold_into, manifold_into, manifold_of};
-pub use manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, half_space_manifold, manifold};
+pub use manifold::{
+    Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, half_space_manifold, manifold, manifold_with_distance,
+};
 pub use placed::Placed;
 pub use queries::{approximate, contact, depth, distance, intersection, intersection_by_marching, signed_distance};
 pub(crate) use radii::{Radii, sum_above, sum_below};

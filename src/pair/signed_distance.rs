@@ -18,6 +18,13 @@ pub struct SignedDistanceCache {
     depth: DepthCache,
 }
 
+impl SignedDistanceCache {
+    /// What it remembers of the depth.
+    pub(super) fn depth(&self) -> &DepthCache {
+        &self.depth
+    }
+}
+
 /// A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]

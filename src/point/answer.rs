@@ -60,7 +60,7 @@ pub struct SupportVertex {
     /// Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any.
     pub vertex: u32,
     /// Whether integers decided what rounding hides: 1 or 0. They allocate.
-    pub exact: u32,
+    pub exact: i32,
     /// Where it is, in the body's local frame.
     pub local: [f64; 3],
     /// Where it is in the world, rounded.

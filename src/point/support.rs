@@ -31,7 +31,7 @@ pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
         let local = polyhedron.local_position(vertex);
         Ok(SupportVertex {
             vertex: polyhedron.vertex_labels[vertex as usize],
-            exact: u32::from(!is_certain),
+            exact: i32::from(!is_certain),
             local: local.into(),
             world: body.pose.transform(&local).into(),
             height: height(polyhedron, body.pose, &direction.into(), vertex),

@@ -24,7 +24,7 @@ pub struct RayAnswer {
     /// Whether there is such a part.
     pub outcome: RayOutcome,
     /// Whether integers decided what rounding hides: 1 or 0. They allocate.
-    pub exact: u32,
+    pub exact: i32,
     /// `entry[0]` ≤ where it begins ≤ `entry[1]`; 0 from inside.
     pub entry: [f64; 2],
     /// `exit[0]` ≤ where it ends ≤ `exit[1]`: where the ray leaves the body, or `t_max` if that comes first.

@@ -57,6 +57,11 @@ pub(crate) enum Change<'a, N: Names> {
         mask: u32,
     },
     UserData(N::Object, u64),
+    PieceUserData {
+        object: N::Object,
+        piece: u32,
+        user_data: u64,
+    },
     Pose(N::Object, Cow<'a, Pose>),
     Poses(Cow<'a, [N::Object]>, Cow<'a, [Pose]>),
     AllPoses(Cow<'a, [Pose]>),
@@ -103,6 +108,9 @@ impl<From: Names> Change<'_, From> {
                 Change::Groups { object: names.object(*object)?, groups: *groups, mask: *mask }
             }
             Change::UserData(object, user_data) => Change::UserData(names.object(*object)?, *user_data),
+            Change::PieceUserData { object, piece, user_data } => {
+                Change::PieceUserData { object: names.object(*object)?, piece: *piece, user_data: *user_data }
+            }
             Change::Pose(object, pose) => Change::Pose(names.object(*object)?, Cow::Owned(**pose)),
             Change::Poses(objects, poses) => {
                 Change::Poses(all(objects, |object| names.object(*object))?, copied(poses)?.into())

@@ -116,6 +116,9 @@ impl Scene {
                 // No result with the old number is given again.
                 search.forget();
             }
+            Change::PieceUserData { object, piece, user_data } => {
+                world.set_piece_user_data(object, piece, user_data)?;
+            }
             Change::Pose(id, pose) => world.set_pose(id, &pose)?,
             Change::Poses(ids, poses) => world.set_poses(&ids, &poses, workers)?,
             Change::AllPoses(poses) => world.set_all_poses(&poses, workers)?,
@@ -165,7 +168,7 @@ impl Scene {
     /// See [`Scene::query_intersection`]; nothing is listed then, and nothing is counted.
     pub(super) fn ask(
         &mut self,
-        subject: &Subject<ObjectId, &Arc<Shape>>,
+        subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {

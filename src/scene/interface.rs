@@ -15,7 +15,8 @@ use crate::pair::{self, Outcome};
 use crate::scene::change::{Change, Themselves};
 use crate::scene::door::Scene;
 use crate::scene::recording::Recording;
-use crate::scene::search::query::{SceneAnswer, SceneContacts, SceneEvents, SceneQuery, Subject};
+use crate::scene::search::listener::{Listener, ListenerEvents};
+use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneContacts, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::object::{ObjectId, ObjectOptions};
 use crate::scene::world::object_view::Object;
@@ -101,6 +102,16 @@ impl Scene {
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn set_user_data(&mut self, id: ObjectId, user_data: u64) -> Result<()> {
         self.doing(Change::UserData(id, user_data))
+    }
+
+    /// Sets the caller's number of a piece, which [`Object::piece_user_data`] and the events of listeners give; 0 before. Results
+    /// name the object and the piece.
+    ///
+    /// # Errors
+    /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for a piece that the object does not
+    /// have, [`Error::Memory`].
+    pub fn set_piece_user_data(&mut self, id: ObjectId, piece: u32, user_data: u64) -> Result<()> {
+        self.doing(Change::PieceUserData { object: id, piece, user_data })
     }
 
     // --- Poses -------------------------------------------------------------------------------------------------------------------
@@ -219,44 +230,35 @@ impl Scene {
         self.ask(&Subject::AllPairs, Query::Intersection, query)
     }
 
-    /// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included. Its answers say what those of
-    /// [`Scene::query_exact_distance`] do.
-    ///
-    /// # Errors
-    /// As [`Scene::query_intersection`].
-    pub fn query_tolerance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
-        self.query_exact_distance(query)
-    }
-
     /// Lists the pairs whose distance is at most the distance tolerance, and the intersecting ones, with distance, witness
     /// points, normal and features ([`pair::distance`]).
     ///
     /// # Errors
     /// As [`Scene::query_intersection`].
-    pub fn query_exact_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Distance, query)
     }
 
-    /// As [`Scene::query_exact_distance`], and intersecting pairs have finite witness points and a unit normal as well
+    /// As [`Scene::query_distance`], and intersecting pairs have finite witness points and a unit normal as well
     /// ([`pair::contact`]).
     ///
-    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_exact_distance`] do, and
+    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_distance`] do, and
     /// [`SceneAnswer::contacts`] how deep each pair is, and where its objects meet: what [`pair::depth()`] and [`pair::manifold()`]
     /// say.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`], for a margin as well; and [`Error::Memory`] when that for depths and points is not there.
-    pub fn query_contacts(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_contact(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Contact, query)
     }
 
-    /// As [`Scene::query_exact_distance`], each distance as narrow as the query asks for and no narrower
+    /// As [`Scene::query_distance`], each distance as narrow as the query asks for and no narrower
     /// ([`pair::approximate`]). A pair whose step budget ran out before the verdict ([`Outcome::Undecided`]) is listed and does
     /// not count as intersecting.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`].
-    pub fn query_approximate_distance(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
+    pub fn query_approximate(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Approximate, query)
     }
 
@@ -282,7 +284,24 @@ impl Scene {
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
-        self.ask(&Subject::Placed(shape, *pose), kind, query)
+        let pieces = [(shape.clone(), *pose)];
+        self.ask(&Subject::Placed(PlacedBody { pieces: pieces[..].into(), mask: None }), kind, query)
+    }
+
+    /// As [`Scene::query_placed`], of a body of several convex pieces, each with its pose in the world: `piece2` of a result says
+    /// which. Objects are asked whose groups ([`ObjectOptions::groups`]) have a bit of `mask`, whatever their own masks, activation
+    /// and filters say.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] without pieces, and as [`Scene::query_placed`].
+    pub fn query_placed_pieces(
+        &mut self,
+        pieces: &[(Arc<Shape>, Pose)],
+        mask: u32,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<SceneAnswer<'_>> {
+        self.ask(&Subject::Placed(PlacedBody { pieces: pieces.into(), mask: Some(mask) }), kind, query)
     }
 
     /// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first
@@ -298,6 +317,26 @@ impl Scene {
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
         self.ask(&Subject::Events, kind, &query)?;
         self.search.compare(&self.world.objects)
+    }
+
+    /// As the query of this kind, and which of the pairs and contact points that it lists were not listed when the listener last
+    /// asked, which were, and which are no more. Every listener remembers for itself: queries of others change nothing of that. A
+    /// recording notes the query.
+    ///
+    /// # Errors
+    /// As [`Scene::query_intersection`]; [`Error::Argument`] if the query is to stop early, [`Error::Memory`]. The listener still
+    /// remembers what was listed when it last asked.
+    pub fn listen<'a>(
+        &'a mut self,
+        listener: &'a mut Listener,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<(SceneAnswer<'a>, ListenerEvents<'a>)> {
+        Listener::check(query)?;
+        self.ask(&Subject::AllPairs, kind, query)?;
+        let answer = self.search.answer();
+        listener.hear(&answer, &self.world)?;
+        Ok((answer, listener.events()))
     }
 
     /// What the last query said beside its answers: [`SceneAnswer::contacts`].

@@ -19,6 +19,7 @@ pub(crate) mod change;
 pub(crate) mod recording;
 mod door;
 mod interface;
+mod bulk;
 mod set_interface;
 mod replay;
 
@@ -26,6 +27,7 @@ pub use crate::base::workers::Workers;
 pub use crate::pair::Query;
 pub use door::{Scene, SceneOptions};
 pub use replay::{Replay, ReplayAnswer, ReplayStep};
+pub use search::listener::{EventState, Listener, ListenerEvents, PairEvent, PointEvent};
 pub use search::query::{
     Contact, ContactDetail, ObjectPair, PairResult, SceneAnswer, SceneContacts, SceneEvents, SceneQuery,
 };

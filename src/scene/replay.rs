@@ -15,7 +15,7 @@ use crate::scene::door::{Scene, SceneOptions};
 use crate::scene::recording::digest::Digest;
 use crate::scene::recording::format::{Decision, Record};
 use crate::scene::recording::reader::{Next, RecordReader};
-use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
+use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
@@ -71,9 +71,9 @@ enum State {
     Failed(Error),
 }
 
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone)]
 struct Question {
-    subject: Subject<u32, u32>,
+    subject: Subject<'static, u32, u32>,
     kind: Query,
     query: SceneQuery,
     outcome: Recorded,
@@ -201,7 +201,11 @@ impl Replay {
             return Ok(None);
         }
         let is_asked = |question: &Question| !matches!(question.outcome, Recorded::Failure);
-        let query = self.question.filter(is_asked).map(|question| (question.kind, question.query));
+        let query = self
+            .question
+            .as_ref()
+            .filter(|question| is_asked(question))
+            .map(|question| (question.kind, question.query));
         let fraction = if self.length > 0 { self.reader.position() as f64 / self.length as f64 } else { f64::NAN };
         Ok(Some(ReplayStep { query, fraction }))
     }
@@ -318,15 +322,17 @@ impl Replay {
     /// Those of the query. [`Error::Argument`] if there is none, or the step is not done.
     pub fn ask<'a>(&mut self, scene: &'a mut Scene, tolerance: Option<f64>) -> Result<ReplayAnswer<'a>> {
         let is_open = self.changes.is_empty() && self.decided.is_empty();
-        let Some(Question { subject, kind, mut query, outcome }) = self.question.filter(|_| is_open) else {
+        let Some(Question { subject, kind, mut query, outcome }) = self.question.clone().filter(|_| is_open) else {
             return Err(Error::Argument("the step has no query, or has not been done".into()));
         };
         query.distance_tolerance = tolerance.unwrap_or(query.distance_tolerance);
         match subject {
             Subject::AllPairs => scene.ask(&Subject::AllPairs, kind, &query).map(drop)?,
             Subject::Object(object) => scene.query_object(id(&self.ids, object)?, kind, &query).map(drop)?,
-            Subject::Placed(number, pose) => {
-                scene.query_placed(shape(&self.shapes, number)?, &pose, kind, &query).map(drop)?;
+            Subject::Placed(PlacedBody { pieces, mask }) => {
+                let mut known = Vec::new();
+                pieces.iter().try_for_each(|(k, pose)| push(&mut known, (shape(&self.shapes, *k)?.clone(), *pose)))?;
+                scene.ask(&Subject::Placed(PlacedBody { pieces: known.into(), mask }), kind, &query).map(drop)?;
             }
             Subject::Events => scene.query_events(query.distance_tolerance).map(drop)?,
         }

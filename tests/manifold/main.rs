@@ -3,6 +3,7 @@
 mod contact_faces;
 mod reduction;
 mod signed_distance;
+mod verify;
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{

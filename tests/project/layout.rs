@@ -10,6 +10,7 @@ use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
 use swiftprox::ffi::level::{CMesh, LevelInfo};
+use swiftprox::ffi::listener::CListenerEvents;
 use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
 use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
@@ -30,7 +31,8 @@ use swiftprox::pair::{
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
 use swiftprox::scene::{
-    Contact, FirstHit, LeastDistance, ObjectPair, PairResult, SceneCastAnswer, SceneRayHit, SceneStatistics,
+    Contact, FirstHit, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer, SceneRayHit,
+    SceneStatistics,
 };
 
 const HEADERS: [&str; 2] =
@@ -163,6 +165,12 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
         swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
         swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_pair_event = PairEvent {
+            object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
+            objects_state, result, first_point, point_count
+        },
+        swiftprox_point_event = PointEvent { id, point, state },
+        swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
         swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction

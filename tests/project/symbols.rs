@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 13] = [
+const NOUNS: [&str; 14] = [
     "library",
     "mesh",
     "shape",
@@ -20,6 +20,7 @@ const NOUNS: [&str; 13] = [
     "object",
     "scene",
     "scratch",
+    "listener",
 ];
 
 /// The shared library that this test run built, beside the test.

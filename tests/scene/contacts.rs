@@ -149,7 +149,7 @@ fn contacts_are_those_of_the_pair_functions() {
             step(&mut random, &mut scene, &ids, length);
             let details = [ContactDetail::Manifold, ContactDetail::Depth, ContactDetail::ReducedManifold];
             let query = asking(details[round % 3], if round % 4 < 2 { 0.0 } else { 0.1 });
-            let said = copied(scene.query_contacts(&query).unwrap());
+            let said = copied(scene.query_contact(&query).unwrap());
             let plain = SceneQuery { detail: ContactDetail::None, ..query };
             let [room, used] = scene.remembered_depths();
             let [deep, same] = check(&scene, &query, &said);
@@ -162,7 +162,7 @@ fn contacts_are_those_of_the_pair_functions() {
                 (alike, manifolds) = (alike + same, manifolds + said.pairs.len());
             }
             // The same pairs in the same order as without.
-            let listed = copied(scene.query_contacts(&plain).unwrap());
+            let listed = copied(scene.query_contact(&plain).unwrap());
             assert!(listed.contacts.is_empty());
             let key = |result: &PairResult| {
                 let PairResult { object1, object2, piece1, piece2, answer, .. } = result;
@@ -189,28 +189,28 @@ fn depths_are_forgotten_when_pairs_come_apart_end_or_are_shrunk() {
     };
     let ids: Vec<ObjectId> = (0..20).map(|k| place(&mut scene, 0.75 * f64::from(k))).collect();
     let query = asking(ContactDetail::Depth, 0.0);
-    scene.query_contacts(&query).unwrap();
+    scene.query_contact(&query).unwrap();
     assert_eq!(scene.remembered_depths(), [19, 19]);
     // Queries without a detail neither make nor forget any.
-    scene.query_contacts(&SceneQuery { detail: ContactDetail::None, ..query }).unwrap();
+    scene.query_contact(&SceneQuery { detail: ContactDetail::None, ..query }).unwrap();
     assert_eq!(scene.remembered_depths(), [19, 19]);
     // Near, and apart: what is free is used again.
     scene.set_pose(ids[10], &at(7.5, 1.125, 0.0)).unwrap();
-    scene.query_contacts(&query).unwrap();
+    scene.query_contact(&query).unwrap();
     assert_eq!(scene.remembered_depths(), [19, 17]);
     scene.set_pose(ids[10], &at(7.5, 0.0, 0.0)).unwrap();
-    scene.query_contacts(&query).unwrap();
+    scene.query_contact(&query).unwrap();
     assert_eq!(scene.remembered_depths(), [19, 19]);
     // Far away, removed, deactivated.
     scene.set_pose(ids[4], &at(3.0, 50.0, 0.0)).unwrap();
     scene.remove_object(ids[0]).unwrap();
     scene.set_pair_active(ids[18], ids[19], false).unwrap();
-    scene.query_contacts(&query).unwrap();
+    scene.query_contact(&query).unwrap();
     assert_eq!(scene.remembered_depths(), [19, 15]);
     scene.shrink().unwrap();
     assert_eq!(scene.remembered_depths(), [15, 15]);
     assert!(scene.contacts().contacts.is_empty());
-    let said = copied(scene.query_contacts(&query).unwrap());
+    let said = copied(scene.query_contact(&query).unwrap());
     check(&scene, &query, &said);
     assert_eq!(scene.remembered_depths(), [15, 15]);
 }
@@ -228,7 +228,7 @@ fn balls_that_overlap_have_depths() {
     let verdicts = scene.query_intersection(&SceneQuery::default()).unwrap();
     assert_eq!(verdicts.pairs[0].answer.decided_by, DecidedBy::InscribedSpheres);
     let query = asking(ContactDetail::Manifold, 0.0);
-    let said = copied(scene.query_contacts(&query).unwrap());
+    let said = copied(scene.query_contact(&query).unwrap());
     assert_eq!(check(&scene, &query, &said), [1, 1]);
     assert!(said.contacts[0].depth.lower > 1.8);
 }
@@ -241,8 +241,8 @@ fn repeated_queries_and_those_of_objects_agree() {
     let (mut scene, ids) = crowd(&mut random, 60, 1.8);
     let query = asking(ContactDetail::Manifold, 0.05);
     let told = |said: &Said| format!("{:?} {:?} {:?}", said.pairs, said.contacts, said.points);
-    let first = copied(scene.query_contacts(&query).unwrap());
-    let again = copied(scene.query_contacts(&query).unwrap());
+    let first = copied(scene.query_contact(&query).unwrap());
+    let again = copied(scene.query_contact(&query).unwrap());
     assert_eq!(told(&first), told(&again));
     assert!(first.pairs.len() > 40);
     let mut seen = 0;
@@ -258,7 +258,7 @@ fn repeated_queries_and_those_of_objects_agree() {
     assert!(placed.contacts.contacts.iter().any(|contact| contact.depth.lower > 0.0));
 
     let early = SceneQuery { early_exit: true, ..query };
-    let stopped = scene.query_contacts(&early).unwrap();
+    let stopped = scene.query_contact(&early).unwrap();
     let found = *stopped.found.unwrap();
     assert!(stopped.pairs.is_empty() && stopped.contacts.contacts.len() == 1);
     let contact = stopped.contacts.contacts[0];
@@ -283,18 +283,18 @@ fn answers_outlive_queries_of_other_kinds() {
     let far = ObjectOptions { pose: Pose::new(&random.rotation(), &Vector::new(50.0, 0.0, 0.0)), ..Default::default() };
     for id in ids.iter().take(5) {
         let others = scene.add_object(vec![shape.clone()], &far).unwrap();
-        assert!(scene.query_contacts(&SceneQuery { margin: -1.0, ..query }).is_err());
-        let first = told(&copied(scene.query_contacts(&query).unwrap()));
-        scene.query_exact_distance(&SceneQuery { distance_tolerance: f64::NAN, ..query }).unwrap_err();
+        assert!(scene.query_contact(&SceneQuery { margin: -1.0, ..query }).is_err());
+        let first = told(&copied(scene.query_contact(&query).unwrap()));
+        scene.query_distance(&SceneQuery { distance_tolerance: f64::NAN, ..query }).unwrap_err();
         scene.query_intersection(&query).unwrap();
-        scene.query_exact_distance(&query).unwrap();
-        scene.query_approximate_distance(&SceneQuery { error_budget: 1.0, ..query }).unwrap();
+        scene.query_distance(&query).unwrap();
+        scene.query_approximate(&SceneQuery { error_budget: 1.0, ..query }).unwrap();
         scene.query_object(*id, Query::Distance, &query).unwrap();
         scene.query_placed(&shape, &far.pose, Query::Contact, &query).unwrap();
         scene.remove_object(others).unwrap();
         scene.query_events(0.0).unwrap();
         scene.reset_statistics();
-        let again = copied(scene.query_contacts(&query).unwrap());
+        let again = copied(scene.query_contact(&query).unwrap());
         let done = *scene.statistics();
         assert!(done.pairs > 40 && done.unmoved == done.pairs, "{done:?}");
         assert_eq!(told(&again), first);
@@ -303,7 +303,7 @@ fn answers_outlive_queries_of_other_kinds() {
     for _ in 0..5 {
         step(&mut random, &mut scene, &ids[..3], 0.05);
         scene.query_events(0.0).unwrap();
-        let moved = copied(scene.query_contacts(&query).unwrap());
+        let moved = copied(scene.query_contact(&query).unwrap());
         check(&scene, &query, &moved);
         let (mut fresh, _) = crowd(&mut Random::new(0xa5), 60, 1.8);
         for (id, object) in ids.iter().zip(fresh.objects().map(|object| object.id()).collect::<Vec<_>>()) {
@@ -312,7 +312,7 @@ fn answers_outlive_queries_of_other_kinds() {
         let listed = |said: &Said| {
             said.pairs.iter().map(|pair| (pair.piece1, pair.piece2, pair.answer.outcome)).collect::<Vec<_>>()
         };
-        assert_eq!(listed(&moved), listed(&copied(fresh.query_contacts(&query).unwrap())));
+        assert_eq!(listed(&moved), listed(&copied(fresh.query_contact(&query).unwrap())));
     }
 }
 
@@ -324,14 +324,14 @@ fn the_past_changes_no_verdict() {
     let query = asking(ContactDetail::ReducedManifold, 0.02);
     for _ in 0..5 {
         step(&mut random, &mut old, &ids, 0.02);
-        old.query_contacts(&query).unwrap();
+        old.query_contact(&query).unwrap();
     }
     let mut new = Scene::new(&SceneOptions::default()).unwrap();
     for object in old.objects() {
         let options = ObjectOptions { pose: *object.pose(), user_data: object.user_data(), ..ObjectOptions::default() };
         new.add_object(object.pieces().to_vec(), &options).unwrap();
     }
-    let [first, second] = [&mut old, &mut new].map(|scene| copied(scene.query_contacts(&query).unwrap()));
+    let [first, second] = [&mut old, &mut new].map(|scene| copied(scene.query_contact(&query).unwrap()));
     let key = |result: &PairResult| {
         (result.user_data1, result.user_data2, result.piece1, result.piece2, result.answer.outcome)
     };
@@ -354,20 +354,20 @@ fn errors_and_budgets_of_depths_are_kept() {
     }
     let query = asking(ContactDetail::Depth, 0.0);
     let short = SceneQuery { step_budget: 2, ..query };
-    let said = copied(scene.query_contacts(&short).unwrap());
+    let said = copied(scene.query_contact(&short).unwrap());
     assert!(said.contacts.iter().all(|contact| contact.depth.ending == DepthEnding::Budget), "{:?}", said.contacts);
     check(&scene, &short, &said);
-    let next = copied(scene.query_contacts(&short).unwrap());
+    let next = copied(scene.query_contact(&short).unwrap());
     // Those of the three pairs that are apart stand, no depth.
     assert_eq!((next.pairs.len(), scene.statistics().unmoved), (3, 3));
     check(&scene, &short, &next);
     let wide = SceneQuery { absolute_error: 0.05, ..query };
-    let said = copied(scene.query_contacts(&wide).unwrap());
+    let said = copied(scene.query_contact(&wide).unwrap());
     assert_eq!(check(&scene, &wide, &said)[0], 3);
     assert!(said.contacts.iter().all(|contact| contact.depth.upper - contact.depth.lower <= 0.05));
     assert!(said.contacts.iter().any(|contact| contact.depth.upper - contact.depth.lower > 1e-6));
     for (margin, is_good) in [(-1.0, false), (f64::NAN, false), (0.0, true), (f64::INFINITY, true)] {
-        assert_eq!(scene.query_contacts(&SceneQuery { margin, ..query }).is_ok(), is_good);
+        assert_eq!(scene.query_contact(&SceneQuery { margin, ..query }).is_ok(), is_good);
     }
 }
 
@@ -381,7 +381,7 @@ fn margins_open_manifolds() {
         scene.add_object(vec![cube.clone()], &options).unwrap();
     }
     let query = SceneQuery { margin: 0.02, ..asking(ContactDetail::Manifold, 0.1) };
-    let said = copied(scene.query_contacts(&query).unwrap());
+    let said = copied(scene.query_contact(&query).unwrap());
     let told = said.contacts.iter().map(|contact| (contact.manifold.outcome, contact.manifold.point_count));
     let expected = [(Outcome::Separated, 4), (Outcome::Beyond, 0), (Outcome::Intersecting, 4)];
     assert_eq!(told.collect::<Vec<_>>(), expected);
@@ -399,7 +399,7 @@ fn flight(workers: Option<Workers>) -> Vec<String> {
         let query = asking(detail, 0.1);
         // Twice: the second time most answers are given again.
         for _ in 0..2 {
-            let said = copied(scene.query_contacts(&query).unwrap());
+            let said = copied(scene.query_contact(&query).unwrap());
             let of = |pair: &PairResult| format!("{} {} {:?}", pair.user_data1, pair.user_data2, pair.answer);
             let pairs: Vec<String> = said.pairs.iter().map(of).collect();
             seen.push(format!("{pairs:?} {:?} {:?}", said.contacts, said.points));

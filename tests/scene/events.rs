@@ -60,8 +60,8 @@ fn other_queries_in_between_lose_no_event() {
     expect(&mut scene, 0.0, &[[0, 1]], &[]);
     put(&mut scene, ids[2], 1.2);
     scene.query_intersection(&Default::default()).unwrap();
-    scene.query_exact_distance(&Default::default()).unwrap();
-    scene.query_contacts(&Default::default()).unwrap();
+    scene.query_distance(&Default::default()).unwrap();
+    scene.query_contact(&Default::default()).unwrap();
     expect(&mut scene, 0.0, &[[1, 2]], &[]);
     // There and back again between two questions is no event.
     put(&mut scene, ids[2], 9.0);

@@ -1,7 +1,9 @@
 //! Scenes, alone and from several threads.
 
+mod bulk;
 mod contacts;
 mod events;
+mod listener;
 mod motions;
 mod placed;
 mod record;

@@ -132,9 +132,9 @@ fn check(scene: &mut Scene, without_tolerance: bool, what: &str) -> usize {
     agree(scene.query_intersection(&SceneQuery::default()).unwrap().pairs, &all, intersects, what);
     for distance_tolerance in TOLERANCES {
         let query = SceneQuery { distance_tolerance, ..SceneQuery::default() };
-        agree(scene.query_exact_distance(&query).unwrap().pairs, &all, within(distance_tolerance), what);
+        agree(scene.query_distance(&query).unwrap().pairs, &all, within(distance_tolerance), what);
         let coarse = SceneQuery { absolute_error: 0.05, ..query };
-        let listed = scene.query_approximate_distance(&coarse).unwrap().pairs;
+        let listed = scene.query_approximate(&coarse).unwrap().pairs;
         assert!(listed.iter().all(|result| result.answer.upper - result.answer.lower <= 0.05));
         agree(listed, &all, within(distance_tolerance), what);
     }
@@ -143,9 +143,9 @@ fn check(scene: &mut Scene, without_tolerance: bool, what: &str) -> usize {
     assert_eq!(scene.query_intersection(&early).unwrap().found.map(key), first, "{what}");
     if without_tolerance {
         let touching = SceneQuery { distance_tolerance: 0.0, ..SceneQuery::default() };
-        agree(scene.query_contacts(&touching).unwrap().pairs, &all, intersects, what);
+        agree(scene.query_contact(&touching).unwrap().pairs, &all, intersects, what);
         let all = all_pairs(scene, f64::INFINITY);
-        agree(scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs, &all, |_| true, what);
+        agree(scene.query_distance(&SceneQuery::default()).unwrap().pairs, &all, |_| true, what);
     }
     all.len()
 }
@@ -233,7 +233,7 @@ fn answers_given_again_are_those_of_all_pairs() {
                     agree(&listed, &all, |answer| answer.outcome == Outcome::Intersecting, &what);
                     listed
                 } else {
-                    let listed = scene.query_exact_distance(&query).unwrap().pairs.to_vec();
+                    let listed = scene.query_distance(&query).unwrap().pairs.to_vec();
                     agree(&listed, &all, |_| true, &what);
                     listed
                 };

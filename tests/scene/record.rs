@@ -116,13 +116,13 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
         let shape = &shapes[round % 2];
         match round % 8 {
             0 => drop(scene.query_intersection(&near).unwrap()),
-            1 => drop(scene.query_exact_distance(&near).unwrap()),
-            2 => drop(scene.query_contacts(&SceneQuery { detail: ContactDetail::Manifold, ..near }).unwrap()),
-            3 => drop(scene.query_approximate_distance(&SceneQuery { error_budget: 0.3, ..near }).unwrap()),
+            1 => drop(scene.query_distance(&near).unwrap()),
+            2 => drop(scene.query_contact(&SceneQuery { detail: ContactDetail::Manifold, ..near }).unwrap()),
+            3 => drop(scene.query_approximate(&SceneQuery { error_budget: 0.3, ..near }).unwrap()),
             4 => drop(scene.query_object(any, Query::Distance, &near).unwrap()),
             5 => drop(scene.query_placed(shape, &random_pose(&mut random, 1.0), Query::Contact, &near).unwrap()),
             6 => drop(scene.query_events(0.2).unwrap()),
-            _ => drop(scene.query_exact_distance(&SceneQuery::default()).unwrap()),
+            _ => drop(scene.query_distance(&SceneQuery::default()).unwrap()),
         }
         asked += 1;
         if round % 9 == 8 {
@@ -133,7 +133,7 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
             scene.shrink().unwrap();
         }
         // Refused: nothing changes, and a replay does not trip over it.
-        assert!(scene.query_exact_distance(&SceneQuery { distance_tolerance: f64::NAN, ..near }).is_err());
+        assert!(scene.query_distance(&SceneQuery { distance_tolerance: f64::NAN, ..near }).is_err());
         assert!(scene.set_pose(ObjectId::NULL, &Pose::IDENTITY).is_err());
     }
     asked
@@ -183,10 +183,10 @@ fn a_scene_recorded_from_the_middle_of_its_life_lists_the_same() {
     let mut random = Random::new(5);
     for step in 0..30 {
         scene.set_pose(ids[step % ids.len()], &random_pose(&mut random, 2.0)).unwrap();
-        scene.query_exact_distance(&queries[step % 3]).unwrap();
+        scene.query_distance(&queries[step % 3]).unwrap();
         scene.query_events(0.3).unwrap();
     }
-    scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    scene.query_distance(&SceneQuery::default()).unwrap();
     drop(scene);
     let played = play(&tape.bytes(), None).unwrap();
     assert_eq!((played.asked, played.cut_off), (61, false));
@@ -201,7 +201,7 @@ fn another_answer_than_the_recorded_one_is_found() {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..Default::default() };
         recorded.add_object(vec![cube.clone()], &options).unwrap();
     }
-    recorded.query_exact_distance(&SceneQuery::default()).unwrap();
+    recorded.query_distance(&SceneQuery::default()).unwrap();
     recorded.end_recording().unwrap();
     // The program does what was not recorded.
     for (x, tells) in [(5.0, "nothing in common"), (0.9, "not the recorded one"), (2.0, "")] {
@@ -288,7 +288,7 @@ fn a_question_that_ends_the_program_is_the_last_record() {
         true
     })));
     recorded.set_pose(ids[0], &at(0.1, 0.0, 0.0)).unwrap();
-    recorded.query_contacts(&SceneQuery::default()).unwrap();
+    recorded.query_contact(&SceneQuery::default()).unwrap();
     let bytes = during.lock().unwrap().clone();
     assert_eq!(play(&bytes, None).unwrap(), Played { steps: 1, asked: 1, identical: 0, cut_off: true });
 }
@@ -304,7 +304,7 @@ fn what_another_filter_said_is_not_remembered() {
         if x == 60.0 {
             recorded.set_pair_filter(Some(PairFilter::new(|_, _| false)));
         }
-        assert_eq!(recorded.query_exact_distance(&touching).unwrap().pairs.len(), count);
+        assert_eq!(recorded.query_distance(&touching).unwrap().pairs.len(), count);
     }
     recorded.end_recording().unwrap();
     let mut replay = Replay::from_reader(io::Cursor::new(tape.bytes())).unwrap();
@@ -313,7 +313,7 @@ fn what_another_filter_said_is_not_remembered() {
         replay.change(&mut scene).unwrap();
         replay.ask(&mut scene, None).unwrap().check.unwrap();
         // Here all pairs are near.
-        scene.query_exact_distance(&SceneQuery::default()).unwrap();
+        scene.query_distance(&SceneQuery::default()).unwrap();
     }
 }
 
@@ -357,7 +357,7 @@ fn files_are_recordings_or_refused() {
     // Another recording ends the first.
     let second = folder.join("second.swiftprox");
     recorded.record(&second).unwrap();
-    recorded.query_exact_distance(&SceneQuery::default()).unwrap();
+    recorded.query_distance(&SceneQuery::default()).unwrap();
     drop(recorded);
     assert_eq!(play(&std::fs::read(&path).unwrap(), None).unwrap().identical, asked);
     let mut replay = Replay::open(&second).unwrap();

@@ -38,7 +38,7 @@ fn listed(pairs: &[PairResult]) -> Vec<[ObjectId; 2]> {
 }
 
 fn distances(scene: &mut Scene, query: &SceneQuery) -> Vec<[ObjectId; 2]> {
-    listed(scene.query_exact_distance(query).unwrap().pairs)
+    listed(scene.query_distance(query).unwrap().pairs)
 }
 
 fn refused<T: std::fmt::Debug>(result: Result<T, Error>, part: &str) {
@@ -51,7 +51,7 @@ fn refused<T: std::fmt::Debug>(result: Result<T, Error>, part: &str) {
 #[test]
 fn an_empty_scene_answers() {
     let mut scene = scene();
-    let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+    let answer = scene.query_contact(&SceneQuery::default()).unwrap();
     assert!(!answer.intersecting && answer.pairs.is_empty());
 }
 
@@ -68,7 +68,7 @@ fn each_query_lists_what_it_promises() {
     assert_eq!(answer.pairs[0].answer.outcome, Outcome::Intersecting);
     assert_eq!((answer.pairs[0].user_data1, answer.pairs[0].user_data2), (100, 101));
 
-    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    let answer = scene.query_distance(&SceneQuery::default()).unwrap();
     assert!(answer.intersecting);
     assert_eq!(listed(answer.pairs), [pair(0, 1), pair(0, 2), pair(1, 2)]);
     for (result, distance) in answer.pairs.iter().zip([0.0, 2.0, 1.5]) {
@@ -76,12 +76,12 @@ fn each_query_lists_what_it_promises() {
     }
 
     // At most the tolerance: the pair exactly that far apart is listed, too.
-    assert_eq!(listed(scene.query_tolerance(&up_to(1.5)).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
-    assert_eq!(listed(scene.query_tolerance(&up_to(1.5_f64.next_down())).unwrap().pairs), [pair(0, 1)]);
+    assert_eq!(listed(scene.query_distance(&up_to(1.5)).unwrap().pairs), [pair(0, 1), pair(1, 2)]);
+    assert_eq!(listed(scene.query_distance(&up_to(1.5_f64.next_down())).unwrap().pairs), [pair(0, 1)]);
     assert_eq!(distances(&mut scene, &up_to(1.5)), [pair(0, 1), pair(1, 2)]);
 
     // Verification says of a separated pair all that the distance does, of an intersecting one the verdict.
-    let [overlapping, apart] = scene.query_tolerance(&up_to(1.5)).unwrap().pairs else { panic!() };
+    let [overlapping, apart] = scene.query_distance(&up_to(1.5)).unwrap().pairs else { panic!() };
     let points = |answer: &PairAnswer| [answer.local1, answer.local2, answer.world1, answer.world2, answer.normal];
     let features = |answer: &PairAnswer| [answer.feature1.kind, answer.feature2.kind];
     assert!(points(&apart.answer).as_flattened().iter().all(|x| x.is_finite()), "{apart:?}");
@@ -92,7 +92,7 @@ fn each_query_lists_what_it_promises() {
     assert!([distance, lower, upper] == [0.0; 3] && proof_count > 0, "{overlapping:?}");
     assert_eq!(features(&overlapping.answer), [FeatureKind::None; 2]);
 
-    let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+    let answer = scene.query_contact(&SceneQuery::default()).unwrap();
     assert_eq!(answer.pairs.len(), 3);
     for PairResult { answer, .. } in answer.pairs {
         let normal = Vector::from(answer.normal);
@@ -119,7 +119,7 @@ fn a_tolerance_is_decided_to_the_last_digit() {
         let polyhedra = [one, other].map(|object| object.pieces()[0].polyhedron());
         let truth = solve(polyhedra[0], one.pose(), polyhedra[1], other.pose(), &[]);
         assert!(truth.lower < truth.upper && truth.lower.next_up() == truth.upper, "{truth:?}");
-        for query in [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts] {
+        for query in [Scene::query_distance, Scene::query_contact] {
             assert_eq!(listed(query(&mut scene, &up_to(truth.lower)).unwrap().pairs).len(), 0);
             assert_eq!(listed(query(&mut scene, &up_to(truth.upper)).unwrap().pairs), [[ids[0], ids[1]]]);
         }
@@ -144,12 +144,12 @@ fn early_exit_lists_nothing_when_something_intersects() {
     let mut scene = scene();
     let ids = cubes(&mut scene, &[0.0, 2.0, 4.5]);
     let query = SceneQuery { early_exit: true, ..Default::default() };
-    let answer = scene.query_exact_distance(&query).unwrap();
+    let answer = scene.query_distance(&query).unwrap();
     assert!(!answer.intersecting);
     assert_eq!((answer.pairs.len(), answer.found), (3, None));
 
     scene.set_pose(ids[2], &at(2.5, 0.0, 0.0)).unwrap();
-    let answer = scene.query_exact_distance(&query).unwrap();
+    let answer = scene.query_distance(&query).unwrap();
     assert!(answer.intersecting && answer.pairs.is_empty());
     assert_eq!(answer.found.map(|found| [found.object1, found.object2]), Some([ids[1], ids[2]]));
     let answer = scene.query_intersection(&query).unwrap();
@@ -158,11 +158,11 @@ fn early_exit_lists_nothing_when_something_intersects() {
     // Of several the first in the order of results, however the objects came to where they are.
     scene.set_pose(ids[0], &at(1.5, 0.0, 0.0)).unwrap();
     for query in [query, SceneQuery { distance_tolerance: 0.0, ..query }] {
-        let found = scene.query_contacts(&query).unwrap().found.copied().unwrap();
+        let found = scene.query_contact(&query).unwrap().found.copied().unwrap();
         assert_eq!([found.object1, found.object2], [ids[0], ids[1]]);
         assert_eq!(found.answer.outcome, Outcome::Intersecting);
     }
-    assert_eq!(scene.query_contacts(&SceneQuery::default()).unwrap().found, None);
+    assert_eq!(scene.query_contact(&SceneQuery::default()).unwrap().found, None);
 }
 
 /// Distances that no double holds are no reason to lose the others.
@@ -170,7 +170,7 @@ fn early_exit_lists_nothing_when_something_intersects() {
 fn far_objects_cost_no_other_answer() {
     let mut scene = scene();
     let ids = cubes(&mut scene, &[0.0, 0.5, f64::MAX, -f64::MAX, 1e300, 4.0]);
-    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    let answer = scene.query_distance(&SceneQuery::default()).unwrap();
     assert!(answer.intersecting);
     assert_eq!(answer.pairs.len(), 15);
     for pair in answer.pairs {
@@ -188,9 +188,9 @@ fn a_senseless_tolerance_is_refused_and_the_scene_stays_usable() {
     cubes(&mut scene, &[0.0, 2.0]);
     for tolerance in [-1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY, f64::NAN] {
         refused(scene.query_intersection(&up_to(tolerance)), "tolerance");
-        refused(scene.query_tolerance(&up_to(tolerance)), "tolerance");
-        refused(scene.query_exact_distance(&up_to(tolerance)), "tolerance");
-        refused(scene.query_contacts(&up_to(tolerance)), "tolerance");
+        refused(scene.query_distance(&up_to(tolerance)), "tolerance");
+        refused(scene.query_distance(&up_to(tolerance)), "tolerance");
+        refused(scene.query_contact(&up_to(tolerance)), "tolerance");
     }
     assert_eq!(distances(&mut scene, &SceneQuery::default()).len(), 1);
 }
@@ -355,14 +355,14 @@ fn a_copy_shares_the_geometry_and_stands_where_its_original_does() {
 fn statistics_add_up() {
     let mut scene = scene();
     cubes(&mut scene, &[0.0, 0.5, 3.0]);
-    scene.query_contacts(&SceneQuery::default()).unwrap();
-    scene.query_contacts(&SceneQuery::default()).unwrap();
+    scene.query_contact(&SceneQuery::default()).unwrap();
+    scene.query_contact(&SceneQuery::default()).unwrap();
     let statistics = *scene.statistics();
     assert_eq!((statistics.queries, statistics.pairs), (2, 6));
     let SceneStatistics { marched, coherent, fallback, exact, bounding_spheres, unmoved, .. } = statistics;
     assert_eq!((marched + coherent + fallback + exact + bounding_spheres, unmoved), (3, 3));
     // Another query is asked anew.
-    scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    scene.query_distance(&SceneQuery::default()).unwrap();
     assert_eq!((scene.statistics().pairs, scene.statistics().unmoved), (9, 3));
     assert!(statistics.marching_steps + statistics.fallback_iterations + statistics.exact_iterations > 0);
     scene.reset_statistics();
@@ -387,9 +387,7 @@ fn error_spent_is_what_distances_leave_open() {
     let near = SceneQuery { distance_tolerance: 0.5, absolute_error: 0.1, ..Default::default() };
     let hurried = SceneQuery { step_budget: 1, start: Start::Cold, ..near };
     let mut undecided = 0;
-    for ask in
-        [Scene::query_tolerance, Scene::query_exact_distance, Scene::query_contacts, Scene::query_approximate_distance]
-    {
+    for ask in [Scene::query_distance, Scene::query_contact, Scene::query_approximate] {
         for query in [near, hurried] {
             scene.reset_statistics();
             let pairs = ask(&mut scene, &query).unwrap().pairs;
@@ -407,7 +405,7 @@ fn steps(scene: &mut Scene) -> u32 {
     let first = scene.objects().next().unwrap().id();
     scene.set_user_data(first, 0).unwrap();
     scene.query_intersection(&SceneQuery::default()).unwrap();
-    let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+    let answer = scene.query_distance(&SceneQuery::default()).unwrap();
     answer.pairs[0].answer.statistics.marching_steps
 }
 
@@ -544,7 +542,7 @@ fn answers_do_not_depend_on_the_past() {
         seen[0] += intersecting.len();
         seen[1] += expected.len();
 
-        let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+        let answer = scene.query_distance(&SceneQuery::default()).unwrap();
         assert_eq!(answer.intersecting, !intersecting.is_empty());
         agree(answer.pairs, &expected);
         let mut answers = answer.pairs.to_vec();
@@ -552,16 +550,16 @@ fn answers_do_not_depend_on_the_past() {
         assert_eq!(answer.intersecting, !intersecting.is_empty());
         agree(answer.pairs, &intersecting);
         answers.extend(answer.pairs);
-        let answer = scene.query_contacts(&SceneQuery::default()).unwrap();
+        let answer = scene.query_contact(&SceneQuery::default()).unwrap();
         agree(answer.pairs, &expected);
         answers.extend(answer.pairs);
         verified(&scene, &answers);
 
         let tolerance = 0.3;
         let near: Vec<PairResult> = expected.into_iter().filter(|r| r.answer.lower <= tolerance).collect();
-        agree(scene.query_tolerance(&up_to(tolerance)).unwrap().pairs, &near);
+        agree(scene.query_distance(&up_to(tolerance)).unwrap().pairs, &near);
         let early = SceneQuery { early_exit: true, ..up_to(tolerance) };
-        let answer = scene.query_contacts(&early).unwrap();
+        let answer = scene.query_contact(&early).unwrap();
         assert_eq!(answer.intersecting, !intersecting.is_empty());
         agree(answer.pairs, if intersecting.is_empty() { &near } else { &[] });
         agree(answer.found.map_or(&[], std::slice::from_ref), &intersecting[..intersecting.len().min(1)]);
@@ -582,7 +580,7 @@ fn approximate_distances_and_a_budget_for_all() {
         let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
         scene.add_object(vec![shape.clone()], &options).unwrap();
     }
-    let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
+    let exact: Vec<PairResult> = scene.query_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
     let all = SceneQuery { levels: Levels::All, ..SceneQuery::default() };
     let wide = SceneQuery { absolute_error: 0.2, ..all };
     let budget = SceneQuery { error_budget: 6.6, ..all };
@@ -590,7 +588,7 @@ fn approximate_distances_and_a_budget_for_all() {
     for (query, error, total) in [(wide, 0.2, f64::INFINITY), (budget, 6.6, 6.6), (tight, 1e-6, 1e-6)] {
         for _ in 0..2 {
             scene.reset_statistics();
-            let answer = scene.query_approximate_distance(&query).unwrap();
+            let answer = scene.query_approximate(&query).unwrap();
             assert_eq!(answer.pairs.len(), 66);
             for (pair, exact) in answer.pairs.iter().zip(&exact) {
                 let (answer, exact) = (&pair.answer, &exact.answer);
@@ -611,11 +609,11 @@ fn approximate_distances_and_a_budget_for_all() {
         SceneQuery { distance_tolerance: f64::NAN, ..Default::default() },
     ] {
         // By every query, whether it does without the member or not.
-        assert!(matches!(scene.query_approximate_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_approximate(&query), Err(Error::Argument(_))));
         assert!(matches!(scene.query_intersection(&query), Err(Error::Argument(_))));
-        assert!(matches!(scene.query_tolerance(&query), Err(Error::Argument(_))));
-        assert!(matches!(scene.query_exact_distance(&query), Err(Error::Argument(_))));
-        assert!(matches!(scene.query_contacts(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_distance(&query), Err(Error::Argument(_))));
+        assert!(matches!(scene.query_contact(&query), Err(Error::Argument(_))));
     }
 }
 
@@ -629,12 +627,12 @@ fn maps_of_support_functions_spend_a_budget() {
         let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
         scene.add_object(vec![shape.clone()], &options).unwrap();
     }
-    let exact: Vec<PairResult> = scene.query_exact_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
+    let exact: Vec<PairResult> = scene.query_distance(&SceneQuery::default()).unwrap().pairs.to_vec();
     let budget = SceneQuery { error_budget: 1.0, ..SceneQuery::default() };
     let error = SceneQuery { absolute_error: 0.03, ..SceneQuery::default() };
     for (query, total) in [(budget, 1.0), (error, 28.0 * 0.03)] {
         scene.reset_statistics();
-        let answer = scene.query_approximate_distance(&query).unwrap();
+        let answer = scene.query_approximate(&query).unwrap();
         assert_eq!(answer.pairs.len(), 28);
         for (pair, exact) in answer.pairs.iter().zip(&exact) {
             let (answer, exact) = (&pair.answer, &exact.answer);
@@ -670,7 +668,7 @@ fn a_budget_holds_while_objects_move() {
         let query = SceneQuery { error_budget, levels: Levels::All, distance_tolerance: 1.5, ..SceneQuery::default() };
         for is_repeated in [false, true] {
             scene.reset_statistics();
-            let answer = scene.query_approximate_distance(&query).unwrap();
+            let answer = scene.query_approximate(&query).unwrap();
             let widths: f64 = answer.pairs.iter().map(|pair| pair.answer.upper - pair.answer.lower).sum();
             assert!(widths <= error_budget + 1e-11, "{widths} {error_budget} {step}");
             spent = spent.max(widths / error_budget);
@@ -679,8 +677,8 @@ fn a_budget_holds_while_objects_move() {
             assert!(!is_repeated || statistics.unmoved == statistics.pairs, "{statistics:?}");
             again += statistics.unmoved;
         }
-        let approximate: Vec<PairResult> = scene.query_approximate_distance(&query).unwrap().pairs.to_vec();
-        let exact = scene.query_exact_distance(&query).unwrap().pairs;
+        let approximate: Vec<PairResult> = scene.query_approximate(&query).unwrap().pairs.to_vec();
+        let exact = scene.query_distance(&query).unwrap().pairs;
         assert_eq!(approximate.len(), exact.len());
         for (approximate, exact) in approximate.iter().zip(exact) {
             let (approximate, exact) = (&approximate.answer, &exact.answer);
@@ -719,11 +717,7 @@ fn approximate_distances_within_a_tolerance_cost_no_more_than_exact_ones() {
             }
             for is_at_rest in [false, true] {
                 let before = scene.statistics().marching_steps;
-                let answer = if is_exact {
-                    scene.query_exact_distance(&query)
-                } else {
-                    scene.query_approximate_distance(&query)
-                };
+                let answer = if is_exact { scene.query_distance(&query) } else { scene.query_approximate(&query) };
                 listed += answer.unwrap().pairs.len();
                 rest += if is_at_rest { scene.statistics().marching_steps - before } else { 0 };
             }
@@ -748,7 +742,7 @@ fn all_pairs_are_kept_up_to_a_limit() {
             scene.set_kept_pair_limit(limit);
         }
         let mut list = || -> Vec<[u64; 2]> {
-            let answer = scene.query_exact_distance(&SceneQuery::default()).unwrap();
+            let answer = scene.query_distance(&SceneQuery::default()).unwrap();
             answer.pairs.iter().map(|pair| [pair.user_data1, pair.user_data2]).collect()
         };
         let lists = [list(), list()];
@@ -769,7 +763,7 @@ fn few_pairs_are_near_whatever_the_tolerance_and_many_are_not() {
         let few = cubes(&mut scene, &places[..6]);
         let looked_at = |scene: &mut Scene| {
             scene.reset_statistics();
-            assert!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.is_empty());
+            assert!(scene.query_distance(&up_to(0.5)).unwrap().pairs.is_empty());
             scene.statistics().pairs
         };
         assert_eq!(looked_at(&mut scene), 15);
@@ -784,9 +778,9 @@ fn few_pairs_are_near_whatever_the_tolerance_and_many_are_not() {
         assert_eq!(looked_at(&mut scene), 15);
         // One that comes near is found in either.
         scene.set_pose(few[5], &at(1.25, 0.0, 0.0)).unwrap();
-        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1);
+        assert_eq!(scene.query_distance(&up_to(0.5)).unwrap().pairs.len(), 1);
         cubes(&mut scene, &places[6..]);
-        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1);
+        assert_eq!(scene.query_distance(&up_to(0.5)).unwrap().pairs.len(), 1);
     }
 }
 
@@ -803,7 +797,7 @@ fn a_crowd_that_grows_keeps_no_state_of_all_pairs() {
             scene.shrink().unwrap();
         }
         scene.reset_statistics();
-        assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 1_999);
+        assert_eq!(scene.query_distance(&up_to(0.5)).unwrap().pairs.len(), 1_999);
         assert!(scene.statistics().pairs < 10_000, "{:?}", scene.statistics());
     }
     // Deactivated pairwise, by object and wholly, it stays as small.
@@ -811,9 +805,9 @@ fn a_crowd_that_grows_keeps_no_state_of_all_pairs() {
     for pair in ids.windows(2).step_by(2) {
         scene.set_pair_active(pair[0], pair[1], false).unwrap();
     }
-    assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 999);
+    assert_eq!(scene.query_distance(&up_to(0.5)).unwrap().pairs.len(), 999);
     scene.set_all_active(false);
     scene.reset_statistics();
-    assert_eq!(scene.query_tolerance(&up_to(0.5)).unwrap().pairs.len(), 0);
+    assert_eq!(scene.query_distance(&up_to(0.5)).unwrap().pairs.len(), 0);
     assert_eq!(scene.statistics().pairs, 0);
 }

@@ -95,7 +95,7 @@ impl World {
             4 => {
                 let tolerance = random.pick(&[0.0, 1.0, f64::INFINITY]);
                 self.scene
-                    .query_exact_distance(&SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() })
+                    .query_distance(&SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() })
                     .unwrap();
             }
             _ => {

@@ -156,10 +156,10 @@ fn query(scene: &mut Scene, model: &mut Model, shapes: &[Arc<Shape>], random: &m
     let mut expected = model.near(tolerance);
     let answer = match kind {
         0 | 1 => scene.query_intersection(&query),
-        2 => scene.query_exact_distance(&query),
-        3 => scene.query_contacts(&query),
-        4 => scene.query_approximate_distance(&SceneQuery { absolute_error: 0.01, ..query }),
-        5 => scene.query_approximate_distance(&SceneQuery { error_budget: 0.5, ..query }),
+        2 => scene.query_distance(&query),
+        3 => scene.query_contact(&query),
+        4 => scene.query_approximate(&SceneQuery { absolute_error: 0.01, ..query }),
+        5 => scene.query_approximate(&SceneQuery { error_budget: 0.5, ..query }),
         6 if !model.objects.is_empty() => {
             let id = model.objects[random.below(model.objects.len())].id;
             expected.retain(|((one, other, ..), _)| [one, other].contains(&&id));

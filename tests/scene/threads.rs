@@ -34,7 +34,7 @@ fn threads_share_shapes_and_a_scene() {
             shared.add_object(vec![shape.clone()], &options).unwrap()
         })
         .collect();
-    shared.query_exact_distance(&SceneQuery::default()).unwrap();
+    shared.query_distance(&SceneQuery::default()).unwrap();
     let (shared, start) = (&shared, Barrier::new(THREADS));
     let work = || {
         start.wait();
@@ -59,7 +59,7 @@ fn threads_share_shapes_and_a_scene() {
                 let options = ObjectOptions { pose: *object.pose(), ..ObjectOptions::default() };
                 own.add_object(object.pieces().to_vec(), &options).unwrap();
             }
-            let listed = own.query_exact_distance(&SceneQuery::default()).unwrap();
+            let listed = own.query_distance(&SceneQuery::default()).unwrap();
             assert_eq!(listed.pairs.len(), 3, "round {round}");
             distances.extend(listed.pairs.iter().map(|pair| pair.answer.distance));
         }
@@ -100,12 +100,12 @@ fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
         let early = SceneQuery { early_exit: true, ..near };
         seen.push(told(scene.query_intersection(&near).unwrap()));
         // Twice: the second time most answers are given again.
-        seen.push(told(scene.query_exact_distance(&near).unwrap()));
+        seen.push(told(scene.query_distance(&near).unwrap()));
         for (pose, id) in poses.iter_mut().zip(&ids).skip(step).step_by(40) {
             *pose = Pose::new(&pose.rotation(), &(pose.translation() + random.vector() * 0.05));
             scene.set_pose(*id, pose).unwrap();
         }
-        seen.push(told(scene.query_exact_distance(&near).unwrap()));
+        seen.push(told(scene.query_distance(&near).unwrap()));
         seen.push(told(scene.query_intersection(&early).unwrap()));
         seen.push(format!("{:?}", scene.statistics()));
     }
@@ -176,7 +176,7 @@ fn crowd(workers: Option<Workers>) -> Vec<String> {
         scene.set_poses(&moving, &poses).unwrap();
         let of = |pair: &PairResult| format!("{} {} {:?}", pair.user_data1, pair.user_data2, pair.answer);
         let near = SceneQuery { distance_tolerance: 0.1, ..SceneQuery::default() };
-        seen.extend(scene.query_exact_distance(&near).unwrap().pairs.iter().map(of));
+        seen.extend(scene.query_distance(&near).unwrap().pairs.iter().map(of));
         seen.push(format!("{:?}", scene.statistics()));
         let places = |piece: usize| scene.objects().filter(move |object| object.pieces().len() > piece);
         seen.extend([0, 1].map(|piece| {
@@ -225,7 +225,7 @@ fn a_panic_while_objects_are_moved_hides_no_pair() {
     let listed = |scene: &mut Scene| {
         let near = SceneQuery { distance_tolerance: 0.1, ..SceneQuery::default() };
         let of = |pair: &PairResult| (pair.user_data1, pair.user_data2, pair.answer.outcome);
-        scene.query_exact_distance(&near).unwrap().pairs.iter().map(of).collect::<Vec<_>>()
+        scene.query_distance(&near).unwrap().pairs.iter().map(of).collect::<Vec<_>>()
     };
     let mut random = Random::new(0xfa11);
     let poses: Vec<Pose> = (0..COUNT).map(|_| random_pose(&mut random, 12.0)).collect();

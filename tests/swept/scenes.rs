@@ -49,7 +49,7 @@ fn a_scene_finds_what_all_pairs_are() {
             }
         }
         let query = SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() };
-        let answer = scene.query_exact_distance(&query).unwrap();
+        let answer = scene.query_distance(&query).unwrap();
         assert_eq!(answer.pairs.len(), expected.len());
         for (pair, (a, b, outcome, length)) in answer.pairs.iter().zip(&expected) {
             assert_eq!((pair.object1, pair.object2, pair.answer.outcome), (*a, *b, *outcome));
@@ -61,7 +61,7 @@ fn a_scene_finds_what_all_pairs_are() {
         assert_eq!(answer.pairs.len(), meeting.len());
         assert!(answer.pairs.iter().zip(&meeting).all(|(pair, (a, b, ..))| (pair.object1, pair.object2) == (*a, *b)));
         let contacts = SceneQuery { detail: ContactDetail::Manifold, ..query };
-        let answer = scene.query_contacts(&contacts).unwrap();
+        let answer = scene.query_contact(&contacts).unwrap();
         for (pair, contact) in answer.pairs.iter().zip(answer.contacts.contacts) {
             assert_eq!(pair.answer.outcome, contact.manifold.outcome);
             assert!(contact.manifold.point_count > 0);

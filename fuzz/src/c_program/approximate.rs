@@ -114,7 +114,7 @@ impl Program {
         let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
         // SAFETY: a living scene, query and answer; the results are the scene's until its next query.
         unsafe {
-            let run = || swiftprox_scene_query_approximate_distance(scene.handle, &query, &mut answer);
+            let run = || swiftprox_scene_query_approximate(scene.handle, &query, &mut answer);
             let status = inside(self.environment, run);
             assert_eq!(status == StatusCode::Ok, query.error_budget >= 0.0, "{}", last_message());
             let listed: &[PairResult] =

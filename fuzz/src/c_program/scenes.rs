@@ -343,12 +343,11 @@ impl Program {
         let changes = [(std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..])];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
-        let query = u.int_in_range(0..=3)?;
+        let query = u.int_in_range(0..=2)?;
         let run = [
             swiftprox_scene_query_intersection,
-            swiftprox_scene_query_tolerance,
-            swiftprox_scene_query_exact_distance,
-            swiftprox_scene_query_contacts,
+            swiftprox_scene_query_distance,
+            swiftprox_scene_query_contact,
         ][query];
         let block = Block::new(size_of::<CSceneAnswer>());
         let target = or_null(u, block.at::<CSceneAnswer>())?;
@@ -451,7 +450,7 @@ impl Program {
                 1 => swiftprox_scene_filter_again(scene.handle),
                 2 => {
                     scene.given = None;
-                    swiftprox_scene_find_pairs(scene.handle)
+                    swiftprox_scene_reset_pairs(scene.handle)
                 }
                 _ => {
                     let pairs: Vec<[ObjectId; 2]> = ids.as_chunks().0.to_vec();

@@ -29,7 +29,7 @@ inline void SWIFT_Scene::give_overlapping_boxes()
 inline void SWIFT_Scene::take_near_pairs()
 {
     if (gives_pairs_) {
-        const swiftprox_status status = swiftprox_scene_find_pairs(scene_);
+        const swiftprox_status status = swiftprox_scene_reset_pairs(scene_);
         check(status, "Query");
         gives_pairs_ = status != SWIFTPROX_OK;
     }
@@ -107,7 +107,7 @@ inline bool SWIFT_Scene::Query_Intersection(bool early_exit, int& num_pairs, int
 inline bool SWIFT_Scene::Query_Tolerance_Verification(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids)
 {
     /* It ends early at pairs that are near, too: swiftprox looks at all of them. */
-    const swift_legacy::Question question(swiftprox_scene_query_tolerance, false,
+    const swift_legacy::Question question(swiftprox_scene_query_distance, false,
                                           swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
     ask(question, num_pairs, oids);
     results_.keep_nearest();
@@ -123,7 +123,7 @@ inline bool SWIFT_Scene::Query_Exact_Distance(bool early_exit, SWIFT_Real tolera
                                               SWIFT_Real** distances)
 {
     const swift_legacy::Bound bound = SWIFT_LEGACY_VERSION == 2 ? swift_legacy::BOUND_EXCLUDED : swift_legacy::BOUND_INCLUDED;
-    const swift_legacy::Question question(swiftprox_scene_query_exact_distance, early_exit,
+    const swift_legacy::Question question(swiftprox_scene_query_distance, early_exit,
                                           swift_legacy::native_tolerance(tolerance, bound));
     const bool intersects = ask(question, num_pairs, oids);
     results_.keep_nearest();
@@ -137,7 +137,7 @@ inline bool SWIFT_Scene::Query_Exact_Distance(bool early_exit, SWIFT_Real tolera
 inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real distance_tolerance, SWIFT_Real error_tolerance,
                                                     int& num_pairs, int** oids, SWIFT_Real** distances, SWIFT_Real** errors)
 {
-    swift_legacy::Question question(swiftprox_scene_query_approximate_distance, early_exit,
+    swift_legacy::Question question(swiftprox_scene_query_approximate, early_exit,
                                     swift_legacy::native_tolerance(distance_tolerance, swift_legacy::BOUND_INCLUDED));
     question.absolute_error = swift_legacy::native_error(error_tolerance);
     const bool intersects = ask(question, num_pairs, oids);
@@ -153,7 +153,7 @@ inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real
                                                      SWIFT_Real** distances, SWIFT_Real** nearest_pts, SWIFT_Real** normals,
                                                      int** pids, int** feature_types, int** feature_ids)
 {
-    const swift_legacy::Question question(swiftprox_scene_query_contacts, early_exit,
+    const swift_legacy::Question question(swiftprox_scene_query_contact, early_exit,
                                           swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_INCLUDED));
     const bool intersects = ask(question, num_pairs, oids);
     results_.keep_nearest();
@@ -169,7 +169,7 @@ inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real
 inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real tolerance, SWIFT_Real abs_error,
                                                     SWIFT_Real rel_error, int& num_pairs, int** oids, SWIFT_Real** distances)
 {
-    swift_legacy::Question question(swiftprox_scene_query_approximate_distance, early_exit,
+    swift_legacy::Question question(swiftprox_scene_query_approximate, early_exit,
                                     swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
     question.absolute_error = swift_legacy::native_error(abs_error);
     question.relative_error = swift_legacy::native_error(rel_error);
@@ -185,7 +185,7 @@ inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real
                                                      int** num_contacts, SWIFT_Real** distances, SWIFT_Real** nearest_pts,
                                                      SWIFT_Real** normals, int** feature_types, int** feature_ids)
 {
-    const swift_legacy::Question question(swiftprox_scene_query_contacts, early_exit,
+    const swift_legacy::Question question(swiftprox_scene_query_contact, early_exit,
                                           swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
     const bool intersects = ask(question, num_pairs, oids);
     if (num_contacts != NULL) {

@@ -3,6 +3,7 @@
 use crate::base::error::{Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
 use crate::pair::answer::{Feature, Outcome};
+use crate::pair::depth::DepthCache;
 use crate::pair::signed_distance::SignedDistanceCache;
 
 /// What a manifold query is asked for.
@@ -29,7 +30,7 @@ impl ManifoldConfig {
     ///
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
         check_range("margin", self.margin, 0.0..=f64::INFINITY)
     }
@@ -43,6 +44,13 @@ impl ManifoldConfig {
 pub struct ManifoldCache {
     pub(crate) signed_distance: SignedDistanceCache,
     pub(super) reference: Reference,
+}
+
+impl ManifoldCache {
+    /// What it remembers of the depth.
+    pub(crate) fn depth(&self) -> &DepthCache {
+        self.signed_distance.depth()
+    }
 }
 
 /// What a manifold was made over, and what stayed of it. Any numbers are safe.
@@ -87,6 +95,13 @@ pub struct ManifoldPoint {
     pub feature2: Feature,
     /// A number made of the two features: while they stay it stays.
     pub id: u64,
+}
+
+impl ManifoldPoint {
+    /// The best estimate of the gap, in its interval: its middle.
+    pub fn gap(&self) -> f64 {
+        self.gap_lower + 0.5 * (self.gap_upper - self.gap_lower)
+    }
 }
 
 /// Nothing is said.

@@ -32,7 +32,7 @@ pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::Precision;
 pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
-use id::id_of;
+pub(super) use id::id_of;
 use outline::{Axes, Outline};
 use overlay::Overlay;
 use patch::{COINCIDENT, Facing, facing};
@@ -54,9 +54,25 @@ pub fn manifold(
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
+    manifold_with_distance(bodies, cache, config, points).map(|(manifold, _)| manifold)
+}
+
+/// As [`manifold`], with the signed distance that it is made from: the estimate, and the witness points with their features.
+///
+/// # Errors
+/// As of [`manifold`].
+pub fn manifold_with_distance(
+    bodies: [Placed; 2],
+    cache: &mut ManifoldCache,
+    config: &ManifoldConfig,
+    points: &mut [ManifoldPoint],
+) -> Result<(Manifold, SignedDistance)> {
     let capacity = points.len();
     let mut write = |place: usize, fill: Fill| fill(&mut points[place]);
-    manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write })
+    let mut sink = Sink { capacity, written: 0, write: &mut write };
+    let mut distance = SignedDistance::default();
+    let manifold = manifold_into(bodies, cache, config, &mut sink, &mut distance)?;
+    Ok((manifold, distance))
 }
 
 /// Fills all members of a point where it is to be: what was just written number by number is not copied (rule R1).
@@ -89,23 +105,23 @@ impl Sink<'_> {
     }
 }
 
-/// As [`manifold`], to where the caller says.
+/// As [`manifold_with_distance`], to where the caller says.
 pub(crate) fn manifold_into(
     bodies: [Placed; 2],
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut Sink,
+    contact: &mut SignedDistance,
 ) -> Result<Manifold> {
     with_default(|| {
         config.check()?;
-        let mut contact = SignedDistance::default();
         let within = PairConfig {
             distance_tolerance: config.margin,
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
-        signed_distance(bodies, &mut cache.signed_distance, &within, &mut contact)?;
-        Ok(of_bodies(bodies, &mut cache.reference, config, &contact, points))
+        signed_distance(bodies, &mut cache.signed_distance, &within, contact)?;
+        Ok(of_bodies(bodies, &mut cache.reference, config, contact, points))
     })
 }
 

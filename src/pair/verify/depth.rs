@@ -97,16 +97,7 @@ fn check_overlapping(
         return Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")));
     }
     let normal = Vector::from(answer.normal);
-    check_unit(&normal)?;
-    let facts = Facts::new(polyhedra, poses);
-    let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
-    check_upper(&facts, &normal, upper, allowed)?;
-    if lower > 0.0 {
-        prove_lower(&facts, cache, lower)?;
-    } else {
-        check_position(polyhedra, poses, upper)?;
-    }
+    let allowed = prove_overlap(polyhedra, poses, cache, radii, &normal, [lower, upper])?;
     let witnesses = witnesses(polyhedra, poses, radii, answer);
     // The interval is of the world, features are measured in the object's frame: no entry of RᵀR − I is beyond the limit L, so
     // |x| ≤ |R·x| / √(1 − 3L).
@@ -121,6 +112,66 @@ fn check_overlapping(
         return Ok(());
     }
     Err(unverified(format!("the witness points are {off:e} off the translation by {depth:e} along the normal")))
+}
+
+/// Proves that the depth of polyhedra is in an interval, and checks the normal; returns what rounding may make of a length.
+fn prove_overlap(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    cache: &DepthCache,
+    radii: &Radii,
+    normal: &Vector,
+    [lower, upper]: [f64; 2],
+) -> Result<f64> {
+    check_unit(normal)?;
+    let facts = Facts::new(polyhedra, poses);
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
+    check_upper(&facts, normal, upper, allowed)?;
+    if lower > 0.0 {
+        prove_lower(&facts, cache, lower)?;
+    } else {
+        check_position(polyhedra, poses, upper)?;
+    }
+    Ok(allowed)
+}
+
+/// The same of bodies, balls included where any are swept over them.
+pub(super) fn prove_depth(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    cache: &DepthCache,
+    radii: &Radii,
+    normal: &Vector,
+    interval: [f64; 2],
+) -> Result<f64> {
+    if radii.upper == 0.0 {
+        return prove_overlap(polyhedra, poses, cache, radii, normal, interval);
+    }
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    if truth.is_zero() {
+        return prove_overlap(polyhedra, poses, cache, radii, normal, of_polyhedra(radii, interval));
+    }
+    let [lower, upper] = interval;
+    check_swept_position(&truth, radii, upper)?;
+    let (outcome, normal) = (Outcome::Intersecting, (*normal).into());
+    let signed = PairAnswer { outcome, lower: -upper, distance: -upper, upper: -lower, normal, ..PairAnswer::UNSAID };
+    verify_disjoint(polyhedra, poses, radii, &signed)
+}
+
+/// The depth of polyhedra that overlap, from that of the bodies.
+fn of_polyhedra(radii: &Radii, [lower, upper]: [f64; 2]) -> [f64; 2] {
+    [sum_above(lower, -radii.lower).max(0.0), sum_below(upper, -radii.upper)]
+}
+
+/// Bodies whose polyhedra are apart have a common point, and overlap if anything is said of that.
+fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64) -> Result<()> {
+    match (truth.compare_sum(&radii.each), upper > 0.0) {
+        (Ordering::Greater, _) => Err(unverified("the objects have no common point".into())),
+        (Ordering::Equal, true) => Err(unverified("an overlap of objects that only touch".into())),
+        (Ordering::Less, false) => Err(unverified("no overlap of objects that overlap".into())),
+        (Ordering::Equal, false) | (Ordering::Less, true) => Ok(()),
+    }
 }
 
 /// Of bodies over which balls are swept: the depth of the polyhedra where they have a common point, or else their distance.
@@ -140,18 +191,12 @@ fn check_swept(
     if truth.is_zero() {
         let points = moved(&points, poses, &normal, radii.inwards());
         let ([local1, local2], [world1, world2]) = (points.local, points.world);
-        let lower = sum_above(lower, -radii.lower).max(0.0);
-        let upper = sum_below(upper, -radii.upper);
+        let [lower, upper] = of_polyhedra(radii, [lower, upper]);
         let depth = clamp(depth - radii.upper, lower, upper);
         let of_polyhedra = DepthAnswer { lower, depth, upper, local1, local2, world1, world2, ..*answer };
         return check_overlapping(polyhedra, poses, cache, radii, &of_polyhedra);
     }
-    match (truth.compare_sum(&radii.each), upper > 0.0) {
-        (Ordering::Greater, _) => return Err(unverified("the objects have no common point".into())),
-        (Ordering::Equal, true) => return Err(unverified("an overlap of objects that only touch".into())),
-        (Ordering::Less, false) => return Err(unverified("no overlap of objects that overlap".into())),
-        (Ordering::Equal, false) | (Ordering::Less, true) => {}
-    }
+    check_swept_position(&truth, radii, upper)?;
     let ([local1, local2], [world1, world2]) = (points.local, points.world);
     let signed = PairAnswer {
         outcome: Outcome::Intersecting,

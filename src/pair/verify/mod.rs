@@ -8,6 +8,7 @@ mod facets;
 mod witness;
 mod apart;
 mod depth;
+mod manifold;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
@@ -21,6 +22,7 @@ use apart::{check_points, not_in_interval, verify_disjoint, witnesses};
 pub(crate) use bounds::Bounds;
 use checks::{allowed, between_origins, check_unit, too_large, unverified};
 pub use depth::verify_depth;
+pub use manifold::verify_manifold;
 use numbers::{are_points_said, check_numbers};
 use witness::distance_between;
 

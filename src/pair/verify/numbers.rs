@@ -4,6 +4,7 @@ use super::checks::unverified;
 use crate::base::error::Result;
 use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
 use crate::pair::depth::DepthAnswer;
+use crate::pair::manifold::ManifoldPoint;
 
 /// What an answer says in numbers.
 pub struct Numbers {
@@ -33,6 +34,18 @@ impl From<&DepthAnswer> for Numbers {
             points: [answer.local1, answer.local2, answer.world1, answer.world2],
             normal: answer.normal,
             features: [answer.feature1, answer.feature2],
+        }
+    }
+}
+
+impl Numbers {
+    /// Of a point of a manifold with this normal: the interval is that of its gap.
+    pub fn of_point(point: &ManifoldPoint, normal: &[f64; 3]) -> Numbers {
+        Numbers {
+            interval: [point.gap_lower, point.gap_lower, point.gap_upper],
+            points: [point.local1, point.local2, point.world1, point.world2],
+            normal: *normal,
+            features: [point.feature1, point.feature2],
         }
     }
 }

@@ -10,7 +10,7 @@ use crate::base::math::Pose;
 use crate::pair::Query;
 use crate::scene::change::{Change, Numbers};
 use crate::scene::recording::digest::Digest;
-use crate::scene::search::query::{SceneQuery, Subject};
+use crate::scene::search::query::{PlacedBody, SceneQuery, Subject};
 use crate::scene::world::object::ObjectOptions;
 use crate::shape::Shape;
 use crate::shape::file::{from_bytes, to_bytes};
@@ -50,6 +50,7 @@ pub(crate) enum Kind {
     Answer = 22,
     Failed = 23,
     KeptPairLimit = 24,
+    PieceUserData = 30,
 }
 
 enumerator!(Kind {
@@ -77,7 +78,8 @@ enumerator!(Kind {
     Decisions,
     Answer,
     Failed,
-    KeptPairLimit
+    KeptPairLimit,
+    PieceUserData
 });
 
 /// A filter's word on a pair of objects.
@@ -101,7 +103,7 @@ pub(crate) enum Record<'a> {
     Shape(Arc<Shape>),
     Change(Change<'a, Numbers>),
     Question {
-        subject: Subject<u32, u32>,
+        subject: Subject<'static, u32, u32>,
         kind: Query,
         query: SceneQuery,
     },
@@ -189,6 +191,7 @@ fn kind_of(change: &Change<Numbers>) -> Kind {
         Change::Fixed(..) => Kind::Fixed,
         Change::Groups { .. } => Kind::Groups,
         Change::UserData(..) => Kind::UserData,
+        Change::PieceUserData { .. } => Kind::PieceUserData,
         Change::Pose(..) => Kind::Pose,
         Change::Poses(..) => Kind::Poses,
         Change::AllPoses(..) => Kind::AllPoses,
@@ -225,6 +228,11 @@ fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
         }
         Change::UserData(object, user_data) => {
             to.number(*object)?;
+            to.raw(user_data.to_le_bytes())
+        }
+        Change::PieceUserData { object, piece, user_data } => {
+            to.number(*object)?;
+            to.number(*piece)?;
             to.raw(user_data.to_le_bytes())
         }
         Change::Pose(object, pose) => {
@@ -276,6 +284,11 @@ fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>
         Kind::Fixed => Change::Fixed(from.number()?, from.flag()?),
         Kind::Groups => Change::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
         Kind::UserData => Change::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
+        Kind::PieceUserData => Change::PieceUserData {
+            object: from.number()?,
+            piece: from.number()?,
+            user_data: u64::from_le_bytes(from.raw()?),
+        },
         Kind::Pose => Change::Pose(from.number()?, Cow::Owned(from.pose()?)),
         Kind::Poses => Change::Poses(from.numbers()?.into(), from.poses()?.into()),
         Kind::AllPoses => Change::AllPoses(from.poses()?.into()),
@@ -322,10 +335,20 @@ impl Writer {
                 self.raw([1])?;
                 self.number(*object)
             }
-            Subject::Placed(shape, pose) => {
-                self.raw([2])?;
-                self.number(*shape)?;
-                self.pose(pose)
+            Subject::Placed(PlacedBody { pieces, mask }) => {
+                if let ([(shape, pose)], None) = (&**pieces, mask) {
+                    self.raw([2])?;
+                    self.number(*shape)?;
+                    return self.pose(pose);
+                }
+                self.raw([4])?;
+                self.flag(mask.is_some())?;
+                self.number(mask.unwrap_or_default())?;
+                self.number(pieces.len() as u32)?;
+                pieces.iter().try_for_each(|(shape, pose)| {
+                    self.number(*shape)?;
+                    self.pose(pose)
+                })
             }
             Subject::Events => self.raw([3]),
         }
@@ -385,12 +408,18 @@ impl Reader<'_> {
         self.list(size_of::<Pose>(), Reader::pose)
     }
 
-    fn subject(&mut self) -> Result<Subject<u32, u32>> {
+    fn subject(&mut self) -> Result<Subject<'static, u32, u32>> {
+        let piece = |from: &mut Self| Ok((from.number()?, from.pose()?));
         match self.raw()? {
             [0] => Ok(Subject::AllPairs),
             [1] => Ok(Subject::Object(self.number()?)),
-            [2] => Ok(Subject::Placed(self.number()?, self.pose()?)),
+            [2] => Ok(Subject::Placed(PlacedBody { pieces: vec![piece(self)?].into(), mask: None })),
             [3] => Ok(Subject::Events),
+            [4] => {
+                let (has_mask, mask) = (self.flag()?, self.number()?);
+                let pieces = self.list(size_of::<u32>() + size_of::<Pose>(), piece)?.into();
+                Ok(Subject::Placed(PlacedBody { pieces, mask: has_mask.then_some(mask) }))
+            }
             _ => self.damaged("a query about nothing known"),
         }
     }

@@ -29,7 +29,7 @@ use crate::base::error::{Error, Result};
 use crate::base::memory::{collected, push};
 use crate::pair::Query;
 use crate::scene::change::{Change, Numbers, Rename, Themselves};
-use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
+use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::activation::Word;
 use crate::scene::world::content::{DEFAULT_KEPT_PAIRS, World};
 use crate::scene::world::object::{ObjectId, ObjectTable};
@@ -118,7 +118,7 @@ impl Recording {
     /// Writes down a query that is to be answered: it outlives the program.
     pub fn question(
         &mut self,
-        subject: &Subject<ObjectId, &Arc<Shape>>,
+        subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
         objects: &ObjectTable,
@@ -127,7 +127,11 @@ impl Recording {
             let subject = match subject {
                 Subject::AllPairs => Subject::AllPairs,
                 Subject::Object(id) => Subject::Object(recorder.number(objects.get(*id)?.serial())?),
-                Subject::Placed(shape, pose) => Subject::Placed(recorder.shape(shape)?, *pose),
+                Subject::Placed(PlacedBody { pieces, mask }) => {
+                    let mut numbered = Vec::new();
+                    pieces.iter().try_for_each(|(shape, pose)| push(&mut numbered, (recorder.shape(shape)?, *pose)))?;
+                    Subject::Placed(PlacedBody { pieces: numbered.into(), mask: *mask })
+                }
                 Subject::Events => Subject::Events,
             };
             recorder.write(&Record::Question { subject, kind, query: *query })?;
@@ -199,6 +203,9 @@ fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
         write(Change::Object { pieces: object.pieces().into(), options: object.options() })?;
         for (piece, pose) in (0..).zip(object.piece_poses()) {
             write(Change::PiecePose { object: object.id(), piece, pose: *pose })?;
+        }
+        for (piece, user_data) in (0..).zip(object.piece_numbers()).filter(|(_, user_data)| **user_data != 0) {
+            write(Change::PieceUserData { object: object.id(), piece, user_data: *user_data })?;
         }
     }
     let stamps = world.view().iter().map(|object| (object.id(), object.entry.activation));

@@ -4,7 +4,6 @@
 use std::sync::{Arc, Mutex};
 
 use crate::base::error::{Error, Result};
-use crate::base::math::Pose;
 use crate::base::memory::{collected, filled};
 use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
@@ -17,7 +16,7 @@ use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::gathering::{all_pairs_of, near_pairs_of, pairs_of_last};
 use crate::scene::search::narrow_phase::{Own, Pass};
 use crate::scene::search::parts::{PartFindings, run_in_parts};
-use crate::scene::search::query::{SceneAnswer, SceneEvents, SceneQuery, Subject};
+use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::request::Request;
 use crate::scene::search::shares::{Need, deal};
 use crate::scene::search::statistics::SceneStatistics;
@@ -66,7 +65,7 @@ struct Kept {
 const KINDS: usize = KINDS_OF_PASSES + 1;
 
 /// The number of a query's kind.
-fn number_of<Object, Shape>(subject: &Subject<Object, Shape>, kind: Query) -> usize {
+fn number_of(subject: &Subject<ObjectId, Arc<Shape>>, kind: Query) -> usize {
     match subject {
         Subject::AllPairs => kind as usize,
         Subject::Events => KINDS_OF_PASSES - 1,
@@ -82,7 +81,7 @@ impl Search {
     pub fn ask(
         &mut self,
         ground: &mut Ground,
-        subject: &Subject<ObjectId, &Arc<Shape>>,
+        subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
@@ -114,17 +113,17 @@ impl Search {
     fn find(
         &mut self,
         ground: &mut Ground,
-        subject: &Subject<ObjectId, &Arc<Shape>>,
+        subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<bool> {
         let request = Request::new(kind, query)?;
-        match *subject {
+        match subject {
             Subject::AllPairs | Subject::Events => self.ask_all(ground, &request),
-            Subject::Object(id) => self.ask_object(ground, id, &request),
-            Subject::Placed(shape, pose) => {
-                pose.check(ground.world.rotation_limit)?;
-                self.ask_placed(ground, shape, &pose, &request)
+            Subject::Object(id) => self.ask_object(ground, *id, &request),
+            Subject::Placed(body) => {
+                body.check(ground.world.rotation_limit)?;
+                self.ask_placed(ground, body, &request)
             }
         }
     }
@@ -273,22 +272,26 @@ impl Search {
         self.pass_over_few(ground.world, &mut pairs, memory, request)
     }
 
-    fn ask_placed(&mut self, ground: &mut Ground, shape: &Arc<Shape>, pose: &Pose, request: &Request) -> Result<bool> {
+    fn ask_placed(&mut self, ground: &mut Ground, body: &PlacedBody<Arc<Shape>>, request: &Request) -> Result<bool> {
         ground.world.passes += 1;
         // Boxes are good for their tolerance where the scene itself finds the pairs.
         let by_boxes = ground.world.given.is_none() && ground.world.keeps_list(request.tolerance);
         if by_boxes {
             ground.near.update(ground.world, request.tolerance, ground.workers)?;
         }
-        ground.world.proxies.reserve(1)?;
-        let label = Label { object: ObjectId::NULL, user_data: 0, piece: 0, fixed: false, groups: 0, mask: 0 };
-        let own = ground.world.proxies.push_unseen(NewProxy { shape: shape.clone(), pose: *pose, label });
-        if by_boxes {
-            ground.world.proxies.refit(own, ground.near.tolerance());
+        let proxies = &mut ground.world.proxies;
+        let first = proxies.len();
+        proxies.reserve(body.pieces.len())?;
+        for (piece, (shape, pose)) in (0..).zip(&*body.pieces) {
+            let label = Label { object: ObjectId::NULL, user_data: 0, piece, fixed: false, groups: 0, mask: 0 };
+            let own = proxies.push_unseen(NewProxy { shape: shape.clone(), pose: *pose, label });
+            if by_boxes {
+                proxies.refit(own, ground.near.tolerance());
+            }
         }
-        let pairs = pairs_of_last(ground.world, by_boxes);
+        let pairs = pairs_of_last(proxies, first, body.mask, by_boxes);
         let stopped = pairs.and_then(|mut pairs| self.pass_without_memory(ground.world, &mut pairs, request));
-        ground.world.proxies.pop_unseen();
+        ground.world.proxies.end_unseen(first);
         stopped
     }
 

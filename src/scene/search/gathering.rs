@@ -1,10 +1,11 @@
-//! Pairs of one body: of an object of the scene, or of a shape that is put somewhere for the question alone.
+//! Pairs of one body: of an object of the scene, or of one that is put somewhere for the question alone.
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, push};
 use crate::scene::near::near_pairs::{NearPair, NearPairs};
 use crate::scene::world::content::World;
 use crate::scene::world::object::ObjectId;
+use crate::scene::world::proxies::Proxies;
 use crate::scene::world::testing::Testing;
 
 /// The pairs of an object that are in the list, with the memory that they have there.
@@ -39,17 +40,27 @@ pub(crate) fn all_pairs_of(world: &mut World, id: ObjectId) -> Result<Vec<NearPa
     Ok(pairs)
 }
 
-/// The pairs of the last row with all before it, or with those whose boxes overlap its own.
+/// The pairs of the rows from `first` on, which are of one body, with those before it of objects whose groups have a bit of the
+/// mask, if there is one: with all of these, or with those whose boxes overlap.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory).
-pub(crate) fn pairs_of_last(world: &World, by_boxes: bool) -> Result<Vec<NearPair>> {
-    let proxies = &world.proxies;
-    let own = proxies.len() - 1;
-    let is_near = |other: usize| !by_boxes || proxies.boxes[other].overlaps(&proxies.boxes[own]);
+pub(crate) fn pairs_of_last(
+    proxies: &Proxies,
+    first: usize,
+    mask: Option<u32>,
+    by_boxes: bool,
+) -> Result<Vec<NearPair>> {
+    let is_asked = |other: &usize| {
+        let label = &proxies.labels[*other];
+        !label.is_gone() && mask.is_none_or(|mask| label.groups & mask != 0)
+    };
+    let are_near = |other: usize, own: usize| !by_boxes || proxies.boxes[other].overlaps(&proxies.boxes[own]);
     let mut pairs = Vec::new();
-    for other in (0..own).filter(|&other| !proxies.is_gone(other) && is_near(other)) {
-        add(&mut pairs, [other, own])?;
+    for other in (0..first).filter(is_asked) {
+        for own in (first..proxies.len()).filter(|&own| are_near(other, own)) {
+            add(&mut pairs, [other, own])?;
+        }
     }
     Ok(pairs)
 }

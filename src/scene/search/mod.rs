@@ -19,4 +19,5 @@ mod shares;
 mod gathering;
 mod all_pairs;
 pub(crate) mod events;
+pub(crate) mod listener;
 pub(crate) mod ask;

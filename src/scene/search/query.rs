@@ -1,5 +1,8 @@
 //! What a query over a scene is asked for, and what it says.
 
+use std::borrow::Cow;
+
+use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::pair::{DepthAnswer, Levels, Manifold, ManifoldPoint, PairAnswer, Refinement, Start};
 use crate::scene::world::object::ObjectId;
@@ -13,17 +16,17 @@ pub struct SceneQuery {
     /// to +∞ (the default: all pairs, which takes time in proportion to their number).
     /// [`query_intersection`](crate::scene::Scene::query_intersection) does without it, but refuses one out of range.
     pub distance_tolerance: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): `upper − lower` of a pair may be as large as this …
+    /// [Approximate queries](crate::scene::Scene::query_approximate): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): finite, it is what `upper − lower` of all listed
+    /// [Approximate queries](crate::scene::Scene::query_approximate): finite, it is what `upper − lower` of all listed
     /// pairs together may come to, whatever the two errors say, beside what exact answers take. Pairs that maps of support
     /// functions or levels of detail may answer with a share of it take one, all the same; others are answered as by exact
     /// queries, and so are all where the scene does not keep all pairs
     /// ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default: +∞.
     pub error_budget: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate_distance): as
+    /// [Approximate queries](crate::scene::Scene::query_approximate): as
     /// [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
     pub step_budget: u32,
     /// Which levels of detail queries go through.
@@ -32,22 +35,47 @@ pub struct SceneQuery {
     pub refinement: Refinement,
     /// Where marching starts in each pair.
     pub start: Start,
-    /// [Contacts](crate::scene::Scene::query_contacts): what is said of each pair beside its answer. `absolute_error`,
+    /// [Contacts](crate::scene::Scene::query_contact): what is said of each pair beside its answer. `absolute_error`,
     /// `relative_error` and `step_budget` are then those of the depths.
     pub detail: ContactDetail,
-    /// [Contacts](crate::scene::Scene::query_contacts): pairs farther apart have no manifold, and points with a larger gap do not
+    /// [Contacts](crate::scene::Scene::query_contact): pairs farther apart have no manifold, and points with a larger gap do not
     /// belong to one; from 0 to +∞. It is the distance tolerance if that is less. Default: +∞.
     pub margin: f64,
 }
 
 /// What a query is about.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) enum Subject<Object, Shape> {
+#[derive(Debug, Clone)]
+pub(crate) enum Subject<'a, Object, Shape: Clone> {
     AllPairs,
     Object(Object),
-    Placed(Shape, Pose),
+    Placed(PlacedBody<'a, Shape>),
     /// What has changed since the last query of this kind; its distance is the query's tolerance.
     Events,
+}
+
+/// A body that is in no scene, put somewhere for one question.
+#[derive(Debug, Clone)]
+pub(crate) struct PlacedBody<'a, Shape: Clone> {
+    /// Its convex pieces, and where each is in the world.
+    pub pieces: Cow<'a, [(Shape, Pose)]>,
+    /// Objects are asked whose groups have a bit of it; without one all.
+    pub mask: Option<u32>,
+}
+
+impl<Shape: Clone> PlacedBody<'_, Shape> {
+    /// Refuses a body of no pieces, and poses that are not accepted.
+    ///
+    /// # Errors
+    /// [`Error::Argument`], [`Error::Pose`].
+    pub fn check(&self, rotation_limit: f64) -> Result<()> {
+        match &*self.pieces {
+            [] => Err(Error::Argument("a placed body needs at least one piece".into())),
+            [(_, pose)] => pose.check(rotation_limit),
+            pieces => (0..).zip(pieces).try_for_each(|(k, (_, pose)): (usize, _)| {
+                pose.check(rotation_limit).map_err(|error| error.about(&format!("pose {k} of {}", pieces.len())))
+            }),
+        }
+    }
 }
 
 /// What a query of contacts says of each pair beside its answer.

@@ -9,6 +9,7 @@ use crate::base::simd::environment::with_default;
 use crate::scene::world::activation::Activation;
 use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::object_view::Objects;
+use crate::scene::world::piece_data::PieceData;
 use crate::scene::world::proxies::{NewProxy, Proxies};
 use crate::scene::world::rows::Label;
 use crate::scene::world::testing::{Decided, PairFilter, Rules, is_tested};
@@ -25,6 +26,7 @@ const FEW_PAIRS: u64 = 16;
 pub(crate) struct World {
     pub objects: ObjectTable,
     pub proxies: Proxies,
+    pub piece_data: PieceData,
     pub activation: Activation,
     pub filter: Option<PairFilter>,
     /// The pairs of a program with a broad phase of its own; where there are none, the scene's own finds what is near.
@@ -42,6 +44,7 @@ impl World {
         World {
             objects: ObjectTable::new(),
             proxies: Proxies::default(),
+            piece_data: PieceData::default(),
             activation: Activation::default(),
             filter: None,
             given: None,
@@ -53,7 +56,7 @@ impl World {
 
     /// The objects, for reading.
     pub fn view(&self) -> Objects<'_> {
-        Objects { table: &self.objects, proxies: &self.proxies }
+        Objects { table: &self.objects, proxies: &self.proxies, piece_data: &self.piece_data }
     }
 
     /// The pieces, what says which pairs of them are tested, and which pairs the program gives.
@@ -80,6 +83,57 @@ impl World {
         Ok(id)
     }
 
+    /// Refuses objects of which one could not be added: so many of a piece each, with these options.
+    ///
+    /// # Errors
+    /// See [`Scene::add_shapes`](crate::scene::Scene::add_shapes).
+    pub fn check_additions(&self, count: usize, options: &[ObjectOptions]) -> Result<()> {
+        if options.len() != count {
+            return Err(Error::Argument(format!("{} options for {count} shapes", options.len())));
+        }
+        with_default(|| {
+            options.iter().enumerate().try_for_each(|(k, options)| {
+                let named = |error: Error| Error::Pose(format!("options[{k}]: {}", error.message()));
+                options.pose.check(self.rotation_limit).map_err(named)
+            })
+        })
+    }
+
+    /// Room for so many objects of a piece each.
+    ///
+    /// # Errors
+    /// [`Error::Limit`], [`Error::Memory`].
+    pub fn reserve(&mut self, count: usize) -> Result<()> {
+        self.objects.reserve(count, self.proxies.len() + count)?;
+        self.proxies.reserve(count)
+    }
+
+    /// Refuses objects of which one could not be removed; `sorted` has the bits of each id and its place, ascending.
+    ///
+    /// # Errors
+    /// See [`Scene::remove_objects`](crate::scene::Scene::remove_objects).
+    pub fn check_removals(&self, ids: &[ObjectId], sorted: &[(u64, usize)]) -> Result<()> {
+        for (k, id) in ids.iter().enumerate() {
+            self.objects.get(*id).map_err(|error| Error::Handle(format!("ids[{k}]: {}", error.message())))?;
+        }
+        match sorted.windows(2).filter(|two| two[0].0 == two[1].0).map(|two| two[1].1).min() {
+            Some(k) => Err(Error::Argument(format!("ids[{k}]: object {} is given twice", ids[k]))),
+            None => Ok(()),
+        }
+    }
+
+    /// Sets the caller's number of a piece.
+    ///
+    /// # Errors
+    /// As [`World::remove`]; [`Error::Argument`] for a piece that the object does not have, [`Error::Memory`].
+    pub fn set_piece_user_data(&mut self, id: ObjectId, piece: u32, user_data: u64) -> Result<()> {
+        let (piece, count) = (piece as usize, self.objects.get(id)?.proxies().len());
+        if piece >= count {
+            return Err(Error::Argument(format!("piece {piece} of an object of {count} pieces")));
+        }
+        self.piece_data.set(id, [piece, count], user_data)
+    }
+
     /// Adds an object that is like another one.
     ///
     /// # Errors
@@ -88,8 +142,10 @@ impl World {
         let original = self.view().get(id)?;
         let (options, piece_poses) = (original.options(), copied(original.piece_poses())?);
         let pieces = copied(original.pieces())?;
+        let piece_data = self.piece_data.copy_of(id)?;
         let copy = self.add(&pieces, &options)?;
         self.put_pieces(copy, piece_poses)?;
+        self.piece_data.put(copy, piece_data);
         Ok(copy)
     }
 
@@ -101,6 +157,7 @@ impl World {
         for proxy in self.objects.get(id)?.proxies() {
             self.proxies.end(proxy);
         }
+        self.piece_data.forget(id);
         self.objects.remove(id)
     }
 

@@ -5,6 +5,7 @@ pub(crate) mod activation;
 pub(crate) mod boxes;
 pub(crate) mod rows;
 pub(crate) mod proxies;
+pub(crate) mod piece_data;
 pub(crate) mod object_view;
 pub(crate) mod testing;
 pub(crate) mod content;

@@ -215,6 +215,26 @@ impl ObjectTable {
         Ok(ObjectId::new(slot, *generation, self.scene))
     }
 
+    /// Room for so many objects more, after which there are `rows` rows.
+    ///
+    /// # Errors
+    /// [`Error::Limit`] when there are not as many ids left, [`Error::Memory`].
+    pub(crate) fn reserve(&mut self, count: usize, rows: usize) -> Result<()> {
+        if rows > MOST_PROXIES {
+            return Err(Error::Limit(format!("a scene holds at most {MOST_PROXIES} pieces")));
+        }
+        let (mut new, mut free) = (count, self.free);
+        while new > 0
+            && let Some(Slot { holds: Holds::Nothing { next }, .. }) = self.slots.get(free as usize)
+        {
+            (new, free) = (new - 1, *next);
+        }
+        if self.slots.len() + new > 1 << SLOT_BITS {
+            return Err(Error::Limit(format!("a scene holds at most {} objects", 1 << SLOT_BITS)));
+        }
+        reserve_sparingly(&mut self.slots, new)
+    }
+
     /// The next to be used.
     fn empty_slot(&mut self) -> Result<usize> {
         if self.free == NONE {

@@ -7,6 +7,7 @@ use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::world::piece_data::PieceData;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::{Label, grown_box};
 use crate::shape::Shape;
@@ -16,6 +17,7 @@ use crate::shape::Shape;
 pub(crate) struct Objects<'a> {
     pub table: &'a ObjectTable,
     pub proxies: &'a Proxies,
+    pub piece_data: &'a PieceData,
 }
 
 impl<'a> Objects<'a> {
@@ -24,7 +26,7 @@ impl<'a> Objects<'a> {
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's.
     pub fn get(self, id: ObjectId) -> Result<Object<'a>> {
-        self.table.get(id).map(|entry| Object { entry, proxies: self.proxies })
+        self.table.get(id).map(|entry| Object { entry, proxies: self.proxies, piece_data: self.piece_data })
     }
 
     /// In order of creation.
@@ -38,6 +40,7 @@ impl<'a> Objects<'a> {
 pub struct Object<'a> {
     pub(crate) entry: &'a Entry,
     proxies: &'a Proxies,
+    piece_data: &'a PieceData,
 }
 
 impl<'a> Object<'a> {
@@ -126,6 +129,20 @@ impl<'a> Object<'a> {
     /// The caller's own number.
     pub fn user_data(&self) -> u64 {
         self.label().user_data
+    }
+
+    /// The caller's own number of a piece; 0 unless it was set.
+    ///
+    /// # Panics
+    /// Without such a piece.
+    pub fn piece_user_data(&self, piece: usize) -> u64 {
+        self.check(piece);
+        self.piece_data.get(self.id(), piece)
+    }
+
+    /// Those of all pieces; none where none was set.
+    pub(crate) fn piece_numbers(&self) -> &'a [u64] {
+        self.piece_data.of(self.id())
     }
 
     /// That of its first piece: all are alike, except in the piece's number.

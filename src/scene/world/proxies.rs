@@ -80,15 +80,15 @@ impl Proxies {
         self.len() - 1
     }
 
-    /// Ends the row of [`Proxies::push_unseen`].
-    pub fn pop_unseen(&mut self) {
-        self.shapes.pop();
-        self.poses.pop();
-        self.spheres.pop();
-        self.motions.pop();
-        self.boxes.pop();
-        self.labels.pop();
-        self.firsts.pop();
+    /// Ends the rows of [`Proxies::push_unseen`], from the first of them on.
+    pub fn end_unseen(&mut self, first: usize) {
+        self.shapes.truncate(first);
+        self.poses.truncate(first);
+        self.spheres.truncate(first);
+        self.motions.truncate(first);
+        self.boxes.truncate(first);
+        self.labels.truncate(first);
+        self.firsts.truncate(first);
     }
 
     /// It may meet others than before: its pairs are to be looked for anew.

@@ -57,8 +57,8 @@ impl Crowd for Ours {
         let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
         let answer = match self.question {
             Question::Intersection => self.scene.query_intersection(&near),
-            Question::Distance => self.scene.query_exact_distance(&near),
-            Question::Contact => self.scene.query_contacts(&touching),
+            Question::Distance => self.scene.query_distance(&near),
+            Question::Contact => self.scene.query_contact(&touching),
         };
         let answer = answer.expect("a sound query");
         let sum = match self.question {

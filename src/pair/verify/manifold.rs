@@ -1,0 +1,219 @@
+//! The independent check of a manifold: verdict, interval and normal are proved as those of a distance or a depth; each point is on
+//! both surfaces, on the sides that face each other, and its gap is that of its two places.
+
+use super::apart::{verify_disjoint, witnesses};
+use super::checks::{between_origins, length, unverified};
+use super::depth::prove_depth;
+use super::numbers::{Numbers, check_numbers};
+use super::witness::{Witness, difference_of};
+use crate::base::error::{Error, Result};
+use crate::base::math::{ROTATION_LIMIT, Vector};
+use crate::base::simd::environment::with_default;
+use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
+use crate::pair::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
+use crate::pair::placed::Placed;
+use crate::pair::radii::Radii;
+use crate::polyhedron::Polyhedron;
+
+/// Of the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up to 2⁻²⁷ of
+/// it apart are one; the incident patch is looked at along a normal that may be flat to it.
+const NEAR: f64 = f64::from_bits((1023 - 25) << 52);
+
+/// The same of the thickness of contact faces.
+const NOISE: f64 = 8.0;
+
+/// The cosine between the direction to the other body and the normal of a face beyond which that looks away, by 6° at least.
+const AWAY: f64 = -0.1;
+
+/// Re-checks a manifold for the same shapes, poses and configuration; `cache` is that of the query, whose depth it proves, or any
+/// other. `points` holds the manifold's points and may hold more.
+///
+/// | what is said | what is proved or checked |
+/// |---|---|
+/// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
+/// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
+/// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
+/// | points on the bodies | no farther than b off the surface, on a face that looks at the other body; one point in both frames |
+/// | their features | they are there; a point is no farther than b from its vertex or edge |
+/// | a gap | that of the two points along the normal is in it, up to the allowance a; at most the margin |
+/// | both points | in line along the normal up to b |
+/// | all points | one is as deep as the bodies are, up to b, if none was left out |
+/// | `id` | that of the features |
+///
+/// a is the allowance of [`verify`](super::verify). b is a, 2⁻²⁵ of the size of the pair (both radii and the distance of the
+/// centres), and eight times what contact faces are thick at most. That a face is complete is not checked.
+///
+/// # Errors
+/// As of [`verify_depth`](super::verify_depth); [`Error::Argument`] for fewer points than the manifold has.
+pub fn verify_manifold(
+    bodies: [Placed; 2],
+    cache: &ManifoldCache,
+    config: &ManifoldConfig,
+    manifold: &Manifold,
+    points: &[ManifoldPoint],
+) -> Result<()> {
+    with_default(|| {
+        config.check()?;
+        bodies.iter().try_for_each(|body| body.pose.check(ROTATION_LIMIT))?;
+        let Some(points) = points.get(..manifold.point_count as usize) else {
+            return Err(Error::Argument(format!("{} points of {}", points.len(), manifold.point_count)));
+        };
+        check_counts(config, manifold)?;
+        let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
+        let allowed = check_contact(bodies, cache, config, &radii, manifold)?;
+        let check = Check::new(bodies, config, radii, manifold, allowed);
+        points
+            .iter()
+            .enumerate()
+            .try_for_each(|(k, point)| check.check_point(point).map_err(|error| error.about(&format!("point {k}"))))?;
+        check.check_deepest(points)
+    })
+}
+
+fn check_counts(config: &ManifoldConfig, manifold: &Manifold) -> Result<()> {
+    let Manifold { outcome, reference, point_count, found_count, .. } = *manifold;
+    let most = match (outcome, reference) {
+        (Outcome::Beyond, 0) => 0,
+        (Outcome::Separated | Outcome::Intersecting, 0) => 1,
+        (Outcome::Separated | Outcome::Intersecting, 1 | 2) => u32::MAX,
+        _ => return Err(unverified(format!("body {reference} as the reference of a manifold that is {outcome:?}"))),
+    };
+    let is_reduced = !config.reduces || point_count <= 4;
+    if point_count <= found_count && found_count <= most && is_reduced {
+        return Ok(());
+    }
+    Err(unverified(format!("{point_count} points of {found_count} found")))
+}
+
+/// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
+fn check_contact(
+    bodies: [Placed; 2],
+    cache: &ManifoldCache,
+    config: &ManifoldConfig,
+    radii: &Radii,
+    manifold: &Manifold,
+) -> Result<f64> {
+    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let Manifold { outcome, lower, upper, normal, .. } = *manifold;
+    let is_sound = match outcome {
+        Outcome::Intersecting => lower > f64::NEG_INFINITY && lower <= upper && upper <= 0.0,
+        Outcome::Separated => {
+            0.0 <= lower && lower <= config.margin && lower <= upper && (upper < f64::INFINITY || lower == f64::MAX)
+        }
+        Outcome::Beyond => config.margin <= lower && lower <= upper && lower < f64::INFINITY,
+        Outcome::None | Outcome::Undecided => return Err(Error::Argument("the manifold holds no outcome".into())),
+    };
+    if !is_sound {
+        return Err(unverified(format!("an interval from lower to upper of {lower:e}, {upper:e}: {outcome:?}")));
+    }
+    if outcome == Outcome::Intersecting {
+        return prove_depth(polyhedra, poses, cache.depth(), radii, &normal.into(), [-upper, -lower]);
+    }
+    let apart = PairAnswer { outcome: Outcome::Separated, lower, distance: lower, upper, normal, ..PairAnswer::UNSAID };
+    verify_disjoint(polyhedra, poses, radii, &apart)
+}
+
+/// What points are held against.
+struct Check<'a> {
+    bodies: [Placed<'a>; 2],
+    polyhedra: [&'a Polyhedron; 2],
+    config: &'a ManifoldConfig,
+    radii: Radii,
+    manifold: &'a Manifold,
+    /// What rounding may make of a length.
+    allowed: f64,
+    /// How far a point may be off its surface.
+    near: f64,
+}
+
+impl<'a> Check<'a> {
+    fn new(
+        bodies: [Placed<'a>; 2],
+        config: &'a ManifoldConfig,
+        radii: Radii,
+        manifold: &'a Manifold,
+        allowed: f64,
+    ) -> Check<'a> {
+        let polyhedra = bodies.map(|body| body.shape.polyhedron());
+        let between = between_origins(polyhedra, bodies.map(|body| body.pose));
+        let size = polyhedra[0].radius + polyhedra[1].radius + length(&between);
+        let slack =
+            |polyhedron: &Polyhedron| polyhedron.contact_faces.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
+        let thickness = 2.0 * (slack(polyhedra[0]) + slack(polyhedra[1]));
+        let near = allowed + NEAR * size + NOISE * thickness;
+        Check { bodies, polyhedra, config, radii, manifold, allowed, near }
+    }
+
+    fn check_point(&self, point: &ManifoldPoint) -> Result<()> {
+        let normal = Vector::from(self.manifold.normal);
+        check_numbers(&Numbers::of_point(point, &self.manifold.normal))?;
+        if point.id != id_of(&point.feature1, &point.feature2) {
+            return Err(unverified(format!("the id {:#x} is not that of its features", point.id)));
+        }
+        let &ManifoldPoint { local1, local2, world1, world2, feature1, feature2, gap_lower, gap_upper, .. } = point;
+        let said = PairAnswer {
+            local1,
+            local2,
+            world1,
+            world2,
+            feature1,
+            feature2,
+            normal: self.manifold.normal,
+            ..PairAnswer::UNSAID
+        };
+        let poses = self.bodies.map(|body| body.pose);
+        let witnesses = witnesses(self.polyhedra, poses, &self.radii, &said);
+        for (witness, towards) in witnesses.iter().zip([-normal, normal]) {
+            witness.check_point(self.near, &[])?;
+            self.check_feature(witness)?;
+            self.check_facing(witness, &towards)?;
+        }
+        let apart = difference_of(self.polyhedra, poses, &witnesses);
+        let along = normal.dot(&apart);
+        let gap = along - self.radii.upper;
+        let has_end = gap_upper < f64::INFINITY || gap_lower == f64::MAX;
+        let is_enclosed = gap_lower - self.allowed <= gap && gap <= gap_upper + self.allowed;
+        if !(has_end && is_enclosed && gap_lower <= gap_upper && gap_lower <= self.config.margin) {
+            return Err(unverified(format!("a gap of {gap:e} is not in [{gap_lower:e}, {gap_upper:e}]")));
+        }
+        let sideways = length(&(apart - normal * along));
+        if sideways <= self.near {
+            return Ok(());
+        }
+        Err(unverified(format!("its two places are {sideways:e} off a line along the normal")))
+    }
+
+    /// A point is near its vertex or edge; the face of a point is there, which may be one of several that are one to a manifold.
+    fn check_feature(&self, witness: &Witness) -> Result<()> {
+        let none = || unverified(format!("object {} has no {:?}", witness.object, witness.feature));
+        let inside = witness.point_inside().ok_or_else(none)?;
+        let off = inside.distance(witness.polyhedron, &witness.centred());
+        if witness.feature.kind == FeatureKind::Face || off <= self.near {
+            return Ok(());
+        }
+        Err(unverified(format!("witness point {} lies {off:e} off {:?}", witness.object, witness.feature)))
+    }
+
+    /// A point is on a face that does not look away from the other body. Of a body without interior all is surface.
+    fn check_facing(&self, witness: &Witness, towards: &Vector) -> Result<()> {
+        let (polyhedron, point) = (witness.polyhedron, witness.centred());
+        if polyhedron.dimension < 3 {
+            return Ok(());
+        }
+        let towards = witness.pose.rotate_back(towards);
+        let mut facing = polyhedron.faces.iter().filter(|face| face.normal.dot(&towards) >= AWAY);
+        if facing.any(|face| face.planes.value(0, &point) >= -self.near - face.slack) {
+            return Ok(());
+        }
+        Err(unverified(format!("witness point {} is on no face that looks towards the other", witness.object)))
+    }
+
+    fn check_deepest(&self, points: &[ManifoldPoint]) -> Result<()> {
+        let Manifold { upper, found_count, .. } = *self.manifold;
+        let is_deep = |point: &ManifoldPoint| point.gap_lower <= upper + self.near;
+        if points.len() < found_count as usize || points.is_empty() || points.iter().any(is_deep) {
+            return Ok(());
+        }
+        Err(unverified(format!("no point is as deep as the objects, {upper:e}")))
+    }
+}

@@ -1,0 +1,212 @@
+//! The check of manifolds: what queries say holds, and what was changed in it is found out.
+
+use super::{ALL, FOUR, query, stacked};
+use swiftprox::error::Error;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::verify::verify_manifold;
+use swiftprox::pair::{FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, Placed};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::models::{prism, random_hull};
+use testkit::random::Random;
+use testkit::shapes::{at, cuboid};
+
+/// A manifold, and all that it is of.
+struct Case {
+    shapes: [Shape; 2],
+    poses: [Pose; 2],
+    config: ManifoldConfig,
+    cache: ManifoldCache,
+    manifold: Manifold,
+    points: Vec<ManifoldPoint>,
+}
+
+impl Case {
+    fn new(shapes: [Shape; 2], poses: [Pose; 2], config: ManifoldConfig) -> Case {
+        let mut cache = ManifoldCache::default();
+        let (manifold, points) = query(shapes.each_ref(), poses.each_ref(), &mut cache, &config);
+        Case { shapes, poses, config, cache, manifold, points }
+    }
+
+    fn bodies(&self) -> [Placed<'_>; 2] {
+        [self.shapes[0].at(&self.poses[0]), self.shapes[1].at(&self.poses[1])]
+    }
+
+    fn verify(&self) -> Result<(), Error> {
+        verify_manifold(self.bodies(), &self.cache, &self.config, &self.manifold, &self.points)
+    }
+
+    /// Whether a changed manifold, or changed points of it, are refused.
+    fn refuses(&self, change: impl FnOnce(&mut Manifold, &mut Vec<ManifoldPoint>)) -> bool {
+        let (mut manifold, mut points) = (self.manifold, self.points.clone());
+        change(&mut manifold, &mut points);
+        let said = verify_manifold(self.bodies(), &self.cache, &self.config, &manifold, &points);
+        matches!(said, Err(Error::Unverified(_) | Error::Argument(_)))
+    }
+}
+
+/// A cube of side 2 whose turned corners are rounded to float: its faces are flat up to that.
+fn float_cube(random: &mut Random) -> Shape {
+    let turn = random.rotation();
+    let corner = |k: usize| Vector::new((k & 1) as f64, (k >> 1 & 1) as f64, (k >> 2) as f64) * 2.0;
+    let corners: Vec<Vector> =
+        (0..8).map(|k| (turn * (corner(k) - Vector::repeat(1.0))).map(|x| f64::from(x as f32))).collect();
+    Shape::from_points(&corners, &ShapeOptions::default()).unwrap()
+}
+
+/// A turned prism with coordinates of three to six decimals.
+fn rounded_prism(random: &mut Random) -> Shape {
+    let (mesh, turn) = (prism(3 + random.below(60) as u32, 0.75).unwrap(), random.rotation());
+    let scale = [1e3, 1e4, 1e6][random.below(3)];
+    let corners: Vec<Vector> = mesh.vertices.iter().map(|v| (turn * v).map(|x| (x * scale).round() / scale)).collect();
+    Shape::from_points(&corners, &ShapeOptions::default()).unwrap()
+}
+
+fn swept(points: &[Vector], swept_radius: f64) -> Shape {
+    let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
+    Shape::from_points(points, &options).unwrap()
+}
+
+fn any_shape(random: &mut Random, kind: usize) -> Shape {
+    let of_mesh = |mesh| Shape::from_mesh(&mesh, &ShapeOptions::default()).unwrap();
+    match kind {
+        0 => cuboid([1.0, 0.25, 0.5].map(|half| half * random.power(-20, 1))),
+        1 => of_mesh(random_hull(30, random.next_u64()).unwrap()),
+        2 => rounded_prism(random),
+        3 => float_cube(random),
+        4 => swept(&[Vector::new(-1.0, 0.0, 0.0), Vector::new(1.0, 0.5, 0.0)], 0.25),
+        _ => swept(&[0, 1, 2, 3].map(|_| random.vector()), 0.125),
+    }
+}
+
+/// Manifolds of needles and boxes, hulls, cubes and prisms of few digits, capsules and round tetrahedra, near each other and in each other: all hold,
+/// whatever cache is handed over and however many points there was room for.
+#[test]
+fn what_queries_say_holds() {
+    let mut random = Random::new(0x3e41f);
+    let (mut outcomes, mut points) = ([0; 5], 0);
+    for round in 0..240 {
+        let shapes = [round % 6, round / 6 % 6].map(|kind| any_shape(&mut random, kind));
+        let far = [0.1, 1.0, 10.0, 100.0, 1000.0][round % 5];
+        let direction = random.direction();
+        let place = random.vector() * far;
+        let apart = direction * random.uniform(0.3, 2.6);
+        // Half of them flat on each other: along one axis, turned about it.
+        let turns = if round % 2 == 0 {
+            [random.rotation(), random.rotation()]
+        } else {
+            let turn = testkit::random::rotation(&Vector::z(), random.uniform(0.0, 3.0));
+            [turn, turn * testkit::random::rotation(&Vector::z(), random.uniform(0.0, 3.0))]
+        };
+        let poses = [Pose::new(&turns[0], &(place + apart)), Pose::new(&turns[1], &place)];
+        let config = ManifoldConfig { margin: 0.75, ..if round % 3 == 0 { FOUR } else { ALL } };
+        let mut case = Case::new(shapes, poses, config);
+        assert!(case.verify().is_ok(), "{round}: {:?} {:?} {:?}", case.verify(), case.manifold, case.points);
+        outcomes[case.manifold.outcome as usize] += 1;
+        points += case.points.len();
+        case.cache = ManifoldCache::default();
+        assert!(case.verify().is_ok(), "{round}: {:?}", case.verify());
+        let room = case.points.len().min(2);
+        let mut few = vec![ManifoldPoint::default(); room];
+        let cache = &mut ManifoldCache::default();
+        let bodies = [case.shapes[0].at(&case.poses[0]), case.shapes[1].at(&case.poses[1])];
+        let said = swiftprox::pair::manifold(bodies, cache, &case.config, &mut few).unwrap();
+        let held = verify_manifold(bodies, cache, &case.config, &said, &few);
+        assert!(held.is_ok(), "{round}: {held:?} {said:?} {few:?}");
+    }
+    let [_, separated, beyond, intersecting, _] = outcomes;
+    assert!(separated > 40 && beyond > 10 && intersecting > 40 && points > 400, "{outcomes:?} {points}");
+}
+
+/// Boxes with a gap of exactly 0.5, or exactly 0.125 in each other: what a double more or less would make false is refused.
+#[test]
+fn an_interval_that_misses_the_truth_by_one_double_is_refused() {
+    for (height, truth) in [(1.25, 0.5), (0.625, -0.125)] {
+        let shapes = [cuboid([1.0, 1.0, 0.25]), cuboid([2.0, 2.0, 0.5])];
+        let poses = [at(0.0, 0.0, height), at(0.0, 0.0, 0.0)];
+        let case = Case::new(shapes, poses, ManifoldConfig { margin: 1.0, ..ALL });
+        assert_eq!(case.points.len(), 4);
+        let with =
+            |lower: f64, upper: f64| case.refuses(|manifold, _| (manifold.lower, manifold.upper) = (lower, upper));
+        let [low, high] = [truth - 0.0625, truth + 0.0625];
+        assert!(!with(truth, truth) && !with(low, truth) && !with(truth, high));
+        assert!(with(truth.next_up(), high) && with(low, truth.next_down()) && with(high, low));
+        for point in &case.points {
+            assert!(point.gap_lower <= truth && truth <= point.gap_upper && (point.gap() - truth).abs() < 1e-14);
+        }
+    }
+}
+
+/// Each number is changed to what no number may be, each count and enumerator to another one; points are moved to where no contact
+/// is.
+#[test]
+fn forgeries_are_refused() {
+    let ([upper, lower], poses) = stacked(-0.0625, 0.3);
+    let tilted = Pose::new(&testkit::random::rotation(&Vector::y(), 0.01), &Vector::new(0.0, 0.0, 0.75));
+    let cases = [
+        Case::new([upper, lower], poses, ManifoldConfig { margin: 0.05, ..ALL }),
+        Case::new(
+            [cuboid([1.0, 1.0, 0.25]), cuboid([2.0, 2.0, 0.5])],
+            [tilted, Pose::IDENTITY],
+            ManifoldConfig { margin: 0.25, ..ALL },
+        ),
+    ];
+    for case in &cases {
+        assert!(case.verify().is_ok() && case.points.len() == 4, "{:?}", case.verify());
+        for forged in [f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+            assert!(case.refuses(|manifold, _| manifold.lower = forged));
+            assert!(case.refuses(|manifold, _| manifold.upper = forged));
+            for axis in 0..3 {
+                assert!(case.refuses(|manifold, _| manifold.normal[axis] = forged));
+                for k in 0..4 {
+                    assert!(case.refuses(|_, points| points[k].local1[axis] = forged));
+                    assert!(case.refuses(|_, points| points[k].local2[axis] = forged));
+                    assert!(case.refuses(|_, points| points[k].world1[axis] = forged));
+                    assert!(case.refuses(|_, points| points[k].world2[axis] = forged));
+                }
+            }
+            assert!(case.refuses(|_, points| points[2].gap_lower = forged));
+            assert!(case.refuses(|_, points| points[2].gap_upper = forged));
+        }
+        // Numbers that are some, and not the right ones.
+        assert!(case.refuses(|manifold, _| manifold.normal = manifold.normal.map(|x| x * 1.000_001)));
+        assert!(case.refuses(|manifold, _| manifold.normal = manifold.normal.map(|x| -x)));
+        assert!(case.refuses(|_, points| points[1].world1[0] += 1e-9));
+        assert!(case.refuses(|_, points| points[1].local2[2] += 1e-9));
+        assert!(case.refuses(|_, points| (points[1].gap_lower, points[1].gap_upper) = (0.03, 0.04)));
+        assert!(case.refuses(|_, points| {
+            let point = &mut points[1];
+            (point.gap_lower, point.gap_upper) = (point.gap_upper.next_up(), point.gap_lower.next_down());
+        }));
+        assert!(case.refuses(|_, points| points[0].id ^= 1));
+        assert!(case.refuses(|_, points| points[0].feature1.ids[0] = 99));
+        assert!(case.refuses(|_, points| points[0].feature2.kind = FeatureKind::None));
+        // One object's places for the other's.
+        assert!(case.refuses(|_, points| (points[3].local1, points[3].local2) = (points[3].local2, points[3].local1)));
+        for outcome in [Outcome::None, Outcome::Separated, Outcome::Beyond, Outcome::Intersecting, Outcome::Undecided] {
+            assert_eq!(case.refuses(|manifold, _| manifold.outcome = outcome), outcome != case.manifold.outcome);
+        }
+        assert!(case.refuses(|manifold, _| manifold.reference = 0));
+        assert!(case.refuses(|manifold, _| manifold.reference = 3));
+        assert!(case.refuses(|manifold, _| manifold.found_count = 3));
+        assert!(case.refuses(|manifold, _| manifold.point_count = 5));
+        // The deepest is left out, or all are put on the far sides of the upper box, with gaps to match.
+        assert!(
+            case.refuses(|manifold, points| {
+                let deepest = points.iter().map(|point| point.gap_upper).fold(f64::INFINITY, f64::min);
+                points.retain(|point| point.gap_upper > deepest + 1e-3);
+                let count = points.len() as u32;
+                (manifold.point_count, manifold.found_count) = (count, count);
+            }) || case.points.iter().all(|point| point.gap_upper - case.points[0].gap_upper < 1e-3)
+        );
+        assert!(case.refuses(|manifold, points| {
+            let [pose, normal] = [case.poses[0].rotation() * Vector::z(), Vector::from(manifold.normal)];
+            for point in points {
+                point.local1[2] += 0.5;
+                point.world1 = (Vector::from(point.world1) + pose * 0.5).into();
+                let more = 0.5 * pose.dot(&normal);
+                (point.gap_lower, point.gap_upper) = (point.gap_lower + more - 1e-9, point.gap_upper + more + 1e-9);
+                point.feature1.ids[0] ^= 4;
+            }
+        }));
+    }
+}
