@@ -13,13 +13,13 @@ use super::turn::{LARGEST_ANGLE, Turn};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::LARGEST;
-use crate::shape::Shape;
 
 /// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
 pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// What products of numbers in range may lose to underflow, several times over.
 const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
+use super::carried::Carried;
 
 /// The spectral norm of a rotation whose RᵀR − I has entries up to 1e-2 is at most √1.03.
 const STRETCH: f64 = 1.015;
@@ -46,15 +46,16 @@ enum Bend {
 impl Travel {
     /// # Errors
     /// [`Error::Argument`] for what is so large that doubles do not bound it.
-    pub fn new(shape: &Shape, motion: &Motion, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+    pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+        let motion = body.motion;
         let longest = range[0].abs().max(range[1].abs());
-        let reach = reach(shape, motion);
+        let reach = reach(body);
         check_sizes(motion, turn, longest, reach)?;
         let bend = match motion {
             Motion::Fixed(_) | Motion::Affine { .. } => Bend::None,
             Motion::Screw(screw) if turn.speed > 0.0 => {
                 // The axis is off by 6.5u, the square of the speed by 12u.
-                let most = turn.speed * turn.speed * distance_from_axis(shape, screw, turn) * (1.0 + 64.0 * U);
+                let most = turn.speed * turn.speed * distance_from_axis(body, screw, turn) * (1.0 + 64.0 * U);
                 Bend::Turn { axis: turn.axis, most }
             }
             Motion::Screw(_) => Bend::None,
@@ -88,30 +89,46 @@ impl Travel {
     }
 }
 
-/// No point of the body is farther from the point of its frame that the motion's pose keeps.
-fn reach(shape: &Shape, motion: &Motion) -> f64 {
-    let lever = shape.extent().lever;
-    match motion {
+/// No point of the body is farther from the point of the moving frame that the motion's pose keeps.
+fn reach(body: &Carried) -> f64 {
+    let lever = body.shape.extent().lever;
+    let lever = body.place.map_or(lever, |place| STRETCH * lever + place.translation().norm() * (1.0 + 8.0 * U));
+    match body.motion {
         Motion::Screw(screw) => (lever + screw.centre.norm()) * (1.0 + 8.0 * U),
         _ => lever,
     }
 }
 
 /// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever says less. Products and sums
-/// err by less than 32u of all lengths together.
-fn distance_from_axis(shape: &Shape, screw: &Screw, turn: &Turn) -> f64 {
-    let polyhedron = shape.polyhedron();
-    let (middle, half) = shape.extent().box_about_centre();
-    let to_centre = polyhedron.centre - screw.centre;
-    let from_axis = |p: Vector| turn.axis.cross(&screw.start.rotate(&p)).norm();
+/// err by less than 64u of all lengths together.
+fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
+    let polyhedron = body.shape.polyhedron();
+    let (middle, half) = body.shape.extent().box_about_centre();
+    let from_axis = |p: Vector| {
+        let carried = body.place.map_or(p, |place| place.transform(&p));
+        turn.axis.cross(&screw.start.rotate(&(carried - screw.centre))).norm()
+    };
     let mut farthest = 0.0_f64;
     for corner in 0..8_u32 {
         let side = |axis: usize| if corner >> axis & 1 == 0 { -half[axis] } else { half[axis] };
-        farthest = farthest.max(from_axis(to_centre + middle + Vector::new(side(0), side(1), side(2))));
+        farthest = farthest.max(from_axis(polyhedron.centre + middle + Vector::new(side(0), side(1), side(2))));
     }
-    let around_sphere = from_axis(to_centre) + STRETCH * polyhedron.radius;
-    let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm();
-    farthest.min(around_sphere) + 64.0 * U * size
+    let (stretch, place) = body.place.map_or((STRETCH, 0.0), |place| (STRETCH * STRETCH, place.translation().norm()));
+    let around_sphere = from_axis(polyhedron.centre) + stretch * polyhedron.radius;
+    let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm() + place;
+    farthest.min(around_sphere) + 128.0 * U * size
+}
+
+/// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has it:
+/// what the product of that pose and the place is rounded by.
+///
+/// Each entry of the rotation errs by 3u of its three terms, and the Frobenius norms of the factors are at most 1.77: below 9.5u in
+/// the spectral norm. The product R·T of the place errs by 3u of its terms, below 5.4u|T|, the sum by u of the computed translation.
+pub(super) fn rounding_of_place(body: &Carried, pose: &Pose) -> f64 {
+    body.place.map_or(0.0, |place| {
+        let (of_place, of_pose) = (place.translation().norm(), pose.translation().norm());
+        U * (10.0 * body.shape.extent().lever + 6.0 * of_place + 2.0 * of_pose) + UNDERFLOW
+    })
 }
 
 /// How far at most a point within `reach` of a screw's centre, or of another motion's local origin, is at a time of up to

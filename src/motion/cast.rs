@@ -1,8 +1,9 @@
 //! The cast: a sweep from the beginning of a range of times until it ends, or something does.
 
 use super::answer::{CastAnswer, CastOutcome};
+use super::carried::{Carried, Moving};
 use super::config::CastConfig;
-use super::moving::{Moment, Moving, MovingPair};
+use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
@@ -19,6 +20,19 @@ use crate::pair::PairCache;
 /// finite or too large, and for a callback that shows that it breaks its bound; [`Error::Pose`](crate::base::error::Error::Pose)
 /// for a pose that no query accepts. Then `answer` and `cache` are as they were.
 pub fn cast(bodies: [Moving; 2], cache: &mut PairCache, config: &CastConfig, answer: &mut CastAnswer) -> Result<()> {
+    cast_carried(bodies.map(Carried::from), cache, config, answer)
+}
+
+/// The same of pieces of moving objects.
+///
+/// # Errors
+/// As of [`cast`].
+pub(crate) fn cast_carried(
+    bodies: [Carried; 2],
+    cache: &mut PairCache,
+    config: &CastConfig,
+    answer: &mut CastAnswer,
+) -> Result<()> {
     with_default(|| {
         config.check()?;
         let pair = MovingPair::new(bodies, config.range())?;

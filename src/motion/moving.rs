@@ -1,26 +1,17 @@
 //! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
 
-use super::bound::{Travel, is_exact};
+use super::bound::{Travel, is_exact, rounding_of_place};
+use super::carried::Carried;
 use super::gap::Along;
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::pair::{Placed, Radii, sum_below};
-use crate::shape::Shape;
-
-/// A shape and how it moves.
-#[derive(Debug, Clone, Copy)]
-pub struct Moving<'a> {
-    /// Its geometry.
-    pub shape: &'a Shape,
-    /// How it moves.
-    pub motion: &'a Motion<'a>,
-}
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
-    bodies: [Moving<'a>; 2],
+    bodies: [Carried<'a>; 2],
     turns: [Turn; 2],
     travels: [Travel; 2],
     radii: Radii,
@@ -39,14 +30,12 @@ pub(super) struct Moment {
 impl<'a> MovingPair<'a> {
     /// # Errors
     /// [`Error::Pose`], [`Error::Argument`] for a motion with a number out of its range.
-    pub fn new(bodies: [Moving<'a>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
-        let prepare = |body: &Moving| {
+    pub fn new(bodies: [impl Into<Carried<'a>>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
+        let bodies = bodies.map(Into::into);
+        let prepare = |body: &Carried| {
             body.motion.check()?;
-            let turn = match body.motion {
-                Motion::Screw(screw) => Turn::new(&screw.rotation),
-                _ => Turn::new(&Vector::zeros()),
-            };
-            Ok((turn, Travel::new(body.shape, body.motion, &turn, range)?))
+            let turn = body.turn();
+            Ok((turn, Travel::new(body, &turn, range)?))
         };
         let in_words = |error: Error, object: &str| match error {
             Error::Pose(message) => Error::Pose(format!("{object}: {message}")),
@@ -63,12 +52,17 @@ impl<'a> MovingPair<'a> {
     /// [`Error::Pose`] for a pose that is not accepted.
     pub fn at(&self, time: f64) -> Result<Moment> {
         let [body1, body2] = &self.bodies;
-        let poses = [body1.motion.pose(&self.turns[0], time)?, body2.motion.pose(&self.turns[1], time)?];
+        let poses = [body1.pose(&self.turns[0], time)?, body2.pose(&self.turns[1], time)?];
         let rounding = |i: usize| match is_exact(self.bodies[i].motion, time) {
             true => 0.0,
             false => self.travels[i].rounding,
         };
-        Ok(Moment { time, poses, rounding: (rounding(0) + rounding(1)) * (1.0 + 4.0 * U) })
+        let of_motions = rounding(0) + rounding(1);
+        Ok(Moment { time, poses, rounding: (of_motions + self.rounding_of_places(&poses)) * (1.0 + 8.0 * U) })
+    }
+
+    fn rounding_of_places(&self, poses: &[Pose; 2]) -> f64 {
+        rounding_of_place(&self.bodies[0], &poses[0]) + rounding_of_place(&self.bodies[1], &poses[1])
     }
 
     /// The sum of the swept radii, rounded up.
@@ -104,8 +98,11 @@ impl<'a> MovingPair<'a> {
         let part = 1e-6 * (end - begin);
         let part = if moment.time - begin > end - moment.time { -part } else { part };
         let velocity = |i: usize| {
+            let Carried { motion, place, .. } = &self.bodies[i];
             let point = Vector::from(*points[i]);
-            self.bodies[i].motion.velocity(&self.turns[i], &moment.poses[i], moment.time, part, &point)
+            let carried = place.map_or(point, |place| place.transform(&point));
+            let is_at = moment.poses[i].transform(&point);
+            motion.velocity(&self.turns[i], moment.time, part, [&carried, &is_at])
         };
         let speed = direction.dot(&(velocity(0)? - velocity(1)?));
         Ok(if speed.is_finite() { speed } else { 0.0 })
@@ -118,7 +115,8 @@ impl<'a> MovingPair<'a> {
         let apart = moment.poses[0].translation() - moment.poses[1].translation();
         let size =
             body1.radius + body2.radius + body1.centre.norm() + body2.centre.norm() + apart.norm() + self.swept();
-        2.0 * (self.travels[0].rounding + self.travels[1].rounding) + 64.0 * U * size
+        let of_poses = self.travels[0].rounding + self.travels[1].rounding + self.rounding_of_places(&moment.poses);
+        2.0 * of_poses + 64.0 * U * size
     }
 
     /// Refuses a callback whose bound its own poses at three times show to be wrong: no point is farther from its chord than the
@@ -136,7 +134,8 @@ impl<'a> MovingPair<'a> {
                 let point = polyhedron.local_position(vertex as u32);
                 let [start, between, end] = moments.map(|moment| moment.poses[i].transform(&point));
                 let off = (between - (start * after + end * before) / (before + after)).norm();
-                let size = start.norm() + between.norm() + end.norm() + point.norm();
+                let place = body.place.map_or(0.0, |place| place.translation().norm());
+                let size = start.norm() + between.norm() + end.norm() + point.norm() + place;
                 let allowed = 0.5 * callback.bend * before * after + 2.0 * callback.rounding + 64.0 * U * size;
                 if off > allowed * (1.0 + 64.0 * U) {
                     return Err(Error::Argument(format!(

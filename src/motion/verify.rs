@@ -2,8 +2,9 @@
 
 use super::answer::{CastAnswer, CastOutcome};
 use super::bound::least_between;
+use super::carried::Moving;
 use super::config::{CastConfig, shortest_step};
-use super::moving::{Moment, Moving, MovingPair};
+use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_bound};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;

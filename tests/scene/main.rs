@@ -1,5 +1,6 @@
 //! Scenes, alone and from several threads.
 
+mod casts;
 mod contacts;
 mod events;
 mod motions;
