@@ -3,7 +3,7 @@
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::Result;
-use crate::base::math::{Pose, Vector};
+use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
 use crate::shape::Shape;
 
 /// A shape and how it moves.
@@ -46,6 +46,9 @@ impl Carried<'_> {
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted.
     pub(super) fn pose(&self, turn: &Turn, time: f64) -> Result<Pose> {
         let pose = self.motion.pose(turn, time)?;
-        Ok(self.place.map_or(pose, |place| pose.after(place)))
+        let Some(place) = self.place else { return Ok(pose) };
+        let whole = pose.after(place);
+        whole.check(ROTATION_LIMIT)?;
+        Ok(whole)
     }
 }

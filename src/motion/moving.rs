@@ -1,13 +1,14 @@
 //! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
 
-use super::bound::{Travel, is_exact, rounding_of_place};
+use super::bound::{STRETCH, Travel, is_exact, rounding_of_place};
 use super::carried::Carried;
+use super::enclosed_ball::EnclosedBall;
 use super::gap::Along;
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::pair::{Placed, Radii, sum_below};
+use crate::pair::{PairCache, Placed, Radii, sum_below};
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
@@ -79,16 +80,86 @@ impl<'a> MovingPair<'a> {
     }
 
     /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
-    pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut [u32; 2]) -> f64 {
+    pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut Option<[u32; 2]>) -> f64 {
         let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
         let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
         let gap = sum_below(gap, -self.radii.upper);
         gap - moment.rounding - U * (gap.abs() + moment.rounding)
     }
 
-    /// K along a unit direction.
+    /// The bounding spheres at a moment: from the centre of body 2 to that of body 1, and the sum of the radii, rounded up.
+    pub fn spheres(&self, moment: &Moment) -> (Vector, f64) {
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let between = moment.poses[0].transform(&body1.centre) - moment.poses[1].transform(&body2.centre);
+        (between, (body1.radius + body2.radius) * STRETCH + self.swept())
+    }
+
+    /// What the bounding spheres say of [`MovingPair::gap`]. Centres and their product with the direction err by less than 32u of
+    /// all lengths together.
+    pub fn gap_of_spheres(&self, moment: &Moment, direction: &Vector) -> f64 {
+        let (between, radii) = self.spheres(moment);
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let lengths = moment.poses.iter().map(|pose| pose.translation().norm()).sum::<f64>();
+        let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
+        direction.dot(&between) - radii - moment.rounding - 64.0 * U * size
+    }
+
+    /// K along a vector of at most unit length.
     pub fn acceleration(&self, direction: &Vector) -> f64 {
         self.travels.iter().map(|travel| travel.acceleration(direction)).sum::<f64>() * (1.0 + 4.0 * U)
+    }
+
+    /// B of the gap along a direction that turns from the first of two unit vectors at one moment to the second at another; infinite
+    /// where they are more than 60 degrees apart.
+    pub fn sag(&self, ends: [&Moment; 2], [first, last]: [&Vector; 2]) -> f64 {
+        let h = ends[1].time - ends[0].time;
+        let of_bend = |acceleration: f64| 0.5 * acceleration * h * h;
+        if first == last {
+            return of_bend(self.acceleration(first)) * (1.0 + 8.0 * U);
+        }
+        let turn = last - first;
+        if !(turn.norm_squared() < 1.0) {
+            return f64::INFINITY;
+        }
+        let along = self.acceleration(first).max(self.acceleration(last)) + self.acceleration(&turn);
+        (of_bend(along) * (1.0 + 8.0 * U) + self.advance(ends, &turn)).max(0.0) * (1.0 + 4.0 * U)
+    }
+
+    /// No point of body 1 gains more along a vector of at most unit length on any of body 2, from one moment to another.
+    ///
+    /// Of a body a point p gains v·ΔT + (ΔRᵀv)·p, most at a corner of its box. ΔRᵀv errs by 13u|v|, its products and sums by
+    /// less than 30u of the sizes below, ΔT by u.
+    fn advance(&self, ends: [&Moment; 2], along: &Vector) -> f64 {
+        let (mut most, mut size) = (0.0, 0.0);
+        for (i, sign) in [(0, 1.0), (1, -1.0)] {
+            let [from, to] = ends.map(|moment| &moment.poses[i]);
+            if from == to {
+                continue;
+            }
+            let shape = self.bodies[i].shape;
+            let (polyhedron, (middle, half)) = (shape.polyhedron(), shape.extent().box_about_centre());
+            let step = to.translation() - from.translation();
+            let turned = to.rotate_back(along) - from.rotate_back(along);
+            let of_middle = along.dot(&step) + turned.dot(&(polyhedron.centre + middle));
+            most += sign * of_middle + turned.abs().dot(half);
+            size += step.norm() + polyhedron.centre.norm() + 2.0 * polyhedron.radius;
+        }
+        most + ends[0].rounding + ends[1].rounding + 64.0 * U * size
+    }
+
+    /// Whether it takes a call of the caller's function to say how fast an object is.
+    pub fn has_callback(&self) -> bool {
+        self.bodies.iter().any(|body| matches!(body.motion, Motion::Callback(_)))
+    }
+
+    /// A lower bound of how deep the objects are in each other at a moment, by the differences of vertices that a query has found to
+    /// hold the origin; 0 where they prove nothing.
+    pub fn enclosed_ball(&self, moment: &Moment, cache: &PairCache) -> f64 {
+        let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
+        let poses = [&moment.poses[0], &moment.poses[1]];
+        cache
+            .enclosure(polyhedra)
+            .map_or(0.0, |pairs| EnclosedBall { polyhedra, poses, pairs: pairs.as_slice() }.radius())
     }
 
     /// About how fast the gap along a direction grows, by a point of each body in its own frame.
