@@ -10,6 +10,9 @@ use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 /// A range of times is cut into parts in which no point bends away from its chord by more than this part of the body's radius …
 const MOST_SAG: f64 = 0.25;
 
+/// … and its centre goes no farther than so many radii, as boxes around long ways are mostly empty …
+const MOST_TRAVEL: f64 = 4.0;
+
 /// … but into no more parts.
 const MOST_PARTS: u32 = 64;
 
@@ -42,7 +45,11 @@ impl<'a> Swept<'a> {
         // Within a time h a point stays within a·h²/8 of its chord, with a the largest acceleration.
         let most = travel.most_acceleration();
         let whole = most * (range[1] - range[0]).powi(2) / 8.0;
-        let wanted = (whole / (MOST_SAG * body.shape.polyhedron().radius)).sqrt().ceil();
+        let polyhedron = body.shape.polyhedron();
+        let by_sag = (whole / (MOST_SAG * polyhedron.radius)).sqrt();
+        let ends = [body.pose(&turn, range[0])?, body.pose(&turn, range[1])?];
+        let way = ends[1].transform(&polyhedron.centre) - ends[0].transform(&polyhedron.centre);
+        let wanted = by_sag.max(way.norm() / (MOST_TRAVEL * polyhedron.radius)).ceil();
         // False for a NaN, of a point that bends by nothing.
         let parts = if wanted > 1.0 { wanted.min(f64::from(MOST_PARTS)) as u32 } else { 1 };
         // Each time is off by u of itself and 2u of the range.

@@ -2,6 +2,7 @@
 
 mod casts;
 mod contacts;
+mod counts;
 mod events;
 mod motions;
 mod placed;
