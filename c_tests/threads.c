@@ -1,7 +1,8 @@
 /*
  * What several threads may do at once by the header's rules: pair queries on shapes that all share, each with a cache of its
- * own; shares taken and given back; const calls on one scene; scenes of their own over the same shapes; failures, whose
- * messages are each thread's own. Run under helgrind it shows that nothing is shared behind the caller's back.
+ * own; shares taken and given back; const calls on one scene, questions about sets with a scratch of each thread's own among them;
+ * scenes of their own over the same shapes; failures, whose messages are each thread's own. Run under helgrind it shows that nothing
+ * is shared behind the caller's back.
  *
  *     threads [rounds]
  */
@@ -12,7 +13,7 @@
 
 #include "swiftprox.h"
 
-enum { THREADS = 4, SHAPES = 3, STEPS = 16 };
+enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8 };
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 
@@ -27,6 +28,7 @@ typedef struct worker {
     int number;
     int failed_line;
     double distances[STEPS];
+    double said[SAID]; /* about sets */
 } worker;
 
 #define REQUIRE(condition)                                                                                                     \
@@ -79,6 +81,33 @@ static void look_at_scene(worker *worker)
     }
 }
 
+/* Questions about the first object of the scene that all share. */
+static void ask_about_a_set(worker *worker)
+{
+    const swiftprox_object_set set = {.ids = ids, .count = 1};
+    const swiftprox_ray ray = {{-5, 0.5, 0.5}, {1, 0, 0}, 100};
+    double poses[3 * 12];
+    swiftprox_scratch *scratch;
+    swiftprox_least_distance least;
+    swiftprox_first_hit hit;
+    swiftprox_scene_ray_answer met;
+    swiftprox_scene_cast_answer cast;
+    swiftprox_motion motion;
+    for (int i = 0; i < 3; ++i)
+        set_pose_at(poses + 12 * i, 1.5 * i, 0);
+    REQUIRE(swiftprox_motion_between(poses, poses + 24, NULL, 4, &motion, NULL) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scratch_create(&scratch) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_least_distance(scene, &set, NULL, 100, scratch, &least) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_first_hit(scene, &set, poses, 3, SWIFTPROX_POSE_ORDER_IN_ORDER, 0, scratch, &hit) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_cast(scene, &set, &motion, 1, NULL, scratch, &cast) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_ALL, UINT32_MAX, scratch, &met) == SWIFTPROX_OK);
+    REQUIRE(met.count == SHAPES && hit.time == 2 && cast.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+    const double said[SAID] = {least.lower, least.upper, (double)hit.time, cast.t_lo, cast.t_hi, (double)met.count,
+                               met.hits[0].answer.entry[0], met.hits[2].answer.exit[1]};
+    memcpy(worker->said, said, sizeof said);
+    swiftprox_scratch_destroy(scratch);
+}
+
 /* A scene of the thread's own, over shapes that all share. */
 static void use_own_scene(worker *worker)
 {
@@ -110,6 +139,7 @@ static void *work(void *argument)
     for (int round = 0; round < rounds; ++round) {
         query_pairs(worker);
         look_at_scene(worker);
+        ask_about_a_set(worker);
         use_own_scene(worker);
     }
     return NULL;
@@ -155,6 +185,10 @@ int main(int argument_count, char **arguments)
         }
         if (memcmp(workers[i].distances, workers[0].distances, sizeof workers[0].distances) != 0) {
             fprintf(stderr, "thread %d has other distances than thread 0\n", i);
+            ++failures;
+        }
+        if (memcmp(workers[i].said, workers[0].said, sizeof workers[0].said) != 0) {
+            fprintf(stderr, "thread %d has other answers about a set than thread 0\n", i);
             ++failures;
         }
     }

@@ -4,11 +4,11 @@
 #include <math.h>
 #include <string.h>
 
-/* The frame of link `last` in the world, from the angles; the order of sums is that of the bound below. */
-static void link_pose(const struct arm *arm, const double *angles, size_t last, double pose[12])
+/* The frames of all links in the world, from the angles; the order of sums is that of the bound below. */
+void arm_poses(const struct arm *arm, const double *angles, double *poses)
 {
     double rotation[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, place[3] = {0, 0, 0};
-    for (size_t k = 0; k <= last; k++) {
+    for (size_t k = 0; k < arm->joint_count; k++) {
         const struct joint *const joint = &arm->joints[k];
         const double c = cos(angles[k]), s = sin(angles[k]);
         double framed[9];
@@ -24,18 +24,9 @@ static void link_pose(const struct arm *arm, const double *angles, size_t last, 
             rotation[3 * i] = x * c + y * s;
             rotation[3 * i + 1] = y * c - x * s;
             rotation[3 * i + 2] = framed[3 * i + 2];
+            memcpy(poses + 12 * k + 4 * i, rotation + 3 * i, 3 * sizeof *poses);
+            poses[12 * k + 4 * i + 3] = place[i];
         }
-    }
-    for (int i = 0; i < 3; i++) {
-        memcpy(pose + 4 * i, rotation + 3 * i, 3 * sizeof *pose);
-        pose[4 * i + 3] = place[i];
-    }
-}
-
-void arm_poses(const struct arm *arm, const double *angles, double *poses)
-{
-    for (size_t k = 0; k < arm->joint_count; k++) {
-        link_pose(arm, angles, k, poses + 12 * k);
     }
 }
 
@@ -93,16 +84,27 @@ static double rounding_bound(const struct arm_edge *edge, size_t last)
     return (of_place + of_rotation * edge->arm->reach[last]) * 1.001;
 }
 
+/* Where all links are at a time, computed once while few other times are asked about. */
+static const double *poses_at(struct arm_edge *edge, double time)
+{
+    const size_t place = (size_t)fmod(fabs(time) * 1048573.0, KEPT_TIMES);
+    struct arm_moment *const kept = &edge->kept[place];
+    if (kept->time != time) {
+        double angles[MOST_JOINTS];
+        for (size_t k = 0; k < edge->arm->joint_count; k++) {
+            angles[k] = edge->from[k] + time * (edge->to[k] - edge->from[k]);
+        }
+        arm_poses(edge->arm, angles, kept->poses);
+        kept->time = time;
+    }
+    return kept->poses;
+}
+
 /* The callback of a link's motion. */
 static void link_at(void *user, double time, double *pose)
 {
     const struct arm_link *const link = user;
-    const struct arm_edge *const edge = link->edge;
-    double angles[MOST_JOINTS];
-    for (size_t k = 0; k <= link->index; k++) {
-        angles[k] = edge->from[k] + time * (edge->to[k] - edge->from[k]);
-    }
-    link_pose(edge->arm, angles, link->index, pose);
+    memcpy(pose, poses_at(link->edge, time) + 12 * link->index, 12 * sizeof *pose);
 }
 
 void arm_motions(const struct arm *arm, const double *from, const double *to, struct arm_edge *edge, swiftprox_motion *motions)
@@ -110,6 +112,9 @@ void arm_motions(const struct arm *arm, const double *from, const double *to, st
     edge->arm = arm;
     memcpy(edge->from, from, arm->joint_count * sizeof *from);
     memcpy(edge->to, to, arm->joint_count * sizeof *to);
+    for (size_t i = 0; i < KEPT_TIMES; i++) {
+        edge->kept[i].time = NAN;
+    }
     for (size_t k = 0; k < arm->joint_count; k++) {
         edge->links[k] = (struct arm_link){edge, k};
         memset(&motions[k], 0, sizeof motions[k]);

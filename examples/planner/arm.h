@@ -25,12 +25,19 @@ struct arm {
     double start[MOST_JOINTS], goal[MOST_JOINTS];     /* of the problem: from one side of a post to the other */
 };
 
+enum { KEPT_TIMES = 16 };
+
 /* An edge: each joint's angle runs from the first to the second at a constant rate. */
 struct arm_edge {
     const struct arm *arm;
     double from[MOST_JOINTS], to[MOST_JOINTS];
+    /* Where all links are at some times: many pairs ask about the same times, the ends first of all, and each about one link. */
+    struct arm_moment {
+        double time; /* NaN: none yet */
+        double poses[12 * MOST_JOINTS];
+    } kept[KEPT_TIMES];
     struct arm_link {
-        const struct arm_edge *edge;
+        struct arm_edge *edge;
         size_t index;
     } links[MOST_JOINTS];
 };
@@ -38,7 +45,7 @@ struct arm_edge {
 /* Poses of all links, 12 numbers each. */
 void arm_poses(const struct arm *arm, const double *angles, double *poses);
 
-/* The motions of all links along an edge; they look at it, so it has to stay where it is. */
+/* The motions of all links along an edge; they look at it and keep poses in it, so it has to stay where it is, for one thread. */
 void arm_motions(const struct arm *arm, const double *from, const double *to, struct arm_edge *edge, swiftprox_motion *motions);
 
 /* The shipped arm with six axes, of boxes and prisms, in a cell with a table, two posts and a shelf. Bodies of the cell are its

@@ -118,6 +118,14 @@ static swiftprox_cast_answer cast(struct cell *cell, struct cell_pair *pair, con
     return answer;
 }
 
+/* A pair that was not free is asked first of the next edge: it often is not free there, either. */
+static void put_first(struct cell *cell, size_t index)
+{
+    const struct cell_pair pair = cell->pairs[index];
+    cell->pairs[index] = cell->pairs[0];
+    cell->pairs[0] = pair;
+}
+
 struct cell_edge cell_cast(struct cell *cell, const swiftprox_motion *motions)
 {
     swiftprox_cast_config config = cast_config(cell);
@@ -134,6 +142,7 @@ struct cell_edge cell_cast(struct cell *cell, const swiftprox_motion *motions)
         edge.t_lo = answer.t_lo;
         edge.t_hi = answer.t_hi;
         config.t_end = answer.t_lo;
+        put_first(cell, i);
         if (config.t_end <= config.t_begin) {
             break;
         }
@@ -146,6 +155,7 @@ bool cell_is_edge_free(struct cell *cell, const swiftprox_motion *motions)
     const swiftprox_cast_config config = cast_config(cell);
     for (size_t i = 0; i < cell->pair_count; i++) {
         if (cast(cell, &cell->pairs[i], motions, &config).outcome != SWIFTPROX_CAST_OUTCOME_FREE) {
+            put_first(cell, i);
             return false;
         }
     }

@@ -76,6 +76,11 @@ impl Pose {
         self.rotate(p) + self.translation()
     }
 
+    /// The pose of what is at `inner` in a frame that is at this pose, each number rounded.
+    pub(crate) fn after(&self, inner: &Pose) -> Pose {
+        Pose::new(&(self.rotation() * inner.rotation()), &self.transform(&inner.translation()))
+    }
+
     /// R·d in plain rounded arithmetic.
     pub fn rotate(&self, d: &Vector) -> Vector {
         let r = &self.rows;

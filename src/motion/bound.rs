@@ -2,18 +2,30 @@
 //!
 //! *Between two moments.* Along a fixed world direction n from object 2 to object 1 the gap of the bodies is the least n·x₁ over
 //! points of object 1 less the greatest n·x₂ over those of object 2. If n·ẍ₁ − n·ẍ₂ ≤ K for all of them, each n·(x₁ − x₂) stays
-//! above its chord less K·s(1 − s)h²/2, s from 0 to 1 over a time h; so does their minimum, the gap. Both bodies are taken at the
-//! same time: bodies that move together cost nothing.
+//! above its chord less B·s(1 − s), B = K·h²/2, s from 0 to 1 over a time h; so does their minimum, the gap. Both bodies are taken
+//! at the same time: bodies that move together cost nothing.
+//!
+//! *Along a direction that turns.* A face that turns with its body soon sticks out along a fixed n, wherever the nearest points are:
+//! the gap closes long before the bodies touch. So let n(s) = (1 − s)n₀ + s·n₁ go from the normal at one moment to that at the other,
+//! d = n₁ − n₀. It is no longer than 1, so that n(s)·(x₁ − x₂) > 0 proves as large a gap. Its second derivative is
+//! n·(ẍ₁ − ẍ₂) + 2(d/h)·(ẋ₁ − ẋ₂). The first term is convex in n, so that both ends bound it. In the second d·(ẋ₁ − ẋ₂) differs by
+//! at most A·h/2 from its mean, which is d·(Δx₁ − Δx₂)/h, for |d·(ẍ₁ − ẍ₂)| ≤ A. So
+//!
+//!   B = K·h²/2 + max d·(Δx₁ − Δx₂) + A·h²/2,
+//!
+//! of whatever motion: Δx, where a point is at one moment less where it was at the other, is known from both poses. Where features
+//! stay the nearest, d and Δx shrink with h: B does with h², the gap with h. (Swept radii take |n(s)|·r off the gap, which is no more
+//! than r.)
 //!
 //! *Rounding.* A query is about the pose as computed. No point of the motion is farther than δ from where that pose has it; along a
 //! unit direction no gap is then off by more than the sum of both δ, and bodies deeper in each other than that sum intersect.
 
+use super::carried::Carried;
 use super::kinds::{Callback, Motion, Screw};
 use super::turn::{LARGEST_ANGLE, Turn};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::polyhedron::LARGEST;
-use crate::shape::Shape;
 
 /// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
 pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
@@ -22,7 +34,7 @@ pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
 const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// The spectral norm of a rotation whose RᵀR − I has entries up to 1e-2 is at most √1.03.
-const STRETCH: f64 = 1.015;
+pub(super) const STRETCH: f64 = 1.015;
 
 /// The bounds of one object over a range of times.
 #[derive(Debug, Clone, Copy)]
@@ -46,15 +58,16 @@ enum Bend {
 impl Travel {
     /// # Errors
     /// [`Error::Argument`] for what is so large that doubles do not bound it.
-    pub fn new(shape: &Shape, motion: &Motion, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+    pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+        let motion = body.motion;
         let longest = range[0].abs().max(range[1].abs());
-        let reach = reach(shape, motion);
+        let reach = reach(body);
         check_sizes(motion, turn, longest, reach)?;
         let bend = match motion {
             Motion::Fixed(_) | Motion::Affine { .. } => Bend::None,
             Motion::Screw(screw) if turn.speed > 0.0 => {
                 // The axis is off by 6.5u, the square of the speed by 12u.
-                let most = turn.speed * turn.speed * distance_from_axis(shape, screw, turn) * (1.0 + 64.0 * U);
+                let most = turn.speed * turn.speed * distance_from_axis(body, screw, turn) * (1.0 + 64.0 * U);
                 Bend::Turn { axis: turn.axis, most }
             }
             Motion::Screw(_) => Bend::None,
@@ -63,7 +76,7 @@ impl Travel {
         Ok(Travel { rounding: rounding_of_pose(motion, turn, longest, reach), bend })
     }
 
-    /// No point accelerates by more along a unit vector, right to 8u, or against it.
+    /// No point accelerates by more along a vector of at most unit length, right to 8u, or against it: times that length.
     ///
     /// A turning point accelerates towards the axis, by ω²·r. Of the direction only the part across the axis counts; what rounding
     /// makes of that is below 32u.
@@ -74,7 +87,7 @@ impl Travel {
                 let across = direction - axis * axis.dot(direction);
                 most * (across.norm() * (1.0 + 16.0 * U) + 32.0 * U)
             }
-            Bend::Any(most) => most * (1.0 + 16.0 * U),
+            Bend::Any(most) => most * direction.norm() * (1.0 + 32.0 * U),
         }
     }
 
@@ -88,30 +101,46 @@ impl Travel {
     }
 }
 
-/// No point of the body is farther from the point of its frame that the motion's pose keeps.
-fn reach(shape: &Shape, motion: &Motion) -> f64 {
-    let lever = shape.extent().lever;
-    match motion {
+/// No point of the body is farther from the point of the moving frame that the motion's pose keeps.
+fn reach(body: &Carried) -> f64 {
+    let lever = body.shape.extent().lever;
+    let lever = body.place.map_or(lever, |place| STRETCH * lever + place.translation().norm() * (1.0 + 8.0 * U));
+    match body.motion {
         Motion::Screw(screw) => (lever + screw.centre.norm()) * (1.0 + 8.0 * U),
         _ => lever,
     }
 }
 
 /// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever says less. Products and sums
-/// err by less than 32u of all lengths together.
-fn distance_from_axis(shape: &Shape, screw: &Screw, turn: &Turn) -> f64 {
-    let polyhedron = shape.polyhedron();
-    let (middle, half) = shape.extent().box_about_centre();
-    let to_centre = polyhedron.centre - screw.centre;
-    let from_axis = |p: Vector| turn.axis.cross(&screw.start.rotate(&p)).norm();
+/// err by less than 64u of all lengths together.
+fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
+    let polyhedron = body.shape.polyhedron();
+    let (middle, half) = body.shape.extent().box_about_centre();
+    let from_axis = |p: Vector| {
+        let carried = body.place.map_or(p, |place| place.transform(&p));
+        turn.axis.cross(&screw.start.rotate(&(carried - screw.centre))).norm()
+    };
     let mut farthest = 0.0_f64;
     for corner in 0..8_u32 {
         let side = |axis: usize| if corner >> axis & 1 == 0 { -half[axis] } else { half[axis] };
-        farthest = farthest.max(from_axis(to_centre + middle + Vector::new(side(0), side(1), side(2))));
+        farthest = farthest.max(from_axis(polyhedron.centre + middle + Vector::new(side(0), side(1), side(2))));
     }
-    let around_sphere = from_axis(to_centre) + STRETCH * polyhedron.radius;
-    let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm();
-    farthest.min(around_sphere) + 64.0 * U * size
+    let (stretch, place) = body.place.map_or((STRETCH, 0.0), |place| (STRETCH * STRETCH, place.translation().norm()));
+    let around_sphere = from_axis(polyhedron.centre) + stretch * polyhedron.radius;
+    let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm() + place;
+    farthest.min(around_sphere) + 128.0 * U * size
+}
+
+/// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has it:
+/// what the product of that pose and the place is rounded by.
+///
+/// Each entry of the rotation errs by 3u of its three terms, and the Frobenius norms of the factors are at most 1.77: below 9.5u in
+/// the spectral norm. The product R·T of the place errs by 3u of its terms, below 5.4u|T|, the sum by u of the computed translation.
+pub(super) fn rounding_of_place(body: &Carried, pose: &Pose) -> f64 {
+    body.place.map_or(0.0, |place| {
+        let (of_place, of_pose) = (place.translation().norm(), pose.translation().norm());
+        U * (10.0 * body.shape.extent().lever + 6.0 * of_place + 2.0 * of_pose) + UNDERFLOW
+    })
 }
 
 /// How far at most a point within `reach` of a screw's centre, or of another motion's local origin, is at a time of up to
@@ -158,11 +187,11 @@ pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
     }
 }
 
-/// The least gap between two moments a time `h` apart, rounded down, from the gaps at both and K.
+/// The least gap between two moments, rounded down, from the gaps at both and B, `sag`.
 ///
-/// (1 − s)g₀ + s·g₁ − B·s(1 − s) with B = K·h²/2 is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1.
-pub(super) fn least_between(gaps: [f64; 2], acceleration: f64, h: f64) -> f64 {
-    let sag = 0.5 * acceleration * h * h * (1.0 + 8.0 * U);
+/// (1 − s)g₀ + s·g₁ − B·s(1 − s) is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1. Directions are of unit length up to 4u:
+/// with what is rounded here that is less than 32u.
+pub(super) fn least_between(gaps: [f64; 2], sag: f64) -> f64 {
     let [first, last] = gaps;
     let rise = last - first;
     let least = if sag > rise.abs() {
@@ -171,7 +200,7 @@ pub(super) fn least_between(gaps: [f64; 2], acceleration: f64, h: f64) -> f64 {
     } else {
         first.min(last)
     };
-    let rounded = least - 16.0 * U * (first.abs() + last.abs() + sag);
+    let rounded = least - 32.0 * U * (first.abs() + last.abs() + sag);
     // What is infinite or none proves nothing.
     if rounded.is_finite() { rounded } else { f64::NEG_INFINITY }
 }
@@ -206,16 +235,14 @@ mod tests {
 
     #[test]
     fn the_least_gap_is_that_of_the_sagging_chord() {
-        for (gaps, acceleration, h) in
-            [([1.0, 2.0], 0.0, 3.0), ([1.0, 1.0], 2.0, 1.0), ([3.0, 0.5], 8.0, 0.7), ([1e-12, 5.0], 1.0, 1e-3)]
-        {
-            let chord = |s: f64| (1.0 - s) * gaps[0] + s * gaps[1] - 0.5 * acceleration * h * h * s * (1.0 - s);
+        for (gaps, sag) in [([1.0, 2.0], 0.0), ([1.0, 1.0], 1.0), ([3.0, 0.5], 1.96), ([1e-12, 5.0], 5e-7)] {
+            let chord = |s: f64| (1.0 - s) * gaps[0] + s * gaps[1] - sag * s * (1.0 - s);
             let least = (0..=10_000).map(|k| chord(f64::from(k) / 1e4)).fold(f64::INFINITY, f64::min);
-            let bound = least_between(gaps, acceleration, h);
+            let bound = least_between(gaps, sag);
             assert!(bound <= least && bound > least - 1e-6, "{gaps:?}: {bound} {least}");
         }
-        assert_eq!(least_between([1.0, f64::NEG_INFINITY], 0.0, 1.0), f64::NEG_INFINITY);
-        assert_eq!(least_between([1.0, 1.0], f64::INFINITY, 1.0), f64::NEG_INFINITY);
-        assert_eq!(least_between([1.0, f64::NAN], 1.0, 1.0), f64::NEG_INFINITY);
+        assert_eq!(least_between([1.0, f64::NEG_INFINITY], 0.0), f64::NEG_INFINITY);
+        assert_eq!(least_between([1.0, 1.0], f64::INFINITY), f64::NEG_INFINITY);
+        assert_eq!(least_between([1.0, f64::NAN], 0.5), f64::NEG_INFINITY);
     }
 }

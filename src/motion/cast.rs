@@ -1,8 +1,9 @@
 //! The cast: a sweep from the beginning of a range of times until it ends, or something does.
 
 use super::answer::{CastAnswer, CastOutcome};
+use super::carried::{Carried, Moving};
 use super::config::CastConfig;
-use super::moving::{Moment, Moving, MovingPair};
+use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
@@ -19,6 +20,19 @@ use crate::pair::PairCache;
 /// finite or too large, and for a callback that shows that it breaks its bound; [`Error::Pose`](crate::base::error::Error::Pose)
 /// for a pose that no query accepts. Then `answer` and `cache` are as they were.
 pub fn cast(bodies: [Moving; 2], cache: &mut PairCache, config: &CastConfig, answer: &mut CastAnswer) -> Result<()> {
+    cast_carried(bodies.map(Carried::from), cache, config, answer)
+}
+
+/// The same of pieces of moving objects.
+///
+/// # Errors
+/// As of [`cast`].
+pub(crate) fn cast_carried(
+    bodies: [Carried; 2],
+    cache: &mut PairCache,
+    config: &CastConfig,
+    answer: &mut CastAnswer,
+) -> Result<()> {
     with_default(|| {
         config.check()?;
         let pair = MovingPair::new(bodies, config.range())?;
@@ -33,6 +47,10 @@ fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<Cast
     let wanted = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
     let mut here = pair.at(config.t_begin)?;
     let mut clearance = f64::INFINITY;
+    if let Some(step) = sweep.by_spheres(&here, config.t_end, &wanted)? {
+        let free = CastAnswer { clearance: clearance_of(&step).max(config.margin), ..CastAnswer::default() };
+        return Ok(said(CastOutcome::Free, &step.ends[1], sweep, free));
+    }
     loop {
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, config.t_end, &wanted)? {

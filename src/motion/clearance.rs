@@ -1,7 +1,8 @@
 //! The smallest distance over a motion.
 
+use super::carried::Moving;
 use super::config::{check_times, shortest_step};
-use super::moving::{Moment, Moving, MovingPair};
+use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, Sweep, Wanted, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;

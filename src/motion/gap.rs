@@ -7,6 +7,7 @@ use crate::solve::certificate::{interval, of_vertex, reciprocal_length};
 use crate::solve::frame::Frame;
 use crate::solve::gjk::towards;
 use crate::solve::voronoi::climb;
+use crate::tables;
 
 /// Bodies along a direction.
 pub(super) struct Along<'a> {
@@ -14,8 +15,8 @@ pub(super) struct Along<'a> {
     pub poses: [&'a Pose; 2],
     /// From body 2 to body 1, about of unit length.
     pub direction: &'a Vector,
-    /// Where the climbs to the support vertices begin, and where they ended.
-    pub vertices: &'a mut [u32; 2],
+    /// Where the climbs to the support vertices begin, and where they ended; `None`: where the look-up tables say.
+    pub vertices: &'a mut Option<[u32; 2]>,
 }
 
 impl Along<'_> {
@@ -38,7 +39,12 @@ impl Kernel for Along<'_> {
         }
         let [towards1, towards2] = towards(&frame, self.direction);
         let [body1, body2] = self.polyhedra;
-        let vertices = [climb(body1, towards1, self.vertices[0]), climb(body2, towards2, self.vertices[1])];
+        let look_up = |body, towards: Vector| tables::farthest(body, &towards).unwrap_or(0);
+        let begin = match *self.vertices {
+            Some(vertices) => vertices,
+            None => [look_up(body1, towards1.to_vector()), look_up(body2, towards2.to_vector())],
+        };
+        let vertices = [climb(body1, towards1, begin[0]), climb(body2, towards2, begin[1])];
         let excess =
             of_vertex(body1, vertices[0], &towards1.to_vector()) + of_vertex(body2, vertices[1], &towards2.to_vector());
         let [v, w] = vertices.map(|vertex| vertex as usize);
@@ -48,7 +54,7 @@ impl Kernel for Along<'_> {
         let distance = difference.dot(difference).sqrt();
         let projection = direction.dot(difference) * inverse;
         let error = frame.difference_error(distance);
-        *self.vertices = vertices;
+        *self.vertices = Some(vertices);
         let lower = interval(distance, projection, error, excess * inverse, 0.0).lower;
         // A NaN proves nothing.
         if lower > f64::NEG_INFINITY { lower } else { f64::NEG_INFINITY }

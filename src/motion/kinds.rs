@@ -107,14 +107,16 @@ impl Motion<'_> {
         }
     }
 
-    /// About how fast a point of the object, given in its own frame, is at a time. It only guides the search: of a callback a
-    /// difference quotient over `moment` says it.
-    pub(super) fn velocity(&self, turn: &Turn, pose: &Pose, time: f64, moment: f64, point: &Vector) -> Result<Vector> {
+    /// About how fast a point of the object is at a time, given in its own frame and where it is then. It only guides the search: of
+    /// a callback a difference quotient over `moment` says it.
+    pub(super) fn velocity(&self, turn: &Turn, time: f64, moment: f64, [point, is_at]: [&Vector; 2]) -> Result<Vector> {
         Ok(match self {
             Motion::Fixed(_) => Vector::zeros(),
-            Motion::Screw(screw) => screw.velocity + screw.rotation.cross(&pose.rotate(&(point - screw.centre))),
+            Motion::Screw(Screw { start, centre, velocity, rotation }) => {
+                velocity + rotation.cross(&(is_at - (start.transform(centre) + velocity * time)))
+            }
             Motion::Affine { start, end } => end.transform(point) - start.transform(point),
-            Motion::Callback(_) => (self.pose(turn, time + moment)?.transform(point) - pose.transform(point)) / moment,
+            Motion::Callback(_) => (self.pose(turn, time + moment)?.transform(point) - is_at) / moment,
         })
     }
 }

@@ -6,13 +6,16 @@
 
 mod turn;
 mod kinds;
+mod carried;
 mod bound;
 mod between;
 mod answer;
 mod config;
 mod gap;
+mod enclosed_ball;
 mod moving;
 mod swept;
+mod forecast;
 mod sweep;
 mod cast;
 mod clearance;
@@ -20,10 +23,12 @@ mod verify;
 
 pub use answer::{CastAnswer, CastOutcome};
 pub use between::motion_between;
+pub(crate) use carried::Carried;
+pub use carried::Moving;
 pub use cast::cast;
+pub(crate) use cast::cast_carried;
 pub use clearance::{Clearance, ClearanceConfig, clearance};
 pub use config::CastConfig;
 pub use kinds::{Callback, Motion, Screw};
-pub use moving::Moving;
-pub(crate) use swept::Swept;
+pub(crate) use swept::{Place, Swept};
 pub use verify::verify_cast;

@@ -1,26 +1,18 @@
 //! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
 
-use super::bound::{Travel, is_exact};
+use super::bound::{STRETCH, Travel, is_exact, rounding_of_place};
+use super::carried::Carried;
+use super::enclosed_ball::EnclosedBall;
 use super::gap::Along;
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::pair::{Placed, Radii, sum_below};
-use crate::shape::Shape;
-
-/// A shape and how it moves.
-#[derive(Debug, Clone, Copy)]
-pub struct Moving<'a> {
-    /// Its geometry.
-    pub shape: &'a Shape,
-    /// How it moves.
-    pub motion: &'a Motion<'a>,
-}
+use crate::pair::{PairCache, Placed, Radii, sum_below};
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
-    bodies: [Moving<'a>; 2],
+    bodies: [Carried<'a>; 2],
     turns: [Turn; 2],
     travels: [Travel; 2],
     radii: Radii,
@@ -39,14 +31,12 @@ pub(super) struct Moment {
 impl<'a> MovingPair<'a> {
     /// # Errors
     /// [`Error::Pose`], [`Error::Argument`] for a motion with a number out of its range.
-    pub fn new(bodies: [Moving<'a>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
-        let prepare = |body: &Moving| {
+    pub fn new(bodies: [impl Into<Carried<'a>>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
+        let bodies = bodies.map(Into::into);
+        let prepare = |body: &Carried| {
             body.motion.check()?;
-            let turn = match body.motion {
-                Motion::Screw(screw) => Turn::new(&screw.rotation),
-                _ => Turn::new(&Vector::zeros()),
-            };
-            Ok((turn, Travel::new(body.shape, body.motion, &turn, range)?))
+            let turn = body.turn();
+            Ok((turn, Travel::new(body, &turn, range)?))
         };
         let in_words = |error: Error, object: &str| match error {
             Error::Pose(message) => Error::Pose(format!("{object}: {message}")),
@@ -63,12 +53,17 @@ impl<'a> MovingPair<'a> {
     /// [`Error::Pose`] for a pose that is not accepted.
     pub fn at(&self, time: f64) -> Result<Moment> {
         let [body1, body2] = &self.bodies;
-        let poses = [body1.motion.pose(&self.turns[0], time)?, body2.motion.pose(&self.turns[1], time)?];
+        let poses = [body1.pose(&self.turns[0], time)?, body2.pose(&self.turns[1], time)?];
         let rounding = |i: usize| match is_exact(self.bodies[i].motion, time) {
             true => 0.0,
             false => self.travels[i].rounding,
         };
-        Ok(Moment { time, poses, rounding: (rounding(0) + rounding(1)) * (1.0 + 4.0 * U) })
+        let of_motions = rounding(0) + rounding(1);
+        Ok(Moment { time, poses, rounding: (of_motions + self.rounding_of_places(&poses)) * (1.0 + 8.0 * U) })
+    }
+
+    fn rounding_of_places(&self, poses: &[Pose; 2]) -> f64 {
+        rounding_of_place(&self.bodies[0], &poses[0]) + rounding_of_place(&self.bodies[1], &poses[1])
     }
 
     /// The sum of the swept radii, rounded up.
@@ -85,16 +80,86 @@ impl<'a> MovingPair<'a> {
     }
 
     /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
-    pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut [u32; 2]) -> f64 {
+    pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut Option<[u32; 2]>) -> f64 {
         let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
         let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
         let gap = sum_below(gap, -self.radii.upper);
         gap - moment.rounding - U * (gap.abs() + moment.rounding)
     }
 
-    /// K along a unit direction.
+    /// The bounding spheres at a moment: from the centre of body 2 to that of body 1, and the sum of the radii, rounded up.
+    pub fn spheres(&self, moment: &Moment) -> (Vector, f64) {
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let between = moment.poses[0].transform(&body1.centre) - moment.poses[1].transform(&body2.centre);
+        (between, (body1.radius + body2.radius) * STRETCH + self.swept())
+    }
+
+    /// What the bounding spheres say of [`MovingPair::gap`]. Centres and their product with the direction err by less than 32u of
+    /// all lengths together.
+    pub fn gap_of_spheres(&self, moment: &Moment, direction: &Vector) -> f64 {
+        let (between, radii) = self.spheres(moment);
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let lengths = moment.poses.iter().map(|pose| pose.translation().norm()).sum::<f64>();
+        let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
+        direction.dot(&between) - radii - moment.rounding - 64.0 * U * size
+    }
+
+    /// K along a vector of at most unit length.
     pub fn acceleration(&self, direction: &Vector) -> f64 {
         self.travels.iter().map(|travel| travel.acceleration(direction)).sum::<f64>() * (1.0 + 4.0 * U)
+    }
+
+    /// B of the gap along a direction that turns from the first of two unit vectors at one moment to the second at another; infinite
+    /// where they are more than 60 degrees apart.
+    pub fn sag(&self, ends: [&Moment; 2], [first, last]: [&Vector; 2]) -> f64 {
+        let h = ends[1].time - ends[0].time;
+        let of_bend = |acceleration: f64| 0.5 * acceleration * h * h;
+        if first == last {
+            return of_bend(self.acceleration(first)) * (1.0 + 8.0 * U);
+        }
+        let turn = last - first;
+        if !(turn.norm_squared() < 1.0) {
+            return f64::INFINITY;
+        }
+        let along = self.acceleration(first).max(self.acceleration(last)) + self.acceleration(&turn);
+        (of_bend(along) * (1.0 + 8.0 * U) + self.advance(ends, &turn)).max(0.0) * (1.0 + 4.0 * U)
+    }
+
+    /// No point of body 1 gains more along a vector of at most unit length on any of body 2, from one moment to another.
+    ///
+    /// Of a body a point p gains v·ΔT + (ΔRᵀv)·p, most at a corner of its box. ΔRᵀv errs by 13u|v|, its products and sums by
+    /// less than 30u of the sizes below, ΔT by u.
+    fn advance(&self, ends: [&Moment; 2], along: &Vector) -> f64 {
+        let (mut most, mut size) = (0.0, 0.0);
+        for (i, sign) in [(0, 1.0), (1, -1.0)] {
+            let [from, to] = ends.map(|moment| &moment.poses[i]);
+            if from == to {
+                continue;
+            }
+            let shape = self.bodies[i].shape;
+            let (polyhedron, (middle, half)) = (shape.polyhedron(), shape.extent().box_about_centre());
+            let step = to.translation() - from.translation();
+            let turned = to.rotate_back(along) - from.rotate_back(along);
+            let of_middle = along.dot(&step) + turned.dot(&(polyhedron.centre + middle));
+            most += sign * of_middle + turned.abs().dot(half);
+            size += step.norm() + polyhedron.centre.norm() + 2.0 * polyhedron.radius;
+        }
+        most + ends[0].rounding + ends[1].rounding + 64.0 * U * size
+    }
+
+    /// Whether it takes a call of the caller's function to say how fast an object is.
+    pub fn has_callback(&self) -> bool {
+        self.bodies.iter().any(|body| matches!(body.motion, Motion::Callback(_)))
+    }
+
+    /// A lower bound of how deep the objects are in each other at a moment, by the differences of vertices that a query has found to
+    /// hold the origin; 0 where they prove nothing.
+    pub fn enclosed_ball(&self, moment: &Moment, cache: &PairCache) -> f64 {
+        let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
+        let poses = [&moment.poses[0], &moment.poses[1]];
+        cache
+            .enclosure(polyhedra)
+            .map_or(0.0, |pairs| EnclosedBall { polyhedra, poses, pairs: pairs.as_slice() }.radius())
     }
 
     /// About how fast the gap along a direction grows, by a point of each body in its own frame.
@@ -104,8 +169,11 @@ impl<'a> MovingPair<'a> {
         let part = 1e-6 * (end - begin);
         let part = if moment.time - begin > end - moment.time { -part } else { part };
         let velocity = |i: usize| {
+            let Carried { motion, place, .. } = &self.bodies[i];
             let point = Vector::from(*points[i]);
-            self.bodies[i].motion.velocity(&self.turns[i], &moment.poses[i], moment.time, part, &point)
+            let carried = place.map_or(point, |place| place.transform(&point));
+            let is_at = moment.poses[i].transform(&point);
+            motion.velocity(&self.turns[i], moment.time, part, [&carried, &is_at])
         };
         let speed = direction.dot(&(velocity(0)? - velocity(1)?));
         Ok(if speed.is_finite() { speed } else { 0.0 })
@@ -118,7 +186,8 @@ impl<'a> MovingPair<'a> {
         let apart = moment.poses[0].translation() - moment.poses[1].translation();
         let size =
             body1.radius + body2.radius + body1.centre.norm() + body2.centre.norm() + apart.norm() + self.swept();
-        2.0 * (self.travels[0].rounding + self.travels[1].rounding) + 64.0 * U * size
+        let of_poses = self.travels[0].rounding + self.travels[1].rounding + self.rounding_of_places(&moment.poses);
+        2.0 * of_poses + 64.0 * U * size
     }
 
     /// Refuses a callback whose bound its own poses at three times show to be wrong: no point is farther from its chord than the
@@ -136,7 +205,8 @@ impl<'a> MovingPair<'a> {
                 let point = polyhedron.local_position(vertex as u32);
                 let [start, between, end] = moments.map(|moment| moment.poses[i].transform(&point));
                 let off = (between - (start * after + end * before) / (before + after)).norm();
-                let size = start.norm() + between.norm() + end.norm() + point.norm();
+                let place = body.place.map_or(0.0, |place| place.translation().norm());
+                let size = start.norm() + between.norm() + end.norm() + point.norm() + place;
                 let allowed = 0.5 * callback.bend * before * after + 2.0 * callback.rounding + 64.0 * U * size;
                 if off > allowed * (1.0 + 64.0 * U) {
                     return Err(Error::Argument(format!(

@@ -1,6 +1,7 @@
 //! A sweep along a motion: proved free step by step, as far as it goes.
 
 use super::bound::least_between;
+use super::forecast::{Forecast, Trend};
 use super::moving::{Moment, MovingPair};
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -9,6 +10,12 @@ use crate::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswe
 /// Lengths of a step that are tried by a forecast that takes the gap for smooth; those that follow are a quarter of each other, so
 /// that a few dozen come to the shortest step.
 const SMOOTH_TRIALS: u32 = 3;
+
+/// Lengths of a step after which the distance there is asked for.
+const MOST_SIGHTS: u32 = 2;
+
+/// A ball proves contact where it is so many times as large as rounding: the check of an answer asks for a depth to within its half.
+const BALL: f64 = 4.0;
 
 /// Contact is looked for after 1, 2, 4 … 2¹⁰ time tolerances.
 const MOST_DOUBLINGS: i32 = 10;
@@ -28,11 +35,11 @@ pub(super) struct Wanted {
 #[derive(Debug, Clone, Copy)]
 pub(super) struct FreeStep {
     pub ends: [Moment; 2],
-    /// Along this direction, about of unit length …
-    pub direction: Vector,
-    /// … the motion's gaps at both ends are at least so much,
+    /// Along these directions at both ends, about of unit length …
+    pub directions: [Vector; 2],
+    /// … the motion's gaps are at least so much,
     pub gaps: [f64; 2],
-    /// and at all times between at least so much.
+    /// and at all times between, along one that turns from the first to the second, at least so much.
     pub least: f64,
     /// What `least` exceeds the margin by at least.
     pub slack: f64,
@@ -66,23 +73,60 @@ pub(super) struct Sweep<'a> {
     pub cache: PairCache,
     /// Certified queries made, those of gaps apart.
     pub queries: u32,
-    /// Support vertices of the last gap.
-    vertices: [u32; 2],
+    /// Support vertices of the last gap, if one was asked for.
+    vertices: Option<[u32; 2]>,
     /// The step before.
     last: Option<[Moment; 2]>,
+    trend: Option<Trend>,
+    sight: Option<Sight>,
+}
+
+/// What is known of a moment at which a step has ended, or might have.
+struct Sight {
+    time: f64,
+    near: PairAnswer,
+    /// Along its normal.
+    gap: f64,
 }
 
 impl<'a> Sweep<'a> {
     pub fn new(pair: &'a MovingPair<'a>, cache: &PairCache) -> Sweep<'a> {
-        Sweep { pair, cache: *cache, queries: 0, vertices: [0; 2], last: None }
+        Sweep { pair, cache: *cache, queries: 0, vertices: None, last: None, trend: None, sight: None }
     }
 
     /// The distance at a moment.
     pub fn distance(&mut self, moment: &Moment) -> Result<PairAnswer> {
+        match self.sight_at(moment.time) {
+            Some(sight) => Ok(sight.near),
+            None => self.ask(moment),
+        }
+    }
+
+    fn sight_at(&self, time: f64) -> Option<&Sight> {
+        self.sight.as_ref().filter(|sight| sight.time == time)
+    }
+
+    fn ask(&mut self, moment: &Moment) -> Result<PairAnswer> {
         let mut answer = PairAnswer::default();
         self.queries += 1;
         pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
         Ok(answer)
+    }
+
+    /// On from a moment to `end` in one step, by the bounding spheres alone; only where they are so far apart that no distance on the
+    /// way is more than about twice what is proved.
+    pub fn by_spheres(&self, here: &Moment, end: f64, wanted: &Wanted) -> Result<Option<FreeStep>> {
+        let (between, radii) = self.pair.spheres(here);
+        let apart = between.norm();
+        if !(apart > 2.0 * radii) {
+            return Ok(None);
+        }
+        let direction = between / apart;
+        let gap = self.pair.gap_of_spheres(here, &direction);
+        let trial = Trial::with_gap(self.pair, here, direction, gap, wanted);
+        let there = self.pair.at(end)?;
+        let step = trial.step(&there, direction, self.pair.gap_of_spheres(&there, &direction));
+        Ok((step.least > trial.needed && step.least >= radii).then_some(step))
     }
 
     /// On from a moment, whose distance is known, to `end` at most.
@@ -97,29 +141,50 @@ impl<'a> Sweep<'a> {
         self.contact_ahead(here, end, wanted)
     }
 
-    /// The longest step along the direction of the distance that is found.
+    /// The longest step that is found: along the normal of the distance, or from there to the normal at its end.
     fn step(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Option<FreeStep>> {
         let direction = Vector::from(near.normal);
-        let mut trial = Trial::new(self.pair, here, direction, wanted, &mut self.vertices);
+        let trial = match self.sight_at(here.time).map(|sight| sight.gap) {
+            Some(gap) => Trial::with_gap(self.pair, here, direction, gap, wanted),
+            None => Trial::new(self.pair, here, direction, wanted, &mut self.vertices),
+        };
         if !(trial.room() > 0.0) {
             return Ok(None);
         }
-        let speed = self.pair.speed(here, &direction, [&near.local1, &near.local2])?;
         let longest = end - here.time;
         let shortest = wanted.shortest.min(longest);
-        let mut forecast = Forecast { room: trial.room(), speed, curve: 0.0, acceleration: trial.acceleration };
+        // How fast a callback moves takes another call of it. Most often all of a planner's edge is free.
+        if self.pair.has_callback() && longest > shortest {
+            let step = trial.to(&self.pair.at(end)?, &mut self.vertices);
+            if step.least > trial.needed {
+                return self.took(step).map(Some);
+            }
+        }
+        let speed = self.pair.speed(here, &direction, [&near.local1, &near.local2])?;
+        let mut forecast = Forecast::new(here.time, trial.room(), speed, trial.acceleration, self.trend.as_ref());
         let mut limit = longest;
         for trials in 1.. {
-            let length = forecast.step(limit, shortest);
+            let (length, closes) = forecast.step(limit, shortest);
             let there = self.pair.at(if length < longest { after(here.time, length) } else { end })?;
-            let step = trial.to(&there, &mut self.vertices);
-            if step.least > trial.needed {
+            // Where the distance is about to close the gap along one direction has closed before, if bodies turn.
+            let turns = trial.acceleration > 0.0 && trials <= MOST_SIGHTS && length > shortest;
+            let mut found = if turns && closes { self.turned(&trial, &there)? } else { None };
+            let mut rise = 0.0;
+            if found.is_none() {
+                let step = trial.to(&there, &mut self.vertices);
+                rise = step.gaps[1] - step.gaps[0];
+                found = (step.least > trial.needed).then_some(step);
+            }
+            if found.is_none() && turns && !closes {
+                found = self.turned(&trial, &there)?;
+            }
+            if let Some(step) = found {
+                self.trend = Some(forecast.trend(here.time, length));
                 return self.took(step).map(Some);
             }
             if length <= shortest {
                 break;
             }
-            let rise = step.gaps[1] - step.gaps[0];
             if trials < SMOOTH_TRIALS {
                 forecast.learn_curve(rise, length);
                 limit = 0.7 * length;
@@ -129,6 +194,19 @@ impl<'a> Sweep<'a> {
             }
         }
         Ok(None)
+    }
+
+    /// A step along a direction that turns to the normal at its end. What is asked there is kept: the next step begins with it.
+    fn turned(&mut self, trial: &Trial, there: &Moment) -> Result<Option<FreeStep>> {
+        let near = self.ask(there)?;
+        if near.outcome != Outcome::Separated {
+            return Ok(None);
+        }
+        let direction = Vector::from(near.normal);
+        let gap = self.pair.gap(there, &direction, &mut self.vertices);
+        self.sight = Some(Sight { time: there.time, near, gap });
+        let step = trial.step(there, direction, gap);
+        Ok((step.least > trial.needed).then_some(step))
     }
 
     /// Contact within some time tolerances; or a step along the axis that separates the bodies at the first of these.
@@ -142,9 +220,10 @@ impl<'a> Sweep<'a> {
             match self.look(&there, wanted.margin)? {
                 Look::Contact(answer) => return Ok(Ahead::Contact(there, answer)),
                 Look::Apart(direction) if doubling == 0 => {
-                    let mut trial = Trial::new(self.pair, here, direction.into(), wanted, &mut self.vertices);
+                    let trial = Trial::new(self.pair, here, direction.into(), wanted, &mut self.vertices);
                     let step = trial.to(&there, &mut self.vertices);
                     if step.least > trial.needed {
+                        self.trend = None;
                         return self.took(step).map(Ahead::Free);
                     }
                 }
@@ -162,16 +241,11 @@ impl<'a> Sweep<'a> {
     fn look(&mut self, moment: &Moment, margin: f64) -> Result<Look> {
         self.queries += 1;
         let mut answer = PairAnswer::default();
-        if margin == 0.0 && moment.rounding > 0.0 {
-            let depth = depth_at(self.pair, moment, &mut DepthCache::default())?;
-            if depth.outcome != Outcome::Intersecting {
-                return Ok(Look::Apart(depth.normal));
-            }
-            if !(depth.lower > moment.rounding) {
-                return Ok(Look::Open);
-            }
-        }
         pair::contact(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
+        let is_hidden = margin == 0.0 && moment.rounding > 0.0 && answer.outcome == Outcome::Intersecting;
+        if is_hidden && !self.is_deep(moment)? {
+            return Ok(Look::Open);
+        }
         let is_contact = is_contact(&answer, moment, margin);
         let is_apart = answer.outcome == Outcome::Separated && answer.lower > margin;
         Ok(match (is_contact, is_apart) {
@@ -179,6 +253,14 @@ impl<'a> Sweep<'a> {
             (false, true) => Look::Apart(answer.normal),
             (false, false) => Look::Open,
         })
+    }
+
+    /// Whether poses that a query has just found to intersect are deeper in each other than they are rounded.
+    fn is_deep(&self, moment: &Moment) -> Result<bool> {
+        if self.pair.enclosed_ball(moment, &self.cache) > BALL * moment.rounding {
+            return Ok(true);
+        }
+        Ok(depth_at(self.pair, moment, &mut DepthCache::default())?.lower > moment.rounding)
     }
 
     /// Whether the motion has its objects in contact at a moment, for sure.
@@ -226,7 +308,7 @@ pub(super) fn upper_bound(answer: &PairAnswer, moment: &Moment) -> f64 {
     if moment.rounding == 0.0 { answer.upper } else { (answer.upper + moment.rounding).next_up() }
 }
 
-/// Steps from one moment along one direction.
+/// Steps from one moment, along a direction there.
 struct Trial<'a> {
     pair: &'a MovingPair<'a>,
     here: Moment,
@@ -244,10 +326,14 @@ impl<'a> Trial<'a> {
         here: &Moment,
         direction: Vector,
         wanted: &Wanted,
-        vertices: &mut [u32; 2],
+        vertices: &mut Option<[u32; 2]>,
     ) -> Trial<'a> {
-        let slack = if wanted.with_slack { pair.slack(here) } else { 0.0 };
         let gap = pair.gap(here, &direction, vertices);
+        Trial::with_gap(pair, here, direction, gap, wanted)
+    }
+
+    fn with_gap(pair: &'a MovingPair<'a>, here: &Moment, direction: Vector, gap: f64, wanted: &Wanted) -> Trial<'a> {
+        let slack = if wanted.with_slack { pair.slack(here) } else { 0.0 };
         let acceleration = pair.acceleration(&direction);
         Trial { pair, here: *here, direction, gap, acceleration, slack, needed: wanted.margin + slack }
     }
@@ -256,67 +342,16 @@ impl<'a> Trial<'a> {
         self.gap - self.needed
     }
 
-    fn to(&mut self, there: &Moment, vertices: &mut [u32; 2]) -> FreeStep {
-        let gaps = [self.gap, self.pair.gap(there, &self.direction, vertices)];
-        let least = least_between(gaps, self.acceleration, there.time - self.here.time);
-        FreeStep { ends: [self.here, *there], direction: self.direction, gaps, least, slack: self.slack }
-    }
-}
-
-/// A guess at the gap to come, from what is known of it: room + speed·h + curve·h² beyond what is needed.
-struct Forecast {
-    room: f64,
-    speed: f64,
-    curve: f64,
-    acceleration: f64,
-}
-
-/// A step ends so much before where the gap is forecast to close: of what only turns straight on that is right, and its gap closes
-/// to the time tolerance in one step; of others that is a guess.
-const SHARE_OF_ROOM: f64 = 1.0 / 64.0;
-
-impl Forecast {
-    /// The longest step up to a limit that is likely to be proved; no shorter than `shortest`.
-    fn step(&self, limit: f64, shortest: f64) -> f64 {
-        let mut length = limit;
-        if let Some(root) = self.root() {
-            let is_straight = self.acceleration == 0.0;
-            let before = if is_straight { root - 0.5 * shortest } else { root * (1.0 - SHARE_OF_ROOM) };
-            length = length.min(before);
-        }
-        // What the bend may take away from the chord has to leave something.
-        while length > shortest {
-            let end = self.room + self.speed * length + self.curve * length * length;
-            if least_between([self.room, end], self.acceleration, length) > 0.0 {
-                return length;
-            }
-            length *= 0.75;
-        }
-        shortest
+    /// Along the same direction.
+    fn to(&self, there: &Moment, vertices: &mut Option<[u32; 2]>) -> FreeStep {
+        self.step(there, self.direction, self.pair.gap(there, &self.direction, vertices))
     }
 
-    /// Where it closes first.
-    fn root(&self) -> Option<f64> {
-        let Forecast { room, speed, curve, .. } = *self;
-        let discriminant = speed * speed - 4.0 * curve * room;
-        let steep = -speed + discriminant.sqrt();
-        // NaN where it does not close.
-        (discriminant >= 0.0 && steep > 0.0).then(|| 2.0 * room / steep)
-    }
-
-    /// By how much the gap has grown after a step, if it goes on as smoothly.
-    fn learn_curve(&mut self, rise: f64, length: f64) {
-        let curve = (rise / length - self.speed) / length;
-        if curve.is_finite() {
-            self.curve = curve;
-        }
-    }
-
-    /// The same where other points come nearest soon, say of faces that are parallel: the gap then goes straight from here.
-    fn learn_kink(&mut self, rise: f64, length: f64) {
-        let speed = rise / length;
-        if speed.is_finite() {
-            (self.speed, self.curve) = (speed, 0.0);
-        }
+    /// To a direction there and the gap along it.
+    fn step(&self, there: &Moment, direction: Vector, gap: f64) -> FreeStep {
+        let (gaps, sag) = ([self.gap, gap], self.pair.sag([&self.here, there], [&self.direction, &direction]));
+        let least = least_between(gaps, sag);
+        let (ends, directions) = ([self.here, *there], [self.direction, direction]);
+        FreeStep { ends, directions, gaps, least, slack: self.slack }
     }
 }

@@ -2,8 +2,9 @@
 
 use super::answer::{CastAnswer, CastOutcome};
 use super::bound::least_between;
+use super::carried::Moving;
 use super::config::{CastConfig, shortest_step};
-use super::moving::{Moment, Moving, MovingPair};
+use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_bound};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
@@ -121,17 +122,19 @@ fn prove_free(pair: &MovingPair, end: f64, margin: f64) -> Result<()> {
 /// Proves a step: that its gaps are what it says, at poses computed anew, and that they suffice.
 fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
     let [start, end] = step.ends.map(|moment| moment.time);
-    for (time, gap) in [(start, step.gaps[0]), (end, step.gaps[1])] {
-        let moment = pair.at(time)?;
-        let bodies = pair.placed(&moment);
+    let moments = [pair.at(start)?, pair.at(end)?];
+    for ((moment, direction), gap) in moments.iter().zip(&step.directions).zip(step.gaps) {
+        let time = moment.time;
+        let bodies = pair.placed(moment);
         let bounds = Bounds::new(bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
         // What the poses have to show for the motion, which is as far from them as they are rounded.
         let needed = sum_above((gap + moment.rounding).next_up(), pair.swept());
-        if !bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&step.direction), &step.direction, needed)) {
+        if !bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(direction), direction, needed)) {
             return Err(unverified(format!("a gap of {needed:e} at time {time:?} is not proved")));
         }
     }
-    let least = least_between(step.gaps, pair.acceleration(&step.direction), end - start);
+    let [first, last] = &step.directions;
+    let least = least_between(step.gaps, pair.sag([&moments[0], &moments[1]], [first, last]));
     if least > margin {
         return Ok(());
     }

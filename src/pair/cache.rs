@@ -168,7 +168,7 @@ impl PairCache {
 
     /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
-    pub(super) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
+    pub(crate) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
         let (mut tetrahedron, mut count) = (self.pairs, self.pairs.len());
         match self.content() {
             Content::Enclosure(pairs) => count = pairs,

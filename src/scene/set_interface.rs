@@ -113,15 +113,15 @@ impl Scene {
     }
 
     /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain, as
-    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own.
+    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own; pieces
+    /// with poses of their own move with their object.
     /// Pairs of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test;
     /// both may be fixed. `config.step_budget` is that of each pair.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, and for an
-    /// object whose pieces have poses of their own; as of [`motion::cast`](crate::motion::cast()), and
-    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object; as of
+    /// [`motion::cast`](crate::motion::cast()), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn cast(
         &self,
         set: &ObjectSet,

@@ -6,6 +6,7 @@
 
 mod caches;
 mod clearances;
+mod counts;
 mod families;
 mod forgery;
 mod known;

@@ -1,7 +1,9 @@
 //! Scenes, alone and from several threads.
 
 mod bulk;
+mod casts;
 mod contacts;
+mod counts;
 mod events;
 mod listener;
 mod motions;

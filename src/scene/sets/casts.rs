@@ -2,8 +2,9 @@
 //! to the earliest time that is known.
 
 use crate::base::error::{Error, Result};
+use crate::base::math::Pose;
 use crate::base::memory::push;
-use crate::motion::{self, CastAnswer, CastConfig, CastOutcome, Motion, Moving, Swept};
+use crate::motion::{self, Carried, CastAnswer, CastConfig, CastOutcome, Motion, Place, Swept};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
@@ -68,6 +69,8 @@ pub(crate) struct Mover {
     proxy: u32,
     /// Which object of the set it is of.
     of: u32,
+    /// Of a piece that has a pose of its own.
+    place: Option<Pose>,
     /// The first of its boxes, and the one behind its last.
     boxes: [u32; 2],
 }
@@ -99,8 +102,7 @@ enum Target {
 ///
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
-/// object, for an object whose pieces have poses of their own, and as of [`crate::motion::cast`]; [`Error::Pose`],
-/// [`Error::Memory`].
+/// object, and as of [`crate::motion::cast`]; [`Error::Pose`], [`Error::Memory`].
 pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswer> {
     question.config.check()?;
     room.caches.make_room()?;
@@ -115,8 +117,12 @@ impl<'a> Question<'a> {
         &self.motions[(of as usize).min(self.motions.len() - 1)]
     }
 
-    fn moving(&self, mover: &Mover) -> Moving<'a> {
-        Moving { shape: &self.others.world.proxies.shapes[mover.proxy as usize], motion: self.motion(mover.of) }
+    fn carried<'b>(&self, mover: &'b Mover) -> Carried<'b>
+    where
+        'a: 'b,
+    {
+        let shape = &self.others.world.proxies.shapes[mover.proxy as usize];
+        Carried { shape, motion: self.motion(mover.of), place: mover.place.as_ref() }
     }
 }
 
@@ -134,29 +140,27 @@ fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
     for (of, id) in (0..).zip(ids) {
         let named = |error: Error| error.about(&format!("object {of} of {} of the set", ids.len()));
         let object = world.objects.get(*id).map_err(named)?;
-        if object.arrangement.is_some() {
-            let message = "its pieces have poses of their own: make each an object, with its motion";
-            return Err(named(Error::Argument(message.into())));
-        }
-        for proxy in object.proxies() {
+        let piece_poses = object.arrangement.as_ref().map_or(&[][..], |arrangement| &arrangement.piece_poses);
+        for (piece, proxy) in object.proxies().enumerate() {
             let first = boxes.len() as u32;
-            let mover = Mover { proxy: proxy as u32, of, boxes: [first; 2] };
-            list_boxes(question.moving(&mover), config, boxes).map_err(named)?;
+            // A product with the identity is exact.
+            let place = piece_poses.get(piece).filter(|place| **place != Pose::IDENTITY).copied();
+            let mover = Mover { proxy: proxy as u32, of, place, boxes: [first; 2] };
+            list_boxes(question.carried(&mover), config, boxes).map_err(named)?;
             push(movers, Mover { boxes: [first, boxes.len() as u32], ..mover })?;
         }
     }
     Ok(())
 }
 
-/// Boxes around what one piece sweeps over. Between two places of it no point is farther from the hull of both than `sag`.
-fn list_boxes(moving: Moving, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> Result<()> {
-    let swept = Swept::new(moving, config.range())?;
-    let grown = (swept.sag + config.margin).next_up();
+/// Boxes around what one piece sweeps over, grown by the margin.
+fn list_boxes(body: Carried, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> Result<()> {
+    let swept = Swept::new(body, config.range())?;
     let mut before = None;
     for place in swept.places() {
-        let (time, pose) = place?;
-        let (spheres, _) = placed(moving.shape, &pose, pose.rotation_defect());
-        let here = grown_box(moving.shape, &pose, &spheres, grown);
+        let Place { time, pose, off } = place?;
+        let (spheres, _) = placed(body.shape, &pose, pose.rotation_defect());
+        let here = grown_box(body.shape, &pose, &spheres, (off + config.margin).next_up());
         if let Some((from, there)) = before.replace((time, here)) {
             push(boxes, SweptBox { from, bounds: here.union(&there) })?;
         }
@@ -207,21 +211,22 @@ fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
         }
         let mover = &movers[approach.mover as usize];
         let rests;
-        let (other, motion) = match approach.target {
-            Target::Mover(k) => (movers[k as usize].proxy, question.motion(movers[k as usize].of)),
+        let (other, second) = match approach.target {
+            Target::Mover(k) => (movers[k as usize].proxy, question.carried(&movers[k as usize])),
             Target::Piece(proxy) => {
                 rests = Motion::Fixed(world.proxies.poses[proxy as usize]);
-                (proxy, &rests)
+                let shape = &world.proxies.shapes[proxy as usize];
+                (proxy, Carried { shape, motion: &rests, place: None })
             }
         };
         let pair = [mover.proxy, other];
         if !world.is_tested(pair.map(|proxy| proxy as usize), true) {
             continue;
         }
-        let bodies = [question.moving(mover), Moving { shape: &world.proxies.shapes[other as usize], motion }];
+        let bodies = [question.carried(mover), second];
         let mut answer = CastAnswer::default();
         let config = CastConfig { t_end: until, ..**config };
-        motion::cast(bodies, caches.of(pair), &config, &mut answer)?;
+        motion::cast_carried(bodies, caches.of(pair), &config, &mut answer)?;
         earliest.queries = earliest.queries.saturating_add(answer.queries);
         if answer.outcome == CastOutcome::Free {
             continue;

@@ -6,7 +6,7 @@ use crate::base::memory::push;
 use crate::pair::Placed;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::content::World;
-use crate::scene::world::object::{ObjectId, composed};
+use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::{Spheres, grown_box, placed};
 
 /// Objects that a question is about.
@@ -83,7 +83,7 @@ pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut V
                     match &object.arrangement {
                         None => Some(*pose),
                         Some(arrangement) => {
-                            let whole = composed(pose, &arrangement.piece_poses[piece]);
+                            let whole = pose.after(&arrangement.piece_poses[piece]);
                             check(&whole)?;
                             Some(whole)
                         }

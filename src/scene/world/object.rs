@@ -143,11 +143,6 @@ impl Entry {
     }
 }
 
-/// The pose of what is at `inner` in a frame that is at `outer`, each number rounded.
-pub(crate) fn composed(outer: &Pose, inner: &Pose) -> Pose {
-    Pose::new(&(outer.rotation() * inner.rotation()), &outer.transform(&inner.translation()))
-}
-
 #[derive(Debug)]
 struct Slot {
     /// That of the object in it, or of the last one; 0 before the first.

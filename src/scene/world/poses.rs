@@ -8,7 +8,7 @@ use crate::base::memory::{filled, with_capacity};
 use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
 use crate::scene::world::content::World;
-use crate::scene::world::object::{Arrangement, Entry, ObjectId, ObjectTable, composed};
+use crate::scene::world::object::{Arrangement, Entry, ObjectId, ObjectTable};
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::Rows;
 
@@ -125,7 +125,7 @@ impl World {
         with_default(|| {
             pose.check(limit)?;
             let whole = object.arrangement.as_ref().map_or(proxies.poses[own.start], |arrangement| arrangement.pose);
-            let world = composed(&whole, pose);
+            let world = whole.after(pose);
             let defect = world.checked_defect(limit)?;
             let arrangement = match &mut object.arrangement {
                 Some(arrangement) => arrangement,
@@ -197,7 +197,7 @@ fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
     let defect = pose.checked_defect(limit)?;
     if let Some(arrangement) = &object.arrangement {
         for (k, piece_pose) in arrangement.piece_poses.iter().enumerate() {
-            let world = composed(pose, piece_pose);
+            let world = pose.after(piece_pose);
             world.check(limit).map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;
         }
     }
@@ -218,7 +218,7 @@ fn for_each_piece(object: &Entry, pose: &Pose, defect: f64, mut place: impl FnMu
         None => object.proxies().for_each(|proxy| place(proxy, pose, defect)),
         Some(arrangement) => {
             for (proxy, piece_pose) in object.proxies().zip(&arrangement.piece_poses) {
-                let world = composed(pose, piece_pose);
+                let world = pose.after(piece_pose);
                 place(proxy, &world, world.rotation_defect());
             }
         }

@@ -1,0 +1,109 @@
+//! A guess at the gap to come, and how long a step is likely to be proved by it. It proves nothing.
+
+use super::bound::least_between;
+
+/// A step ends so much before where the gap is forecast to close, or nearer if the forecast before was good: of what only moves
+/// straight on it is right, and its gap closes to the time tolerance in one step.
+const SHARE_OF_ROOM: f64 = 1.0 / 64.0;
+
+/// The part of the room that a forecast keeps back is so many times what the one before was off by, as its error grows with the square
+/// of the time.
+const CAUTION: f64 = 4.0;
+
+/// room + speed·h + curve·h² beyond what is needed after a time h.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Forecast {
+    room: f64,
+    speed: f64,
+    curve: f64,
+    acceleration: f64,
+    /// By what part of the room for each unit of time the forecast before was off; infinite without one.
+    off: f64,
+}
+
+/// What a step that was taken says of the next.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Trend {
+    time: f64,
+    speed: f64,
+    room: f64,
+    /// What is expected at its end.
+    expected: f64,
+}
+
+impl Forecast {
+    /// From the room at a time, how fast the distance grows there and the largest acceleration.
+    pub fn new(time: f64, room: f64, speed: f64, acceleration: f64, trend: Option<&Trend>) -> Forecast {
+        let mut forecast = Forecast { room, speed, curve: 0.0, acceleration, off: f64::INFINITY };
+        if let Some(trend) = trend.filter(|_| acceleration > 0.0) {
+            let length = time - trend.time;
+            let curve = 0.5 * (speed - trend.speed) / length;
+            if curve.is_finite() {
+                forecast.curve = curve;
+            }
+            forecast.off = (room - trend.expected).abs() / (trend.room * length);
+        }
+        forecast
+    }
+
+    /// What a step from a time says of the one after it.
+    pub fn trend(&self, time: f64, length: f64) -> Trend {
+        Trend { time, speed: self.speed, room: self.room, expected: self.after(length) }
+    }
+
+    fn after(&self, length: f64) -> f64 {
+        self.room + self.speed * length + self.curve * length * length
+    }
+
+    /// The longest step up to a limit that is likely to be proved, no shorter than `shortest`; and whether it ends where the gap is
+    /// about to close.
+    pub fn step(&self, limit: f64, shortest: f64) -> (f64, bool) {
+        let (mut length, mut closes) = (limit, false);
+        if let Some(root) = self.root() {
+            let kept_back = if self.acceleration == 0.0 { 0.0 } else { self.share(root) * root };
+            let before = root - kept_back.max(0.5 * shortest);
+            if before < length {
+                (length, closes) = (before, true);
+            }
+        }
+        // What the bend may take away from the chord has to leave something.
+        while length > shortest {
+            let sag = 0.5 * self.acceleration * length * length;
+            if least_between([self.room, self.after(length)], sag) > 0.0 {
+                return (length, closes);
+            }
+            length *= 0.75;
+        }
+        (shortest, closes)
+    }
+
+    fn share(&self, length: f64) -> f64 {
+        // A NaN is not the smaller.
+        (CAUTION * self.off * length).min(SHARE_OF_ROOM)
+    }
+
+    /// Where it closes first.
+    fn root(&self) -> Option<f64> {
+        let Forecast { room, speed, curve, .. } = *self;
+        let discriminant = speed * speed - 4.0 * curve * room;
+        let steep = -speed + discriminant.sqrt();
+        // NaN where it does not close.
+        (discriminant >= 0.0 && steep > 0.0).then(|| 2.0 * room / steep)
+    }
+
+    /// By how much the gap has grown after a step, if it goes on as smoothly.
+    pub fn learn_curve(&mut self, rise: f64, length: f64) {
+        let curve = (rise / length - self.speed) / length;
+        if curve.is_finite() {
+            self.curve = curve;
+        }
+    }
+
+    /// The same where other points come nearest soon, say of faces that are parallel: the gap then goes straight from here.
+    pub fn learn_kink(&mut self, rise: f64, length: f64) {
+        let speed = rise / length;
+        if speed.is_finite() {
+            (self.speed, self.curve) = (speed, 0.0);
+        }
+    }
+}
