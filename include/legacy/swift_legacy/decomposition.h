@@ -63,11 +63,7 @@ public:
             return "it has no faces";
         }
         number_faces(decomposition);
-        for (std::size_t i = 0; i < part_.pieces.size(); ++i) {
-            if (!close(*part_.pieces[i], decomposition, decomposition.pieces[i])) {
-                return "piece " + text(i) + " is not closed by triangles between its own vertices";
-            }
-        }
+        close_pieces(decomposition);
         return "";
     }
 
@@ -100,6 +96,12 @@ private:
     std::map<Point, int> places_;
     std::vector<Triangle> triangles_;
     double margin_; /* how far a vertex may be above a plane and counts as on it */
+
+    /* The margin is 1e-6 of the diagonal at least: this of it is above what planes of doubles are off by. */
+    static double rounding_of(double margin)
+    {
+        return 1e-6 * margin;
+    }
 
     /* 0 and -0 are equal. */
     static Point point_of(const Mesh& mesh, std::size_t vertex)
@@ -245,25 +247,61 @@ private:
         drop_if_places(decomposition.face_labels);
     }
 
-    /* Makes the hull of a piece closed that is a patch of the surface. */
+    /*
+     * Closes the hulls of pieces that are patches of the surface. Where a patch is flat, or coarse coordinates bend it so that
+     * triangles between its own vertices make no convex body, each of its triangles is a piece: distances are those of the
+     * surface, whatever the pieces.
+     */
+    void close_pieces(Decomposition& decomposition) const
+    {
+        std::vector<Decomposition::Piece> closed;
+        for (std::size_t i = 0; i < part_.pieces.size(); ++i) {
+            Decomposition::Piece& piece = decomposition.pieces[i];
+            if (!part_.pieces[i]->is_patch || close(*part_.pieces[i], decomposition, piece)) {
+                closed.push_back(piece);
+                continue;
+            }
+            for (std::size_t k = 0; k < piece.faces.size(); ++k) {
+                const int face = piece.faces[k], *corners = &decomposition.corners[3 * static_cast<std::size_t>(face)];
+                const int turned[3] = {corners[0], corners[2], corners[1]};
+                Decomposition::Piece flat;
+                flat.faces.push_back(face);
+                flat.closing.assign(turned, turned + 3);
+                closed.push_back(flat);
+            }
+        }
+        decomposition.pieces.swap(closed);
+        for (std::size_t i = 0; i < decomposition.pieces.size(); ++i) {
+            const std::vector<int>& faces = decomposition.pieces[i].faces;
+            for (std::size_t k = 0; k < faces.size(); ++k) {
+                decomposition.piece_of_face[static_cast<std::size_t>(faces[k])] = static_cast<int>(i);
+            }
+        }
+    }
+
+    /* Whether a piece is convex up to the precision of its own coordinates, as whoever reads the file asks. */
+    static bool is_convex(const Decomposition& decomposition, const std::vector<int>& patch, const std::vector<int>& closing)
+    {
+        std::vector<Mesh> levels(1);
+        levels[0].vertices = decomposition.vertices;
+        levels[0].indices.assign(patch.begin(), patch.end());
+        levels[0].indices.insert(levels[0].indices.end(), closing.begin(), closing.end());
+        levels[0].face_count = levels[0].indices.size() / 3;
+        levels[0].drop_unused_vertices();
+        find_tolerance(levels[0]);
+        const swiftprox_shape* shape = make_shape(levels, LevelOptions(DEFAULT_MIN_TCOUNT, DEFAULT_QSLIM_TRATIO));
+        swiftprox_shape_release(shape);
+        return shape != NULL;
+    }
+
+    /* False where the patch is flat, or triangles between its vertices do not close its hull. */
     bool close(const Geometry& geometry, const Decomposition& decomposition, Decomposition::Piece& piece) const
     {
-        std::vector<int> patch = decomposition.patch(piece);
-        if (!geometry.is_patch) {
-            return true;
-        }
+        const std::vector<int> patch = decomposition.patch(piece);
         swiftprox_shape_info info;
         info.struct_size = sizeof info;
         if (swiftprox_shape_get_info(geometry.shape, &info) != SWIFTPROX_OK) {
             return false;
-        }
-        if (info.dimension < 3) {
-            /* A flat one has its own triangles as its other side. */
-            for (std::size_t i = 0; i < patch.size(); i += 3) {
-                const int turned[3] = {patch[i], patch[i + 2], patch[i + 1]};
-                piece.closing.insert(piece.closing.end(), turned, turned + 3);
-            }
-            return true;
         }
         std::vector<double> room(3 * info.vertex_count);
         std::vector<uint32_t> labels(info.vertex_count);
@@ -274,8 +312,18 @@ private:
         for (std::size_t i = 0; i < labels.size(); ++i) {
             extremes.push_back(places_.find(point_of(geometry.body(), labels[i]))->second);
         }
-        HullClosing hull(decomposition.vertices, extremes, margin_);
-        return hull.close(patch, piece.closing);
+        const HullClosing by_precision(decomposition.vertices, extremes, margin_);
+        if (info.dimension < 3 || by_precision.is_flat(patch)) {
+            return false;
+        }
+        /* The hull of the coordinates as they are; where the patch is bent by their precision, one within that. */
+        const HullClosing by_rounding(decomposition.vertices, extremes, rounding_of(margin_));
+        std::vector<int> closing;
+        if ((!by_rounding.close(patch, closing) && !by_precision.close(patch, closing)) || !is_convex(decomposition, patch, closing)) {
+            return false;
+        }
+        piece.closing.swap(closing);
+        return true;
     }
 };
 
