@@ -6,31 +6,6 @@
 
 namespace {
 
-/* Right prisms over a polygon, from z = -0.5 to 0.5: face 0 is the bottom, face 1 the top, face 2 + i the side from corner i on. */
-Solid extruded(const double (*polygon)[2], int count)
-{
-    const double m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    Solid solid;
-    std::vector<int> bottom, top;
-    for (int i = 0; i < 2 * count; ++i) {
-        solid.add_vertex(m, polygon[i % count][0], polygon[i % count][1], i < count ? -0.5 : 0.5);
-    }
-    for (int i = 0; i < count; ++i) {
-        bottom.push_back(count - 1 - i);
-        top.push_back(count + i);
-    }
-    solid.add_face(count, &bottom[0]);
-    solid.add_face(count, &top[0]);
-    for (int i = 0; i < count; ++i) {
-        const int next = (i + 1) % count, side[4] = {i, next, count + next, count + i};
-        solid.add_face(4, side);
-    }
-    return solid;
-}
-
-/* An L: the square from 0 to 2 without that from 1 to 2. */
-const double L[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
-
 Solid turned_round(Solid solid)
 {
     std::size_t at = 0;
@@ -82,7 +57,7 @@ void copies(const Folder& folder)
 {
     Messages messages;
     SWIFT_Scene scene(false);
-    const std::string file = folder.write("general.poly", extruded(L, 6).file(0 + 1));
+    const std::string file = folder.write("general.poly", extruded(L_POLYGON, 6).file(0 + 1));
     const BoxMesh box(0.25, 0.25, 0.25);
     const Rotation half(2, 4 * std::atan(1.0));
     const SWIFT_Translation away = {2, 2, 0};
@@ -117,20 +92,20 @@ void refused(const Folder& folder)
     Messages messages;
     SWIFT_Scene scene(false);
     int id = 9;
-    Solid open = extruded(L, 6);
+    Solid open = extruded(L_POLYGON, 6);
     open.valences.pop_back();
     CHECK(!scene.Add_General_Object(folder.write("open.poly", open.file(3)).c_str(), id) && id == 9);
     std::string said = messages.take();
     CHECK(said.find("Error: The mesh is not closed --\n       all edges must belong to exactly two triangles\n") == 0);
     CHECK(said.find("Error (Add_General_Object obj 0 piece 0): Mesh creation failed\n") != std::string::npos);
     CHECK(said.find("SWIFTPROX") == std::string::npos);
-    Solid third = extruded(L, 6);
+    Solid third = extruded(L_POLYGON, 6);
     const int flap[3] = {0, 1, 9};
     third.add_face(3, flap);
     CHECK(!scene.Add_General_Object(folder.write("third.poly", third.file(3)).c_str(), id) && id == 9);
     CHECK(messages.has("Error: The mesh is not a 2-manifold --\n"));
     /* One face of a closed mesh the other way round. */
-    Solid wrong = extruded(L, 6);
+    Solid wrong = extruded(L_POLYGON, 6);
     std::reverse(wrong.faces.end() - 4, wrong.faces.end());
     CHECK(!scene.Add_General_Object(folder.write("wrong.poly", wrong.file(3)).c_str(), id) && id == 9);
     CHECK(messages.has("the faces are not consistently oriented"));
@@ -141,7 +116,7 @@ void refused(const Folder& folder)
 int main(int argc, char** argv)
 {
     const Folder folder(argc, argv);
-    const Solid solid = extruded(L, 6);
+    const Solid solid = extruded(L_POLYGON, 6);
     for (int i = 0; i < 2; ++i) {
         notch(folder, solid, i == 1);
         notch(folder, turned_round(solid), i == 1);

@@ -154,4 +154,29 @@ inline Solid sphere(int rings, int around)
     return solid;
 }
 
+/* Right prisms over a polygon, from z = -0.5 to 0.5: face 0 is the bottom, face 1 the top, face 2 + i the side from corner i on. */
+inline Solid extruded(const double (*polygon)[2], int count)
+{
+    const double m[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+    Solid solid;
+    std::vector<int> bottom, top;
+    for (int i = 0; i < 2 * count; ++i) {
+        solid.add_vertex(m, polygon[i % count][0], polygon[i % count][1], i < count ? -0.5 : 0.5);
+    }
+    for (int i = 0; i < count; ++i) {
+        bottom.push_back(count - 1 - i);
+        top.push_back(count + i);
+    }
+    solid.add_face(count, &bottom[0]);
+    solid.add_face(count, &top[0]);
+    for (int i = 0; i < count; ++i) {
+        const int next = (i + 1) % count, side[4] = {i, next, count + next, count + i};
+        solid.add_face(4, side);
+    }
+    return solid;
+}
+
+/* The square from 0 to 2 without that from 1 to 2. */
+const double L_POLYGON[6][2] = {{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 2}, {0, 2}};
+
 #endif
