@@ -9,7 +9,7 @@
 use crate::base::double_double::{DoubleDouble, wide_dot, widen};
 use crate::base::error::Result;
 use crate::base::math::{Vector, power_of_two};
-use crate::base::memory::{collected, filled, with_capacity};
+use crate::base::memory::{collected, copied, filled, with_capacity};
 use crate::polyhedron::fan::{FaceBlock, Fan, FanEdge, MOST_CORNERS, MOST_EDGES, MOST_FACES, PointBlock};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 
@@ -100,15 +100,40 @@ fn arcs_around_corners(polyhedron: &Polyhedron, corners: &[u32]) -> Result<Optio
     Ok(is_closed.then_some(arcs))
 }
 
-/// Of each corner, the unit vector along the sum of its faces' normals.
+/// Of each corner, a unit vector that all of its faces' normals look along, as closely as it is found: from their sum on towards the
+/// centre of the least ball around them (Bădoiu and Clarkson 2003). The sum alone need not be one: at the base of a pyramid two steep
+/// sides outweigh the base.
 fn axes_of(arcs: &[Arc], count: usize) -> Result<Vec<Vector>> {
     let mut axes = filled(Vector::zeros(), count)?;
     for arc in arcs {
         axes[arc.corner] += arc.normals[0] + arc.normals[1];
     }
     axes.iter_mut().for_each(|axis| *axis /= axis.norm());
-    Ok(axes)
+    let (mut best, mut centres) = (filled((f64::NEG_INFINITY, Vector::zeros()), count)?, copied(&axes)?);
+    // Of each corner the least product of its axis with a normal, and that normal.
+    let mut least = filled((f64::INFINITY, Vector::zeros()), count)?;
+    for round in 1..=ROUNDS_OF_CENTRES {
+        least.fill((f64::INFINITY, Vector::zeros()));
+        for arc in arcs {
+            let product = axes[arc.corner].dot(&arc.normals[0]);
+            if product < least[arc.corner].0 {
+                least[arc.corner] = (product, arc.normals[0]);
+            }
+        }
+        for (corner, &(product, normal)) in least.iter().enumerate() {
+            if product > best[corner].0 {
+                best[corner] = (product, axes[corner]);
+            }
+            let centre = centres[corner];
+            centres[corner] = centre + (normal - centre) / f64::from(1 + round);
+            axes[corner] = centres[corner] / centres[corner].norm();
+        }
+    }
+    collected(best.into_iter().map(|(_, axis)| axis))
 }
+
+/// Steps towards the centre of a least ball: after so many it is found to one part in eight of the ball's radius.
+const ROUNDS_OF_CENTRES: u32 = 64;
 
 /// Directions of no symmetry, of which one is to be clear of all arcs.
 const GENERIC: [[f64; 3]; 4] =

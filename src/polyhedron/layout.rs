@@ -10,10 +10,10 @@
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
-use crate::base::memory::copied;
+use crate::base::memory::{collected, copied};
 use crate::base::normal::unit;
 use crate::polyhedron::contact_faces::ContactFaces;
-use crate::polyhedron::fan::Fan;
+use crate::polyhedron::fan::{Fan, PointBlock};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::polygon_search::PolygonSearch;
 
@@ -245,13 +245,32 @@ pub struct Polyhedron {
     pub polygon_starts: Vec<u32>,
     /// Finds the polygon that holds a point of a face of many.
     pub polygon_search: PolygonSearch,
+    /// The vertices in fours, of a body of at most [`MOST_IN_BLOCKS`]: all are looked at sooner than a climb has ended. The last
+    /// block repeats the last vertex.
+    pub vertex_blocks: Vec<PointBlock>,
     /// Of a body of few corners, what its depth in another is read from; see [`Fan`].
     pub fan: Option<Fan>,
     /// Faces as manifolds take them. Levels of detail have none.
     pub contact_faces: ContactFaces,
 }
 
+/// Most vertices of a body that has them in blocks.
+pub const MOST_IN_BLOCKS: usize = 256;
+
 impl Polyhedron {
+    /// Puts the vertices into blocks, if they are not many.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub(crate) fn fill_vertex_blocks(&mut self) -> Result<()> {
+        let few = if self.vertices.len() <= MOST_IN_BLOCKS { &self.vertices[..] } else { &[] };
+        self.vertex_blocks = collected(few.chunks(4).map(|four| {
+            let of = |axis: usize| std::array::from_fn(|i| four[i.min(four.len() - 1)].position[axis]);
+            PointBlock { x: of(0), y: of(1), z: of(2) }
+        }))?;
+        Ok(())
+    }
+
     /// A copy without the look-up table and the search for polygons.
     ///
     /// # Errors
@@ -280,6 +299,7 @@ impl Polyhedron {
             polygon_corners: copied(&self.polygon_corners)?,
             polygon_starts: copied(&self.polygon_starts)?,
             polygon_search: PolygonSearch::new(),
+            vertex_blocks: copied(&self.vertex_blocks)?,
             fan: self.fan.as_ref().map(Fan::copy).transpose()?,
             contact_faces: self.contact_faces.copy()?,
         })
@@ -461,6 +481,7 @@ impl Polyhedron {
             polygon_corners,
             polygon_starts,
             polygon_search,
+            vertex_blocks,
             fan,
             contact_faces,
             mass: _,
@@ -482,6 +503,7 @@ impl Polyhedron {
             + size_of_val(&polygon_corners[..])
             + size_of_val(&polygon_starts[..])
             + polygon_search.heap_bytes()
+            + size_of_val(&vertex_blocks[..])
             + fan.as_ref().map_or(0, Fan::heap_bytes)
             + contact_faces.heap_bytes()
             + lookup.heap_bytes()

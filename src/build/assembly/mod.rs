@@ -74,6 +74,7 @@ pub fn build_in_steps(
     copy_labels_in_steps(&mut polyhedron, &mut progress.part(0.97, 1.0))?;
     let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.simple = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_in_range;
+    polyhedron.fill_vertex_blocks()?;
     polyhedron.fan = fan_of(&polyhedron)?;
     Ok(polyhedron)
 }
@@ -237,6 +238,7 @@ impl HullSurface {
             polygon_corners: Vec::new(),
             polygon_starts: Vec::new(),
             polygon_search: PolygonSearch::new(),
+            vertex_blocks: Vec::new(),
             fan: None,
             contact_faces: ContactFaces::default(),
             mass,

@@ -29,7 +29,8 @@ pub struct DepthCache {
     direction: [u32; 3],
     /// What proved the depth where the pair rested, the last one that did first.
     pyramids: [KeptPyramid; PYRAMIDS],
-    /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair.
+    /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair, and the
+    /// next two have the bits of its direction in body 2's axes.
     pairs: [VertexPair; MOST_VERTICES],
     triangles: [PackedTriangle; MOST_TRIANGLES],
 }
@@ -82,7 +83,8 @@ impl DepthCache {
         polytope: &mut Polytope<V, T>,
     ) -> SearchStart {
         let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
-        let mut start = SearchStart { triangle: None, direction: self.direction(frame), first_triangles };
+        let mut start =
+            SearchStart { triangle: None, direction: self.direction(frame), first_triangles, only_known: false };
         let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
         if !(is_kept && self.are_vertices(frame.polyhedra(), vertices)) {
             return start;
@@ -105,8 +107,7 @@ impl DepthCache {
     /// The direction of the least overlap when that was last searched for, in the world; `None` where none is kept.
     #[inline(always)]
     pub fn direction<L: Lanes>(&self, frame: &Frame<L>) -> Option<Vector> {
-        let [x, y, z] = self.direction.map(|bits| f64::from(f32::from_bits(bits)));
-        let direction = frame.bodies[0].rotate(&Vector::new(x, y, z)).to_vector();
+        let direction = frame.bodies[0].rotate(&number(self.direction)).to_vector();
         let square = direction.norm_squared();
         // False for a NaN.
         (square > 0.25 && square < 4.0).then_some(direction)
@@ -156,12 +157,28 @@ impl DepthCache {
     #[inline(always)]
     pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector, overlap: bool) {
         self.remember(frame, direction);
+        let [x, y, z] = bits(frame.bodies[1].rotate_back(L::from_vector(direction)).to_vector());
         let (kind, pair) = match facet {
             Facet::Face(0, face) => (FACE_OF_FIRST, [face, 0]),
             Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
             Facet::Edges(edges) => (EDGES, edges),
         };
         (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
+        (self.pairs[1], self.pairs[2]) = ([x, y], [z, 0]);
+    }
+
+    /// The direction of the least overlap in either body's axes, where a facet is kept; any numbers.
+    #[inline(always)]
+    pub fn facet_directions(&self) -> Option<[Vector; 2]> {
+        self.facet()?;
+        let ([x, y], [z, _]) = (self.pairs[1], self.pairs[2]);
+        Some([number(self.direction), number([x, y, z])])
+    }
+
+    /// Whether a polytope is kept, be it of these bodies or not.
+    #[inline(always)]
+    pub fn has_polytope(&self) -> bool {
+        self.counts[1] > 0
     }
 
     /// Whether a pyramid is kept, be it of these bodies or not.
@@ -216,12 +233,6 @@ impl DepthCache {
         kept.pyramid.mark = triangle << 4 | kind2 << 2 | kind1;
     }
 
-    /// Whether nothing is kept.
-    #[inline(always)]
-    pub fn is_cold(&self) -> bool {
-        self.counts == [0; 4] && self.direction == [0; 3]
-    }
-
     /// The polytope that it holds stays, with another direction of least overlap.
     #[inline(always)]
     pub fn keep<L: Lanes>(&mut self, frame: &Frame<L>, triangle: usize, direction: &Vector) {
@@ -231,8 +242,7 @@ impl DepthCache {
 
     #[inline(always)]
     fn remember<L: Lanes>(&mut self, frame: &Frame<L>, direction: &Vector) {
-        let own = frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector();
-        self.direction = [(own.x as f32).to_bits(), (own.y as f32).to_bits(), (own.z as f32).to_bits()];
+        self.direction = bits(frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector());
     }
 
     /// Keeps a polytope, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
@@ -269,6 +279,19 @@ impl DepthCache {
         let [_, triangles, overlap, _] = self.counts;
         triangles > 0 || (overlap == 1 && self.facet().is_some())
     }
+}
+
+/// A direction in single precision.
+#[inline(always)]
+fn bits(direction: Vector) -> [u32; 3] {
+    [(direction.x as f32).to_bits(), (direction.y as f32).to_bits(), (direction.z as f32).to_bits()]
+}
+
+/// A direction that was kept.
+#[inline(always)]
+fn number([x, y, z]: [u32; 3]) -> Vector {
+    let [x, y, z] = [f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)];
+    Vector::new(x.into(), y.into(), z.into())
 }
 
 /// A feature by its kind and index.

@@ -35,7 +35,7 @@ pub fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose
     }
     answer.ending = match ending {
         Ending::Spent => DepthEnding::Budget,
-        Ending::Stuck | Ending::Flat => DepthEnding::Stalled,
+        Ending::Stuck | Ending::Flat | Ending::Outdated => DepthEnding::Stalled,
         Ending::Narrow | Ending::Separated => DepthEnding::Narrow,
     };
     fill_overlapping(answer, polyhedra, poses, found);

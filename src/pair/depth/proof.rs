@@ -57,7 +57,7 @@ impl Kernel for Proof<'_> {
                 cache.unpack(&frame, &mut polytope);
             }
             ProofFrom::Search(lower) => {
-                let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
+                let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
                 let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
                 polytope::expand(&frame, &mut polytope, &start, &wanted);
             }

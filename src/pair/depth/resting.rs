@@ -85,7 +85,7 @@ impl<L: Lanes> Work for LookFurther<'_, L> {
 #[inline(always)]
 fn moved<L: Lanes>(frame: &Frame<L>, rounding: &Rounding, pyramid: &Pyramid) -> Option<Pyramid> {
     let direction = pyramid.direction(frame);
-    pyramid.moved_to(polytope::support(frame, rounding, &direction, Some(pyramid.first())).pair)
+    pyramid.moved_to(polytope::support(frame, rounding, &direction, Some(pyramid.first()), f64::INFINITY).pair)
 }
 
 /// The answer of a pair whose first pyramid proves a depth.

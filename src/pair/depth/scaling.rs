@@ -98,6 +98,7 @@ fn in_unit_of(polyhedron: &Polyhedron, unit: f64) -> Result<Option<Polyhedron>> 
     copy.bevels.iter_mut().for_each(|bevel| bound(&mut bevel.slack));
     copy.mass.centre_of_mass *= unit;
     copy.lookup.plan = Plan::None;
+    copy.fill_vertex_blocks()?;
     copy.fan = None;
     Ok(Some(copy))
 }

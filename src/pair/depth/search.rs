@@ -37,8 +37,10 @@ pub enum Pyramids {
 /// moving on a polytope that was kept …
 const LITTLE_WORK: usize = 3_000;
 
-/// … and below this less than making one.
+/// … and below this less than making one. One is made there where the direction of least overlap has turned by no more than the
+/// angle of this cosine, 4°, since the search before: then the next query moves it on.
 const MOST_WORK: usize = 16_000;
+const COHERENT: f64 = 0.9975;
 
 /// How wide an interval may be, over the pair's size or distance, a little less than is promised. By all facets it is wider where
 /// faces were merged of triangles that lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
@@ -86,13 +88,19 @@ pub struct FoundPolytope {
 }
 
 impl FoundPolytope {
+    #[inline(always)]
+    fn without_triangles(expansion: Expansion) -> FoundPolytope {
+        let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
+        FoundPolytope { expansion, witness, triangles: 0 }
+    }
+
     /// Whether neither a direction that separates the bodies nor an interval that tells them from touching ones has been found,
     /// with room and steps to spare.
     #[inline(always)]
     fn is_open(&self) -> bool {
         match self.expansion.ending {
             // With more room the search begins anew in any case.
-            Ending::Separated | Ending::Stuck => false,
+            Ending::Separated | Ending::Stuck | Ending::Outdated => false,
             Ending::Narrow => !(self.expansion.lower > 0.0),
             Ending::Spent | Ending::Flat => true,
         }
@@ -143,6 +151,13 @@ fn facet_of(found: &Search) -> Option<LeastFacet> {
     }
 }
 
+/// Whether directions have hardly turned in either body's axes.
+#[inline(always)]
+fn are_alike(before: Option<[Vector; 2]>, after: Option<[Vector; 2]>) -> bool {
+    let (Some([a, b]), Some([c, d])) = (before, after) else { return false };
+    a.dot(&c) > COHERENT && b.dot(&d) > COHERENT
+}
+
 /// The search by a polytope, and by facets where that does not come to an end.
 struct ByPolytope<'a, 'b, L> {
     query: &'a mut DepthQuery<'b>,
@@ -156,9 +171,18 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
     fn run(&mut self) -> Option<Search> {
         let ByPolytope { query, frame } = self;
         let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
-        let start = query.cache.unpack(frame, &mut polytope);
+        let mut start = query.cache.unpack(frame, &mut polytope);
         let steps = query.config.step_budget;
+        start.only_known = start.triangle.is_some() && query.work() <= MOST_WORK;
         let mut found = query.search(frame, &mut polytope, &start, steps);
+        if found.expansion.ending == Ending::Outdated {
+            if let Some(found) = query.search_facets(frame, WIDEST) {
+                return Some(found);
+            }
+            start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
+            polytope.clear();
+            found = query.search(frame, &mut polytope, &start, steps);
+        }
         let was_told = start.triangle.is_some() || start.direction.is_some();
         // What an earlier query left must not make an answer worse.
         if was_told && found.is_open() && found.expansion.steps < steps {
@@ -171,7 +195,7 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
         if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
             return Some(found);
         }
-        let start = SearchStart { triangle: None, direction: None, ..start };
+        let start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
         Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
     }
 }
@@ -180,10 +204,15 @@ impl<'a> DepthQuery<'a> {
     /// Without what rested before.
     #[inline(always)]
     fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<Search> {
-        if self.facets_come_first()
-            && let Some(found) = self.search_facets(frame, WIDEST)
-        {
-            return Some(found);
+        let work = self.work();
+        if work <= LITTLE_WORK || (work <= MOST_WORK && !self.cache.has_polytope()) {
+            let before = self.cache.facet_directions();
+            let found = self.search_facets(frame, WIDEST);
+            let is_coherent =
+                matches!(found, Some(Search::Facets(_))) && are_alike(before, self.cache.facet_directions());
+            if found.is_some() && (work <= LITTLE_WORK || !is_coherent) {
+                return found;
+            }
         }
         L::out_of_line(&mut ByPolytope { query: self, frame })
     }
@@ -195,12 +224,13 @@ impl<'a> DepthQuery<'a> {
         Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
     }
 
-    /// Whether all facets are looked at before a polytope is.
+    /// What looking at all facets takes; without end where that is not for the pair.
     #[inline(always)]
-    fn facets_come_first(&self) -> bool {
-        let Some(fans) = self.fans() else { return false };
-        let work = facets::work(fans);
-        work <= LITTLE_WORK || (work <= MOST_WORK && self.cache.is_cold())
+    fn work(&self) -> usize {
+        match self.fans() {
+            Some(fans) => facets::work(fans),
+            None => usize::MAX,
+        }
     }
 
     #[inline(always)]
@@ -230,13 +260,15 @@ impl<'a> DepthQuery<'a> {
         let DepthConfig { absolute_error, relative_error, .. } = *self.config;
         let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
         let mut expansion = polytope::expand(frame, polytope, start, &wanted);
+        if expansion.ending == Ending::Outdated {
+            return FoundPolytope::without_triangles(expansion);
+        }
         if expansion.ending == Ending::Stuck && is_narrow(&expansion, WIDEST * scale_of(frame)) {
             expansion.ending = Ending::Narrow;
         }
         if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
             *self.cache = DepthCache::default();
-            let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
-            return FoundPolytope { expansion, witness, triangles: 0 };
+            return FoundPolytope::without_triangles(expansion);
         }
         let (witness, triangle) = polytope::witness(frame, polytope, &expansion);
         if expansion.is_as_kept {
@@ -279,7 +311,7 @@ impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
     #[inline(always)]
     fn run(&mut self) -> FoundPolytope {
         let Expansion { steps, supports, .. } = self.first.expansion;
-        let start = SearchStart { triangle: None, direction: None, first_triangles: 0 };
+        let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
         self.polytope.clear();
         let left = self.search.config.step_budget - steps;
         let mut found = self.search.search(self.frame, self.polytope, &start, left);

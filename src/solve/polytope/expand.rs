@@ -50,6 +50,8 @@ pub struct SearchStart {
     pub direction: Option<Vector>,
     /// Triangles that the last first polytope came to.
     pub first_triangles: usize,
+    /// Whether there is a better way than a first polytope where the one that is known is not worth going on with.
+    pub only_known: bool,
 }
 
 /// How a search ended.
@@ -65,6 +67,8 @@ pub enum Ending {
     Stuck,
     /// The differences are flat as far as rounding lets one see.
     Flat,
+    /// What was known was not worth going on with, and nothing else was to be tried.
+    Outdated,
 }
 
 /// What a search found.
@@ -155,6 +159,12 @@ struct Expander<'a, L> {
     is_as_kept: bool,
 }
 
+/// How many triangles of a polytope are nearer than so much.
+#[inline(always)]
+fn nearer_than<const V: usize, const T: usize>(polytope: &Polytope<V, T>, distance: f64) -> usize {
+    polytope.distances[..polytope.triangle_count].iter().filter(|other| **other < distance).count()
+}
+
 /// What a step came to.
 enum Advance {
     /// Go on.
@@ -180,6 +190,9 @@ impl<L: Lanes> Expander<'_, L> {
         }
         loop {
             if !is_warm {
+                if start.only_known {
+                    return Ending::Outdated;
+                }
                 self.is_as_kept = false;
                 // No direction of an earlier query but one that was not kept with its polytope: as a start it saves two steps of
                 // 17.
@@ -207,12 +220,12 @@ impl<L: Lanes> Expander<'_, L> {
         if polytope.triangle_count > 0 {
             let (triangle, distance) = nearest::<L, V, T>(polytope);
             if distance > NO_PLANE {
-                self.ask(&polytope.normal(triangle), None);
+                self.ask(&polytope.normal(triangle), None, f64::INFINITY);
             }
         }
         for axis in [Vector::x(), Vector::y(), Vector::z()] {
-            self.ask(&axis, None);
-            self.ask(&-axis, None);
+            self.ask(&axis, None, f64::INFINITY);
+            self.ask(&-axis, None, f64::INFINITY);
         }
         if self.best.upper < 0.0 { Ending::Separated } else { Ending::Flat }
     }
@@ -227,23 +240,27 @@ impl<L: Lanes> Expander<'_, L> {
         let count = polytope.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
         let least = evaluate::<L, V, T>(polytope, &self.rounding, &self.demand.centre, 0, count);
-        if polytope.distances[triangle] > NO_PLANE {
+        let distance = polytope.distances[triangle];
+        let about_origin = !(least.height > self.rounding.plane);
+        // No support makes those fewer that are nearer than the plane that it is beyond.
+        let is_far =
+            (about_origin && !(least.distance > 0.0)) || nearer_than(polytope, distance - self.width) > MOST_STALE;
+        if distance > NO_PLANE {
+            // From far away the tables know better where to climb from.
             let [pair, ..] = polytope.pairs_of(triangle);
-            self.ask(&polytope.normal(triangle), Some(pair));
+            self.ask(&polytope.normal(triangle), if is_far { None } else { Some(pair) }, f64::INFINITY);
             if self.best.upper < 0.0 {
                 return true;
             }
         }
-        if !(least.height > self.rounding.plane) {
-            if !(least.distance > 0.0) {
-                return false;
-            }
-            self.demand.about_origin = true;
+        if is_far {
+            return false;
         }
-        let target = self.target();
-        let stale = polytope.distances[..count].iter().filter(|distance| **distance < target).count();
+        self.demand.about_origin = about_origin;
         // Whether it is closed is asked last: for poses far from the last ones it is not needed.
-        stale <= MOST_STALE && count <= MOST_KEPT.max(self.first_triangles * 3 / 2) && polytope.is_closed()
+        nearer_than(polytope, self.target()) <= MOST_STALE
+            && count <= MOST_KEPT.max(self.first_triangles * 3 / 2)
+            && polytope.is_closed()
     }
 
     /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where
@@ -265,11 +282,11 @@ impl<L: Lanes> Expander<'_, L> {
         if target > lower { target } else { lower }
     }
 
-    /// Asks for a support, and takes its direction if the bodies overlap less along it.
+    /// Asks for a support, or a pair that comes to `enough`, and takes its direction if the bodies overlap less along it.
     #[inline(always)]
-    fn ask(&mut self, direction: &Vector, from: Option<VertexPair>) -> Support {
+    fn ask(&mut self, direction: &Vector, from: Option<VertexPair>, enough: f64) -> Support {
         self.supports += 1;
-        let found = support(self.frame, &self.rounding, direction, from);
+        let found = support(self.frame, &self.rounding, direction, from, enough);
         if found.upper < self.best.upper {
             let Support { upper, excess, pair, .. } = found;
             self.best = Best { upper, excess, direction: *direction, farthest: pair };
@@ -325,7 +342,9 @@ impl<L: Lanes> Expander<'_, L> {
             let highest_value = height(&highest);
             let is_coarse = !is_warm && polytope.triangle_count < COARSE;
             let from = (!is_coarse).then_some(polytope.pairs[usize::from(highest)]);
-            let found = self.ask(&normal, from);
+            // Beyond the plane, and no less bound than is known: then it is a vertex to insert, be it the farthest or not.
+            let beyond = highest_value + 2.0 * self.rounding.plane;
+            let found = self.ask(&normal, from, if self.best.upper > beyond { self.best.upper } else { beyond });
             if self.best.upper < 0.0 {
                 return Advance::Separated;
             }

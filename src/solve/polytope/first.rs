@@ -2,14 +2,15 @@
 
 use super::planes::evaluate;
 use super::storage::{Polytope, half_edge};
-use super::support::{Support, support};
+use super::support::{Support, support, vertex_beyond};
 use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 
-/// How far the three sides of the bipyramid lean towards its tip. (Equatorial ones leave 23 steps where these leave 17.)
-const LEAN: f64 = 1.4;
+/// How far the three sides of the bipyramid lean towards its tip, and how far where those are too few vertices. (Equatorial ones
+/// leave 23 steps where the first leave 17.)
+const LEANS: [f64; 2] = [1.4, 0.35];
 
 /// In general position to anything a model or a scene is likely to be aligned with.
 const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
@@ -32,8 +33,10 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
         None if away.norm() > 1e-6 * frame.size => away,
         None => GENERIC,
     };
-    if bipyramid(frame, polytope, rounding, &centre, &tip, supports) {
-        return Some(centre);
+    for lean in LEANS {
+        if bipyramid(frame, polytope, rounding, &centre, &tip, lean, supports) {
+            return Some(centre);
+        }
     }
     tetrahedron(frame, polytope, rounding, &tip, supports)
 }
@@ -49,7 +52,8 @@ fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, found: &Su
     true
 }
 
-/// Two tips and three vertices around the line between them. No if two of them are one, or the centre is not inside.
+/// Two tips and three vertices around the line between them; those and the lower tip where the upper one is among them. No if two
+/// others are one, or the centre is not inside.
 #[inline(always)]
 fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
@@ -57,6 +61,7 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     rounding: &Rounding,
     centre: &Vector,
     tip: &Vector,
+    lean: f64,
     supports: &mut u32,
 ) -> bool {
     polytope.clear();
@@ -66,24 +71,36 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     let across = tip.cross(&side);
     let half_root = 0.75_f64.sqrt();
     let around = [side, side * -0.5 + across * half_root, side * -0.5 - across * half_root];
-    let [a, b, c] = around.map(|direction| (direction + tip * LEAN).normalize());
-    for direction in [tip, a, b, c, -tip] {
+    let [a, b, c] = around.map(|direction| (direction + tip * lean).normalize());
+    let mut has_tip = true;
+    for (place, direction) in [a, b, c, -tip, tip].iter().enumerate() {
         *supports += 1;
-        if !add(polytope, &support(frame, rounding, &direction, None)) {
-            return false;
+        if !add(polytope, &support(frame, rounding, direction, None, f64::NEG_INFINITY)) {
+            if place < 4 {
+                return false;
+            }
+            has_tip = false;
         }
     }
     for i in 0..3 {
-        let (own, following) = (1 + i as u8, 1 + ((i + 1) % 3) as u8);
-        polytope.corners[i] = [0, own, following, 0];
-        polytope.corners[3 + i] = [4, following, own, 0];
-        polytope.join(half_edge(i, 1), half_edge(3 + i, 1));
-        polytope.join(half_edge(i, 2), half_edge((i + 1) % 3, 0));
-        polytope.join(half_edge(3 + i, 0), half_edge(3 + (i + 1) % 3, 2));
+        let (own, following) = (i as u8, ((i + 1) % 3) as u8);
+        polytope.corners[i] = [3, following, own, 0];
+        polytope.join(half_edge(i, 0), half_edge((i + 1) % 3, 2));
+        if has_tip {
+            polytope.corners[3 + i] = [4, own, following, 0];
+            polytope.join(half_edge(i, 1), half_edge(3 + i, 1));
+            polytope.join(half_edge(3 + i, 2), half_edge(3 + (i + 1) % 3, 0));
+        }
     }
-    polytope.triangle_count = 6;
+    if !has_tip {
+        polytope.corners[3] = [0, 1, 2, 0];
+        for i in 0..3 {
+            polytope.join(half_edge(i, 1), half_edge(3, i));
+        }
+    }
+    polytope.triangle_count = if has_tip { 6 } else { 4 };
     polytope.count_uses();
-    evaluate::<L, V, T>(polytope, rounding, centre, 0, 6).height > rounding.plane
+    evaluate::<L, V, T>(polytope, rounding, centre, 0, polytope.triangle_count).height > rounding.plane
 }
 
 /// Four differences far from each other, and their mean.
@@ -98,7 +115,7 @@ fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     let mut both = |direction: &Vector| {
         *supports += 2;
         let direction = direction.normalize();
-        [direction, -direction].map(|direction| support(frame, rounding, &direction, None))
+        [direction, -direction].map(|direction| vertex_beyond(frame, rounding, &direction, None))
     };
     let least = 4.0 * rounding.difference;
     let position = |found: &Support| Vector::new(found.position[0], found.position[1], found.position[2]);

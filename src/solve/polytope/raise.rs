@@ -2,7 +2,7 @@
 
 use super::Rounding;
 use super::pyramid::{MOST_CORNERS, Pyramid};
-use super::support::{Support, support};
+use super::support::{Support, vertex_beyond};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
@@ -177,8 +177,9 @@ impl<L: Lanes> Raising<'_, L> {
         if pairs.len() < 3 { f64::NEG_INFINITY } else { (0..pairs.len()).map(inside).fold(f64::INFINITY, f64::min) }
     }
 
+    /// A pyramid is proved in the end: that its vertices are the farthest need not be sure.
     fn support(&self, direction: &Vector, from: Option<VertexPair>) -> Support {
-        support(self.frame, &self.rounding, &direction.normalize(), from)
+        vertex_beyond(self.frame, &self.rounding, &direction.normalize(), from)
     }
 
     /// The pyramid over a base: with the apex whose nearest side is the farthest, and with further triangles across edges where a

@@ -2,12 +2,12 @@
 
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
-use crate::base::simd::Lanes;
+use crate::base::simd::{Lanes, Work};
 use crate::polyhedron::{NONE, Polyhedron, clear_slope};
 use crate::solve::certificate;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
-use crate::solve::voronoi::{Corner, Rule, STRICT, VertexTest, test_vertex};
+use crate::solve::voronoi::{Corner, Rule, STRICT, VertexTest, steepest, test_vertex};
 use crate::tables;
 
 /// A support vertex of the Minkowski difference.
@@ -25,43 +25,87 @@ pub struct Support {
     pub upper: f64,
 }
 
-/// Vertices that a body of so few are all looked at.
-const FEW: usize = 24;
-
 /// The support of the Minkowski difference along a direction of unit length as computed, climbed to from a pair of vertices or else
-/// from where the look-up tables say.
+/// from where the look-up tables say. A pair that comes to `enough` or more may be left where it ties with others: nothing but its
+/// value is said then, the upper bound is infinite.
 #[inline(always)]
 pub fn support<L: Lanes>(
     frame: &Frame<L>,
     rounding: &Rounding,
     direction: &Vector,
     start: Option<VertexPair>,
+    enough: f64,
 ) -> Support {
     let [body1, body2] = &frame.bodies;
     let along = L::from_vector(direction);
-    let (vertex1, excess1) = farthest(body1.polyhedron, body1.rotate_back(along), start.map(|pair| pair[0]));
-    let (vertex2, excess2) = farthest(body2.polyhedron, body2.rotate_back(along).negate(), start.map(|pair| pair[1]));
-    let position = frame.difference(
-        &body1.polyhedron.vertices[vertex1 as usize].position,
-        &body2.polyhedron.vertices[vertex2 as usize].position,
-    );
-    let value = along.dot(position);
-    let excess = (excess1 + excess2) * (1.0 + 64.0 * U);
+    let (towards1, towards2) = (body1.rotate_back(along), body2.rotate_back(along).negate());
+    let mut top1 = climb(body1.polyhedron, towards1, start.map(|pair| pair[0]));
+    let mut top2 = climb(body2.polyhedron, towards2, start.map(|pair| pair[1]));
+    let mut position = difference(frame, top1.vertex, top2.vertex);
+    let mut value = along.dot(position);
+    let is_open = top1.is_open | top2.is_open;
+    if is_open && value >= enough {
+        let pair = [top1.vertex, top2.vertex];
+        return Support { pair, position: position.to_array(), value, excess: f64::INFINITY, upper: f64::INFINITY };
+    }
+    if is_open {
+        if top1.is_open {
+            top1 = settle(body1.polyhedron, towards1, top1.vertex);
+        }
+        if top2.is_open {
+            top2 = settle(body2.polyhedron, towards2, top2.vertex);
+        }
+        position = difference(frame, top1.vertex, top2.vertex);
+        value = along.dot(position);
+    }
+    let excess = (top1.excess + top2.excess) * (1.0 + 64.0 * U);
     // `plane` covers the product and the length of the direction, as of the normal of a triangle; the sum is less than 8M.
     let upper = value + excess + rounding.plane;
-    Support { pair: [vertex1, vertex2], position: position.to_array(), value, excess, upper }
+    Support { pair: [top1.vertex, top2.vertex], position: position.to_array(), value, excess, upper }
+}
+
+/// A pair of vertices that is the farthest along a direction but for ties: out of line, for where there are closures (R2).
+pub fn vertex_beyond<L: Lanes>(
+    frame: &Frame<L>,
+    rounding: &Rounding,
+    direction: &Vector,
+    start: Option<VertexPair>,
+) -> Support {
+    L::out_of_line(&mut Beyond { frame, rounding, direction, start })
+}
+
+struct Beyond<'a, L> {
+    frame: &'a Frame<'a, L>,
+    rounding: &'a Rounding,
+    direction: &'a Vector,
+    start: Option<VertexPair>,
+}
+
+impl<L: Lanes> Work for Beyond<'_, L> {
+    type Output = Support;
+
+    #[inline(always)]
+    fn run(&mut self) -> Support {
+        support(self.frame, self.rounding, self.direction, self.start, f64::NEG_INFINITY)
+    }
+}
+
+/// The difference of two vertices.
+#[inline(always)]
+fn difference<L: Lanes>(frame: &Frame<L>, vertex1: u32, vertex2: u32) -> L {
+    let [body1, body2] = &frame.bodies;
+    let (vertices1, vertices2) = (&body1.polyhedron.vertices, &body2.polyhedron.vertices);
+    frame.difference(&vertices1[vertex1 as usize].position, &vertices2[vertex2 as usize].position)
 }
 
 /// How far a body reaches along a direction of about unit length, right to the rounding of a height: as far as the farthest of some
 /// vertices, those of one body of pairs, where none else can be farther; else as far as all vertices or a climb tell.
 #[inline(always)]
 pub fn reach<L: Lanes>(polyhedron: &Polyhedron, towards: L, among: &[VertexPair], body: usize) -> f64 {
-    if let Some(fan) = &polyhedron.fan
-        && fan.corners.len() == polyhedron.vertices.len()
-    {
+    if !polyhedron.vertex_blocks.is_empty() {
         let [x, y, z] = [towards.splat_x(), towards.splat_y(), towards.splat_z()];
         let mut farthest = L::splat(f64::NEG_INFINITY);
-        for block in &fan.points {
+        for block in &polyhedron.vertex_blocks {
             let part = x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))));
             farthest = farthest.max(part);
         }
@@ -113,24 +157,95 @@ fn ties_with_these(polyhedron: &Polyhedron, towards: &Vector, vertex: u32, among
 /// for sure. The direction may be off by 6.2u.
 #[inline(always)]
 pub fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
-    if polyhedron.vertices.len() <= FEW {
-        return farthest_of_all(polyhedron, &towards.to_vector());
+    let mut top = climb(polyhedron, towards, start);
+    if top.is_open {
+        top = settle(polyhedron, towards, top.vertex);
     }
-    let mut vertex = start.unwrap_or_else(|| tables::farthest(polyhedron, &towards.to_vector()).unwrap_or(0));
+    (top.vertex, top.excess)
+}
+
+/// Where a climb ended.
+#[derive(Clone, Copy)]
+struct Top {
+    vertex: u32,
+    /// How much farther the body may reach …
+    excess: f64,
+    /// … unless the vertex ties with others, and that is left open.
+    is_open: bool,
+}
+
+/// Climbs as long as single precision shows a neighbour to be higher: over edges and, unlike marching, straight across faces.
+#[inline(always)]
+fn climb<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> Top {
+    if !polyhedron.vertex_blocks.is_empty() {
+        let (vertex, excess) = farthest_in_blocks(polyhedron, towards);
+        return Top { vertex, excess, is_open: false };
+    }
+    let mut vertex = match start {
+        Some(vertex) => vertex,
+        None => tables::farthest(polyhedron, &towards.to_vector()).unwrap_or(0),
+    };
+    let clear = clear_slope(LENGTH);
     // Each step leads up for sure, so that no vertex comes twice.
     for _ in 0..=polyhedron.vertices.len() {
         let Some(corner) = Corner::of(polyhedron, vertex) else { break };
-        vertex = match test_vertex(Rule::Most, corner, towards, LENGTH, CLEARLY) {
-            VertexTest::Strict => return (vertex, 0.0),
-            VertexTest::Leaves { head, .. } => head,
-            VertexTest::Tied => match plateau(polyhedron, &towards.to_vector(), vertex) {
-                Plateau::Highest(vertex, excess) => return (vertex, excess),
-                Plateau::Up(head) => head,
-                Plateau::Large => break,
-            },
+        let block = &corner.record.neighbours;
+        let is_alone = towards.products_are_below([&block.x, &block.y, &block.z], -clear) & (corner.record.more == 0);
+        if is_alone {
+            return Top { vertex, excess: 0.0, is_open: false };
         }
+        let (slope, _, head) = steepest(corner, towards);
+        if slope < -clear {
+            return Top { vertex, excess: 0.0, is_open: false };
+        }
+        // False for a NaN.
+        if !((slope > clear) & (f64::from(slope) > CLEARLY)) {
+            break;
+        }
+        vertex = head;
     }
-    farthest_of_many(polyhedron, &towards.to_vector(), vertex)
+    Top { vertex, excess: 0.0, is_open: true }
+}
+
+/// Goes on where a climb left it open.
+#[inline(always)]
+fn settle<L: Lanes>(polyhedron: &Polyhedron, towards: L, vertex: u32) -> Top {
+    L::out_of_line(&mut Settle { polyhedron, towards, vertex })
+}
+
+struct Settle<'a, L> {
+    polyhedron: &'a Polyhedron,
+    towards: L,
+    vertex: u32,
+}
+
+impl<L: Lanes> Work for Settle<'_, L> {
+    type Output = Top;
+
+    #[inline(always)]
+    fn run(&mut self) -> Top {
+        let &mut Settle { polyhedron, towards, mut vertex } = self;
+        let direction = towards.to_vector();
+        for _ in 0..=polyhedron.vertices.len() {
+            let Some(corner) = Corner::of(polyhedron, vertex) else { break };
+            let higher = match test_vertex(Rule::Most, corner, towards, LENGTH, CLEARLY) {
+                VertexTest::Strict => return Top { vertex, excess: 0.0, is_open: false },
+                VertexTest::Leaves { head, .. } => head,
+                VertexTest::Tied => match plateau(polyhedron, &direction, vertex) {
+                    Plateau::Highest(vertex, excess) => return Top { vertex, excess, is_open: false },
+                    Plateau::Up(higher) => higher,
+                    Plateau::Large => break,
+                },
+            };
+            let top = climb(polyhedron, towards, Some(higher));
+            if !top.is_open {
+                return top;
+            }
+            vertex = top.vertex;
+        }
+        let (vertex, excess) = farthest_of_many(polyhedron, &direction, vertex);
+        Top { vertex, excess, is_open: false }
+    }
 }
 
 /// Of a vertex that ties with very many how much farther the body may reach, if the planes around it tell; or the farthest of all
@@ -207,8 +322,40 @@ fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
 /// By how much the order of two heights, over the radius, may be wrong: each errs by 3u·|g|, and g by 6.2u.
 const HEIGHTS: f64 = 20.0 * U;
 
-/// The farthest of all vertices.
+/// The farthest of all vertices of a body that has them in blocks.
 #[inline(always)]
+fn farthest_in_blocks<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) {
+    let [x, y, z] = [towards.splat_x(), towards.splat_y(), towards.splat_z()];
+    // Lane by lane the greatest height, the block that it is in, and the second.
+    let lowest = L::splat(f64::NEG_INFINITY);
+    let (mut best, mut second, mut place) = (lowest, lowest, L::splat(0.0));
+    let (mut at, one) = (L::splat(0.0), L::splat(1.0));
+    for block in &polyhedron.vertex_blocks {
+        let height = x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))));
+        place = at.where_greater(height, best, place);
+        second = second.max(best.min(height));
+        best = best.max(height);
+        at = at.add(one);
+    }
+    let (negated, lane) = best.negate().least();
+    let count = polyhedron.vertices.len();
+    // Of a NaN it is any, be it one that is not there.
+    let vertex = (4 * place.to_array()[lane & 3] as usize + lane).min(count - 1);
+    let rounding = HEIGHTS * polyhedron.radius;
+    let tie = L::splat(-negated - rounding);
+    if tie.at_most(second) == 0 && tie.at_most(best).count_ones() == 1 {
+        return (vertex as u32, 0.0);
+    }
+    // The vertex that the last block repeats ties with itself.
+    if vertex + 4 > count {
+        return farthest_of_all(polyhedron, &towards.to_vector());
+    }
+    (vertex as u32, rounding)
+}
+
+/// The farthest of all vertices.
+#[cold]
+#[inline(never)]
 fn farthest_of_all(polyhedron: &Polyhedron, towards: &Vector) -> (u32, f64) {
     let (mut best, mut highest, mut second) = (0, f64::NEG_INFINITY, f64::NEG_INFINITY);
     for (index, vertex) in (0..).zip(&polyhedron.vertices) {
