@@ -170,8 +170,8 @@ impl Kernel for Filling<'_> {
         let mut crossings = [[0.0; 2]; MOST_CORNERS];
         let mut crossing_count = 0;
         let crossed = outside[1].map(|outside| few[0].crossing_sides(outside));
-        for first in 0..few[0].count {
-            let mut seconds = few[1].crossing_sides(outside[0][first]);
+        for (first, &beyond) in outside[0][..few[0].count].iter().enumerate() {
+            let mut seconds = few[1].crossing_sides(beyond);
             while seconds != 0 {
                 let second = seconds.trailing_zeros() as usize;
                 seconds &= seconds - 1;
