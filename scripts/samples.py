@@ -32,7 +32,7 @@ APART = "1 0 0 5 0 1 0 0 0 0 1 0"
 INPUTS = {"POSES": f"{IDENTITY} {APART}\n", "MOTIONS": f"{IDENTITY} {APART} {IDENTITY} {IDENTITY}\n",
           "SCENE": "# swiftprox scene 1\nshape box A.off\nobject box\nobject box\nstep\n1 1 0 0 2.2 0 1 0 0 0 0 1 0\nstep\n1 1 0 0 2.1 0 1 0 0 0 0 1 0\n"}
 # What is no program of its own: which is made of it.
-PROGRAMS = {"examples/planner/arm.c": "arm_rrt"}
+PROGRAMS = {"examples/planner/arm.c": "arm_rrt", "examples/planner/arm_scene.c": "arm_scene"}
 # Open MPI, else: "detected an attempt to run as root", "not enough slots".
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 

@@ -5,17 +5,17 @@
 //! above its chord less B·s(1 − s), B = K·h²/2, s from 0 to 1 over a time h; so does their minimum, the gap. Both bodies are taken
 //! at the same time: bodies that move together cost nothing.
 //!
-//! *Along a direction that turns.* A face that turns with its body soon sticks out along a fixed n, wherever the nearest points are:
-//! the gap closes long before the bodies touch. So let n(s) = (1 − s)n₀ + s·n₁ go from the normal at one moment to that at the other,
-//! d = n₁ − n₀. It is no longer than 1, so that n(s)·(x₁ − x₂) > 0 proves as large a gap. Its second derivative is
-//! n·(ẍ₁ − ẍ₂) + 2(d/h)·(ẋ₁ − ẋ₂). The first term is convex in n, so that both ends bound it. In the second d·(ẋ₁ − ẋ₂) differs by
-//! at most A·h/2 from its mean, which is d·(Δx₁ − Δx₂)/h, for |d·(ẍ₁ − ẍ₂)| ≤ A. So
+//! *Along a direction that turns.* A face that turns with its body soon sticks out along a fixed n, wherever the nearest points
+//! are: the gap closes long before the bodies touch. So let n(s) = (1 − s)n₀ + s·n₁ go from the normal at one moment to that at the
+//! other, d = n₁ − n₀. It is no longer than 1, so that n(s)·(x₁ − x₂) > 0 proves as large a gap. Its second derivative is n·(ẍ₁ −
+//! ẍ₂) + 2(d/h)·(ẋ₁ − ẋ₂). The first term is convex in n, so that both ends bound it. In the second d·(ẋ₁ − ẋ₂) differs by at most
+//! A·h/2 from its mean, which is d·(Δx₁ − Δx₂)/h, for |d·(ẍ₁ − ẍ₂)| ≤ A. So
 //!
 //!   B = K·h²/2 + max d·(Δx₁ − Δx₂) + A·h²/2,
 //!
 //! of whatever motion: Δx, where a point is at one moment less where it was at the other, is known from both poses. Where features
-//! stay the nearest, d and Δx shrink with h: B does with h², the gap with h. (Swept radii take |n(s)|·r off the gap, which is no more
-//! than r.)
+//! stay the nearest, d and Δx shrink with h: B does with h², the gap with h. (Swept radii take |n(s)|·r off the gap, which is no
+//! more than r.)
 //!
 //! *Rounding.* A query is about the pose as computed. No point of the motion is farther than δ from where that pose has it; along a
 //! unit direction no gap is then off by more than the sum of both δ, and bodies deeper in each other than that sum intersect.
@@ -131,11 +131,12 @@ fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
     farthest.min(around_sphere) + 128.0 * U * size
 }
 
-/// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has it:
-/// what the product of that pose and the place is rounded by.
+/// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has
+/// it: what the product of that pose and the place is rounded by.
 ///
 /// Each entry of the rotation errs by 3u of its three terms, and the Frobenius norms of the factors are at most 1.77: below 9.5u in
-/// the spectral norm. The product R·T of the place errs by 3u of its terms, below 5.4u|T|, the sum by u of the computed translation.
+/// the spectral norm. The product R·T of the place errs by 3u of its terms, below 5.4u|T|, the sum by u of the computed
+/// translation.
 pub(super) fn rounding_of_place(body: &Carried, pose: &Pose) -> f64 {
     body.place.map_or(0.0, |place| {
         let (of_place, of_pose) = (place.translation().norm(), pose.translation().norm());
@@ -189,8 +190,8 @@ pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
 
 /// The least gap between two moments, rounded down, from the gaps at both and B, `sag`.
 ///
-/// (1 − s)g₀ + s·g₁ − B·s(1 − s) is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1. Directions are of unit length up to 4u:
-/// with what is rounded here that is less than 32u.
+/// (1 − s)g₀ + s·g₁ − B·s(1 − s) is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1. Directions are of unit length up
+/// to 4u: with what is rounded here that is less than 32u.
 pub(super) fn least_between(gaps: [f64; 2], sag: f64) -> f64 {
     let [first, last] = gaps;
     let rise = last - first;

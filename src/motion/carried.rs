@@ -15,8 +15,8 @@ pub struct Moving<'a> {
     pub motion: &'a Motion<'a>,
 }
 
-/// A shape in the frame that a motion moves: its own frame, or of a piece of an object a place in the object's. A point p of the shape
-/// is where the motion has the point place·p, in real arithmetic.
+/// A shape in the frame that a motion moves: its own frame, or of a piece of an object a place in the object's. A point p of the
+/// shape is where the motion has the point place·p, in real arithmetic.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Carried<'a> {
     pub shape: &'a Shape,

@@ -15,7 +15,7 @@ pub struct CastConfig {
     pub time_tolerance: f64,
     /// Objects are free where they are farther apart than this: from 0, the default, to the largest double.
     pub margin: f64,
-    /// Certified queries after which it stops with what is proved, 1 or more; by default 100,000. It makes at most four for each
+    /// Certified queries after which it stops with what is proved, 1 or more; by default 100,000. It makes at most six for each
     /// time tolerance in the range and a dozen in the end.
     pub step_budget: u32,
 }

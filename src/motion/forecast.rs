@@ -4,11 +4,11 @@ use super::bound::least_between;
 
 /// A step ends so much before where the gap is forecast to close, or nearer if the forecast before was good: of what only moves
 /// straight on it is right, and its gap closes to the time tolerance in one step.
-const SHARE_OF_ROOM: f64 = 1.0 / 64.0;
+const SHARE_OF_ROOM: f64 = 1.0 / 16.0;
 
-/// The part of the room that a forecast keeps back is so many times what the one before was off by, as its error grows with the square
-/// of the time.
-const CAUTION: f64 = 4.0;
+/// The part of the room that a forecast keeps back is so many times what the one before was off by, as its error grows with the
+/// square of the time.
+const CAUTION: f64 = 8.0;
 
 /// room + speed·h + curve·h² beyond what is needed after a time h.
 #[derive(Debug, Clone, Copy)]

@@ -107,8 +107,8 @@ impl Motion<'_> {
         }
     }
 
-    /// About how fast a point of the object is at a time, given in its own frame and where it is then. It only guides the search: of
-    /// a callback a difference quotient over `moment` says it.
+    /// About how fast a point of the object is at a time, given in its own frame and where it is then. It only guides the search:
+    /// of a callback a difference quotient over `moment` says it.
     pub(super) fn velocity(&self, turn: &Turn, time: f64, moment: f64, [point, is_at]: [&Vector; 2]) -> Result<Vector> {
         Ok(match self {
             Motion::Fixed(_) => Vector::zeros(),

@@ -109,8 +109,8 @@ impl<'a> MovingPair<'a> {
         self.travels.iter().map(|travel| travel.acceleration(direction)).sum::<f64>() * (1.0 + 4.0 * U)
     }
 
-    /// B of the gap along a direction that turns from the first of two unit vectors at one moment to the second at another; infinite
-    /// where they are more than 60 degrees apart.
+    /// B of the gap along a direction that turns from the first of two unit vectors at one moment to the second at another;
+    /// infinite where they are more than 60 degrees apart.
     pub fn sag(&self, ends: [&Moment; 2], [first, last]: [&Vector; 2]) -> f64 {
         let h = ends[1].time - ends[0].time;
         let of_bend = |acceleration: f64| 0.5 * acceleration * h * h;
@@ -152,8 +152,8 @@ impl<'a> MovingPair<'a> {
         self.bodies.iter().any(|body| matches!(body.motion, Motion::Callback(_)))
     }
 
-    /// A lower bound of how deep the objects are in each other at a moment, by the differences of vertices that a query has found to
-    /// hold the origin; 0 where they prove nothing.
+    /// A lower bound of how deep the objects are in each other at a moment, by the differences of vertices that a query has found
+    /// to hold the origin; 0 where they prove nothing.
     pub fn enclosed_ball(&self, moment: &Moment, cache: &PairCache) -> f64 {
         let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
         let poses = [&moment.poses[0], &moment.poses[1]];

@@ -1,5 +1,5 @@
-//! How much is asked for questions about sets, counted: by the calls of the filter, one before each pair that is asked about, and by
-//! the times that were tried.
+//! How much is asked for questions about sets, counted: by the calls of the filter, one before each pair that is asked about, and
+//! by the times that were tried.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
