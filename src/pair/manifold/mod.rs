@@ -54,7 +54,7 @@ pub fn manifold(
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
-    manifold_with_distance(bodies, cache, config, points).map(|(manifold, _)| manifold)
+    manifold_beside(bodies, cache, config, points, &mut SignedDistance::default())
 }
 
 /// As [`manifold`], with the signed distance that it is made from: the estimate, and the witness points with their features.
@@ -67,12 +67,21 @@ pub fn manifold_with_distance(
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<(Manifold, SignedDistance)> {
+    let mut distance = SignedDistance::default();
+    let manifold = manifold_beside(bodies, cache, config, points, &mut distance)?;
+    Ok((manifold, distance))
+}
+
+fn manifold_beside(
+    bodies: [Placed; 2],
+    cache: &mut ManifoldCache,
+    config: &ManifoldConfig,
+    points: &mut [ManifoldPoint],
+    distance: &mut SignedDistance,
+) -> Result<Manifold> {
     let capacity = points.len();
     let mut write = |place: usize, fill: Fill| fill(&mut points[place]);
-    let mut sink = Sink { capacity, written: 0, write: &mut write };
-    let mut distance = SignedDistance::default();
-    let manifold = manifold_into(bodies, cache, config, &mut sink, &mut distance)?;
-    Ok((manifold, distance))
+    manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write }, distance)
 }
 
 /// Fills all members of a point where it is to be: what was just written number by number is not copied (rule R1).

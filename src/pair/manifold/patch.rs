@@ -106,12 +106,31 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
     }
     let vertex = farthest_vertex(polyhedron, &towards, &(witness - polyhedron.centre), last.map(|last| last.patch))?;
     let contact = &polyhedron.contact_faces;
-    let merged = || polyhedron.face_around(vertex).into_iter().chain(faces_at(polyhedron, vertex));
-    let whole = merged().filter(|face| contact.part(*face) == FacePart::Whole);
-    let sound = contact.at(vertex).map(Patch::Contact).chain(whole.map(Patch::Merged));
-    let better = |a: Facing, b: Facing| if b.parallel > a.parallel { b } else { a };
+    // Number by number (rule R1).
+    let (mut best, mut parallel) = (None, f64::NEG_INFINITY);
+    let mut look_at = |patch: Patch| {
+        let own = patch.normal(polyhedron).dot(&towards);
+        if own > parallel {
+            (best, parallel) = (Some(patch), own);
+        }
+    };
+    contact.at(vertex).map(Patch::Contact).for_each(&mut look_at);
+    let around = polyhedron.face_around(vertex);
+    let mut look_at_merged = |face: u32| {
+        if contact.part(face) == FacePart::Whole {
+            look_at(Patch::Merged(face));
+        }
+    };
+    around.into_iter().for_each(&mut look_at_merged);
+    faces_at(polyhedron, vertex).for_each(look_at_merged);
     // Where there are only slivers they have to do.
-    let best = sound.map(cosine).reduce(better).or_else(|| merged().map(Patch::Merged).map(cosine).reduce(better))?;
+    let best = match best {
+        Some(patch) => Facing { patch, parallel },
+        None => {
+            let merged = around.into_iter().chain(faces_at(polyhedron, vertex)).map(|face| cosine(Patch::Merged(face)));
+            merged.reduce(|a, b| if b.parallel > a.parallel { b } else { a })?
+        }
+    };
     Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
 }
 
