@@ -185,6 +185,20 @@ static void pairs()
     CHECK(above && above.value.lower <= 0.25 && 0.25 <= above.value.upper && above.value.normal[2] == 1);
     const auto feet = swiftprox::try_half_space_manifold({box, here}, ground, points);
     CHECK(feet && feet.value.point_count == 4 && feet.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+    const std::array<double, 4> heights{0.25, 0.25, 0.25, 0.25};
+    const auto level = swiftprox::Ground::try_from_heights(swiftprox::Range<const double>(heights), 2, 9, 9);
+    CHECK(level && level.value.try_info().value.triangle_count == 2);
+    const Pose on_ground = Pose::at(4, 4, 1);
+    const auto gap =
+        swiftprox::try_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, {box, on_ground}, {level.value, here});
+    CHECK(gap && gap.value.answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && gap.value.answer.normal[2] == 1);
+    std::array<swiftprox_ground_contact, 2> ground_contacts;
+    const auto contacts = swiftprox::try_ground_contacts({box, on_ground}, {level.value, here}, ground_contacts, points, {});
+    CHECK(contacts && contacts.value.contact_count == 0);
+    const std::array<std::uint32_t, 2> two_corners{0, 1};
+    CHECK(swiftprox::Ground::try_from_triangles(swiftprox::Range<const double>(heights),
+                                                swiftprox::Range<const std::uint32_t>(two_corners))
+              .status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     const auto top = box.try_find_face(0);
     CHECK(top && box.try_face(top.value).value.corners.size() == 4 && box.try_face(top.value).value.labels[0] == 0);
     CHECK(box.try_face(6).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);

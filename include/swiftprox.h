@@ -2757,6 +2757,179 @@ swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
 /** @} */
 
 /**
+ * @defgroup swiftprox_ground Grounds
+ * @{
+ */
+
+/**
+ * A surface of triangles, immutable, shared by any number of owners. The front of a triangle is where its corners go around
+ * counter-clockwise.
+ */
+typedef struct swiftprox_ground swiftprox_ground;
+
+/**
+ * Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
+ *
+ * `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of a
+ * triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
+ * Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles without
+ * area, or smaller than 2^-200, are left out, and keep their numbers.
+ *
+ * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that is
+ * not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
+ * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
+                                                        size_t vertex_count,
+                                                        const uint32_t *corners,
+                                                        size_t triangle_count,
+                                                        const struct swiftprox_ground **ground);
+
+/**
+ * Makes a ground from heights over a grid in the plane of x and y; the caller owns it and gives it back with
+ * swiftprox_ground_release. The heights are copied.
+ *
+ * `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
+ * column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into triangles that look up: 2 *
+ * c, which has the corner along x, and 2 * c + 1, with c = i * (columns - 1) + j of the cell's least corner. A cell with a hole at a
+ * corner is a hole.
+ *
+ * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
+ * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT: more
+ * than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_ground_create_from_heights(size_t rows,
+                                                      size_t columns,
+                                                      double row_spacing,
+                                                      double column_spacing,
+                                                      const double *heights,
+                                                      const struct swiftprox_ground **ground);
+
+/**
+ * Gives the caller one more share of a ground, to be given back with a swiftprox_ground_release of its own; returns the ground.
+ * Safe from any thread. Of null it returns null.
+ *
+ * Experimental.
+ */
+const struct swiftprox_ground *swiftprox_ground_retain(const struct swiftprox_ground *ground);
+
+/**
+ * Gives back one share of a ground that the caller owns; the last one frees it. Safe from any thread. Null is ignored.
+ *
+ * Experimental.
+ */
+void swiftprox_ground_release(const struct swiftprox_ground *ground);
+
+/** What a ground is. */
+typedef struct swiftprox_ground_info {
+  /** Vertices, as they were given. */
+  size_t vertex_count;
+  /** Triangles, those included that are left out. */
+  size_t triangle_count;
+  /** Memory that it holds, in bytes. */
+  size_t bytes;
+} swiftprox_ground_info;
+
+/**
+ * Says what a ground is. On failure all is 0. SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground,
+                                           struct swiftprox_ground_info *info);
+
+/** What is said of a body, which is object 1, and a ground. */
+typedef struct swiftprox_ground_distance {
+  /**
+   * As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by their
+   * vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+   */
+  struct swiftprox_pair_answer answer;
+  /**
+   * The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
+   * where the answer is about none.
+   */
+  uint32_t triangle;
+} swiftprox_ground_distance;
+
+/**
+ * How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE or
+ * SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or swiftprox_pair_intersection, of
+ * the ground as a set of points; `config` is as there. There is no cache.
+ *
+ * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
+ * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
+ * SWIFTPROX_ERROR_STRUCT_SIZE.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_ground_distance(swiftprox_query_kind kind,
+                                                const struct swiftprox_shape *shape,
+                                                const double *pose,
+                                                const struct swiftprox_ground *ground,
+                                                const double *ground_pose,
+                                                const struct swiftprox_pair_config *config,
+                                                struct swiftprox_ground_distance *answer);
+
+/** One contact of a body, which is object 1, with a ground: points with one normal. */
+typedef struct swiftprox_ground_contact {
+  /**
+   * Its normal is out of the ground. Its outcome is that of the body and the triangles that it meets with this normal; `lower`
+   * and `upper` are the least gap of its points.
+   */
+  struct swiftprox_manifold manifold;
+  /** The triangle that has the least. */
+  uint32_t triangle;
+  /** Where among all points those of the contact begin. */
+  size_t first_point;
+} swiftprox_ground_contact;
+
+/** How many contacts there are with a ground, and points of all of them. */
+typedef struct swiftprox_ground_count {
+  /** Contacts found. */
+  size_t contact_count;
+  /** Points found. */
+  size_t point_count;
+} swiftprox_ground_count;
+
+/**
+ * Where a shape, which is object 1, meets a ground, or is up to config->margin apart: contacts, each of points with one normal out
+ * of the ground, sorted by triangle. `contacts` and `points` receive as many as there is room for, and may be null with no room;
+ * `count` says how many there are. Points of contact c are those from its first_point on, as many as its manifold.point_count.
+ *
+ * A triangle acts on bodies whose centre of mass is not behind its plane. The normal is the one along which the body and the
+ * triangle are nearest, or overlap least, where that is normal to the surface at the point that is touched; else it is the
+ * triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
+ *
+ * On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
+ * SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_LIMIT: a
+ * capacity is larger than memory. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_ground_contacts(const struct swiftprox_shape *shape,
+                                                const double *pose,
+                                                const struct swiftprox_ground *ground,
+                                                const double *ground_pose,
+                                                const struct swiftprox_manifold_config *config,
+                                                struct swiftprox_ground_contact *contacts,
+                                                size_t contact_capacity,
+                                                struct swiftprox_manifold_point *points,
+                                                size_t point_capacity,
+                                                struct swiftprox_ground_count *count);
+
+/** @} */
+
+/**
  * @defgroup swiftprox_activation Which pairs a scene tests
  * @{
  */

@@ -16,6 +16,7 @@
 #define SWIFTPROX_HPP
 
 #include "swiftprox/batch.hpp"
+#include "swiftprox/ground.hpp"
 #include "swiftprox/library.hpp"
 #include "swiftprox/listener.hpp"
 #include "swiftprox/motion.hpp"

@@ -6,12 +6,13 @@ use std::sync::Arc;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use swiftprox::base::simd::environment::{Environment, Rounding, is_invalid};
+use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts, ground_distance};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{Format, parse_mesh, register_mesh_reader, unregister_mesh_reader};
 use swiftprox::object::ObjectOptions;
-use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Placed};
+use swiftprox::pair::{self, Levels, ManifoldConfig, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -221,6 +222,39 @@ fn files_are_read_alike_in_every_environment() {
     for environment in Environment::all() {
         assert!(read(environment) == expected, "{environment:?}");
     }
+}
+
+#[test]
+fn grounds_are_alike_in_every_environment() {
+    let heights: Vec<f64> = (0..64).map(|at| if at == 9 { f64::NAN } else { f64::from(at * 37 % 11) * 0.03 }).collect();
+    let grid = HeightGrid { rows: 8, columns: 8, spacing: [0.3, 0.7], heights: &heights };
+    let round = ShapeOptions { input: InputPolicy::Hull, swept_radius: 0.4, ..ShapeOptions::default() };
+    let bodies = [cuboid([0.5; 3]), Shape::from_points(&[Vector::zeros()], &round).unwrap()];
+    let turn = testkit::random::rotation(&Vector::new(0.3, 0.2, 0.9).normalize(), 0.35);
+    let poses = [0.45, 0.9, 3.0].map(|height| Pose::new(&turn, &Vector::new(1.1, 2.3, height)));
+    let ask = || {
+        let ground = Ground::from_heights(&grid).unwrap();
+        let (mut distances, mut contacts) = (Vec::new(), Vec::new());
+        for (body, pose) in bodies.iter().flat_map(|body| poses.iter().map(move |pose| (body, pose))) {
+            let (body, ground) = (body.at(pose), ground.at(&Pose::IDENTITY));
+            for query in [pair::Query::Distance, pair::Query::Intersection] {
+                let found = ground_distance(query, body, ground, &PairConfig::default());
+                distances.push(found);
+            }
+            for (margin, reduces) in [(0.1, true), (1.0, false)] {
+                let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
+                let mut found = GroundContacts::default();
+                ground_contacts(body, ground, &config, &mut found).unwrap();
+                contacts.push(found);
+            }
+        }
+        (distances, contacts)
+    };
+    let expected = format!("{:?}", ask());
+    for environment in Environment::all() {
+        assert!(format!("{:?}", inside(environment, ask)) == expected, "{environment:?}");
+    }
+    assert!(!is_invalid(ask));
 }
 
 /// Whoever calls the library from a function that it called is a caller like any other.

@@ -336,6 +336,24 @@ MEMBER(swiftprox_scene_statistics, inscribed_spheres, 168, 8)
 MEMBER(swiftprox_scene_statistics, unmoved, 176, 8)
 MEMBER(swiftprox_scene_statistics, out_of_reach, 184, 8)
 
+STRUCT(swiftprox_ground_info, 24, 8)
+MEMBER(swiftprox_ground_info, vertex_count, 0, 8)
+MEMBER(swiftprox_ground_info, triangle_count, 8, 8)
+MEMBER(swiftprox_ground_info, bytes, 16, 8)
+
+STRUCT(swiftprox_ground_distance, 240, 8)
+MEMBER(swiftprox_ground_distance, answer, 0, 232)
+MEMBER(swiftprox_ground_distance, triangle, 232, 4)
+
+STRUCT(swiftprox_ground_contact, 72, 8)
+MEMBER(swiftprox_ground_contact, manifold, 0, 56)
+MEMBER(swiftprox_ground_contact, triangle, 56, 4)
+MEMBER(swiftprox_ground_contact, first_point, 64, 8)
+
+STRUCT(swiftprox_ground_count, 16, 8)
+MEMBER(swiftprox_ground_count, contact_count, 0, 8)
+MEMBER(swiftprox_ground_count, point_count, 8, 8)
+
 STRUCT(swiftprox_object_set, 32, 8)
 MEMBER(swiftprox_object_set, ids, 0, 8)
 MEMBER(swiftprox_object_set, count, 8, 8)

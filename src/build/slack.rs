@@ -118,6 +118,15 @@ impl<'a> RiseBounds<'a> {
     }
 }
 
+/// An upper bound, rounded up, of max over `points` of n·x minus n·s, in double-double: of a body of few vertices.
+pub fn rise_over(normal: &Vector, points: &[Vector], s: &Vector) -> f64 {
+    let rises = points.iter().map(|x| {
+        let (height, error) = fine_height(normal, x, s);
+        height + error
+    });
+    rises.fold(0.0, f64::max) * (1.0 + 4.0 * UNIT_ROUNDOFF)
+}
+
 /// n·(x − s) as computed, and a bound of its error.
 ///
 /// Each term has the rounding of the difference, of the product and of two sums: at most (4u + O(u²))·Σ|nᵢ||xᵢ − sᵢ|; 5u covers

@@ -25,6 +25,7 @@ pub mod decomposition;
 pub mod pair;
 pub mod depth;
 pub mod half_space;
+pub mod ground;
 pub mod motion;
 pub mod ray;
 pub mod point;

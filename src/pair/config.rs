@@ -133,7 +133,7 @@ impl PairConfig {
     /// # Errors
     /// [`Error::Argument`], naming the first such member.
     #[inline(always)]
-    pub(super) fn check(&self, query: Query) -> Result<()> {
+    pub(crate) fn check(&self, query: Query) -> Result<()> {
         if !((self.distance_tolerance >= 0.0) & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)) {
             check_range("distance_tolerance", self.distance_tolerance, 0.0..=f64::INFINITY)?;
             check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;

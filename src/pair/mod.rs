@@ -30,7 +30,9 @@ pub(crate) use contact::{label, normalised};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;
-pub(crate) use manifold::{Fill, Known, Reference, Sink, half_space_manifold_into, manifold_into, manifold_of};
+pub(crate) use manifold::{
+    Fill, Known, Reference, Sink, four_of_points, half_space_manifold_into, manifold_along, manifold_into, manifold_of,
+};
 pub use manifold::{
     Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, half_space_manifold, manifold, manifold_with_distance,
 };

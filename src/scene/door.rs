@@ -12,7 +12,7 @@ use crate::pair::Query;
 use crate::scene::change::{Change, Themselves};
 use crate::scene::near::broad_phase::{BroadPhase, News};
 use crate::scene::recording::Recording;
-use crate::scene::search::ask::{Ground, Search};
+use crate::scene::search::ask::{Search, Searched};
 use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::content::World;
 use crate::scene::world::object::ObjectId;
@@ -174,11 +174,11 @@ impl Scene {
     ) -> Result<SceneAnswer<'_>> {
         let Scene { world, near, search, recording, workers } = self;
         if !recording.is_on() {
-            return search.ask(&mut Ground { world, near, workers }, subject, kind, query);
+            return search.ask(&mut Searched { world, near, workers }, subject, kind, query);
         }
         recording.question(subject, kind, query, &world.objects);
         world.watch_filter(recording.is_on());
-        let answer = search.ask(&mut Ground { world, near, workers }, subject, kind, query);
+        let answer = search.ask(&mut Searched { world, near, workers }, subject, kind, query);
         recording.decisions(world.decided(), &world.objects);
         recording.answer(answer.as_ref().ok(), &world.objects);
         answer

@@ -4,6 +4,7 @@ pub(crate) mod extent;
 mod transform;
 mod patch;
 mod face;
+mod triangle;
 pub mod file;
 
 use std::path::Path;
@@ -31,6 +32,7 @@ pub use face::Face;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
 use transform::{InputTransform, transformed};
+pub(crate) use triangle::{Triangle, TriangleShape};
 
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";

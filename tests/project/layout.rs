@@ -9,6 +9,7 @@ use std::path::Path;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
+use swiftprox::ffi::ground::{GroundCount, GroundInfo};
 use swiftprox::ffi::level::{CMesh, LevelInfo};
 use swiftprox::ffi::listener::CListenerEvents;
 use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
@@ -23,6 +24,7 @@ use swiftprox::ffi::scene::CSceneOptions;
 use swiftprox::ffi::shape::{CFace, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
+use swiftprox::ground::{GroundContact, GroundDistance};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{
@@ -159,6 +161,10 @@ fn layouts() -> Vec<Layout> {
             exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
             inscribed_spheres, unmoved, out_of_reach
         },
+        swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
+        swiftprox_ground_distance = GroundDistance { answer, triangle },
+        swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
+        swiftprox_ground_count = GroundCount { contact_count, point_count },
         swiftprox_object_set = CObjectSet { ids, count, poses, among },
         swiftprox_least_distance = LeastDistance { lower, upper, nearest },
         swiftprox_first_hit = FirstHit { time, tried, pair },

@@ -6,11 +6,12 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 14] = [
+const NOUNS: [&str; 15] = [
     "library",
     "mesh",
     "shape",
     "pair",
+    "ground",
     "replay",
     "depth",
     "manifold",

@@ -46,17 +46,17 @@ fn side_plane(positions: &[Vector], normal: &Vector, from: u32, to: u32) -> (Vec
 const SMALLEST_SINE: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// An edge from its ends, the lower one first, and the faces beside it.
-fn edge_between(
+pub(super) fn edge_between(
     [tail, head]: [u32; 2],
     positions: &[Vector],
     [left, right]: [u32; 2],
-    merged: &MergedFaces,
+    normals: &[Vector],
     slacks: &[f64],
 ) -> Edge {
     let (a, b) = (&positions[tail as usize], &positions[head as usize]);
     let direction = unit(&(b - a));
     let length = (b - a).norm();
-    let normals = [merged.normals[left as usize], merged.normals[right as usize]];
+    let normals = [normals[left as usize], normals[right as usize]];
     let (side_left, offset_left) = side_plane(positions, &normals[0], tail, head);
     let (side_right, offset_right) = side_plane(positions, &normals[1], head, tail);
     let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0; 4] };
@@ -89,7 +89,7 @@ fn edge_between(
 /// combinations of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. What an edge
 /// of a triangle leans by rounding, the looks allow for: the product is right to 3u, and s up to 5u is within the 12u that they
 /// have for this.
-fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
+pub(super) fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
     let along = plane_normal(&edge.planes, 0);
     let leaning = edge.normals.map(|normal| normal.dot(&along).abs()).into_iter().fold(0.0, f64::max);
     if leaning <= 2.0 * UNIT_ROUNDOFF {
@@ -106,13 +106,13 @@ fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
 const LARGEST_LEANING: f64 = 1e-3;
 
 /// Writes one lane of a plane block.
-fn set_plane(block: &mut PlaneBlock, lane: usize, normal: &Vector, offset: f64) {
+pub(super) fn set_plane(block: &mut PlaneBlock, lane: usize, normal: &Vector, offset: f64) {
     (block.x[lane], block.y[lane], block.z[lane]) = (normal.x, normal.y, normal.z);
     block.offset[lane] = offset;
 }
 
 /// The normal in one lane of a plane block.
-fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
+pub(super) fn plane_normal(block: &PlaneBlock, lane: usize) -> Vector {
     Vector::new(block.x[lane], block.y[lane], block.z[lane])
 }
 
@@ -178,7 +178,7 @@ impl Polyhedron {
                     edge_of[surface.twins[h as usize] as usize] = id;
                 }
                 let faces = [merged.left(first), merged.left(surface.twins[first as usize])];
-                let mut edge = edge_between([tail, surface.head(last)], positions, faces, merged, slacks);
+                let mut edge = edge_between([tail, surface.head(last)], positions, faces, &merged.normals, slacks);
                 if edge.normals[0].dot(&edge.normals[1]) < 0.0 {
                     edge.bevel = self.bevels.len() as u32;
                     let bevel = bevel_of(&edge, half_edges.map(|h| surface.head(h)), rises);

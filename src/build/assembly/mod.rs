@@ -3,6 +3,7 @@
 
 mod layout;
 mod scale;
+mod triangle;
 
 use crate::base::double_double::{WideVector, narrow};
 use crate::base::error::Result;
@@ -24,6 +25,7 @@ use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{ContactFaces, LARGEST, NONE, Polyhedron, SMALLEST};
 use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
+pub use triangle::refill_triangle;
 
 /// The polyhedron of the exact convex hull of `points`. `polygons`, over the same points, gives the faces' labels; they lie on the
 /// hull up to a tolerance ([`crate::build::check`]). The result depends on the arguments alone: same input, same arrays.

@@ -15,6 +15,7 @@ mod overlay;
 mod reduction;
 mod swept;
 mod half_space;
+mod four;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -30,6 +31,7 @@ use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use clip::Precision;
+pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
 pub(super) use id::id_of;
@@ -158,6 +160,17 @@ pub(crate) fn manifold_of(
         Known::Deep(answer) => answer.into(),
     };
     of_bodies(bodies, reference, config, &contact, points)
+}
+
+/// As [`manifold_into`], along the normal of a contact, whatever it is: of faces that meet there. Where none do it is the contact's
+/// pair of points.
+pub(crate) fn manifold_along(
+    bodies: [Placed; 2],
+    contact: &SignedDistance,
+    config: &ManifoldConfig,
+    points: &mut Sink,
+) -> Manifold {
+    of_bodies(bodies, &mut Reference::default(), config, contact, points)
 }
 
 /// Of bodies over which balls are swept: that of the polyhedra, whose points are moved out to the surfaces.

@@ -27,7 +27,7 @@ use crate::scene::world::rows::Label;
 use crate::shape::Shape;
 
 /// What is searched, and who shares in that.
-pub(crate) struct Ground<'a> {
+pub(crate) struct Searched<'a> {
     pub world: &'a mut World,
     pub near: &'a mut BroadPhase,
     pub workers: &'a Workers,
@@ -80,16 +80,16 @@ impl Search {
     /// See [`Scene::query_intersection`](crate::scene::Scene::query_intersection); nothing is listed then, and nothing is counted.
     pub fn ask(
         &mut self,
-        ground: &mut Ground,
+        searched: &mut Searched,
         subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
         if !is_default() {
-            return with_default(move || self.ask(ground, subject, kind, query));
+            return with_default(move || self.ask(searched, subject, kind, query));
         }
         self.latest = number_of(subject, kind);
-        let found = self.find(ground, subject, kind, query);
+        let found = self.find(searched, subject, kind, query);
         self.stopped = matches!(found, Ok(true));
         let Kept { findings, pass, .. } = &mut self.kept[self.latest];
         if let Err(error) = found {
@@ -112,18 +112,18 @@ impl Search {
     #[inline(always)]
     fn find(
         &mut self,
-        ground: &mut Ground,
+        searched: &mut Searched,
         subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<bool> {
         let request = Request::new(kind, query)?;
         match subject {
-            Subject::AllPairs | Subject::Events => self.ask_all(ground, &request),
-            Subject::Object(id) => self.ask_object(ground, *id, &request),
+            Subject::AllPairs | Subject::Events => self.ask_all(searched, &request),
+            Subject::Object(id) => self.ask_object(searched, *id, &request),
             Subject::Placed(body) => {
-                body.check(ground.world.rotation_limit)?;
-                self.ask_placed(ground, body, &request)
+                body.check(searched.world.rotation_limit)?;
+                self.ask_placed(searched, body, &request)
             }
         }
     }
@@ -162,20 +162,20 @@ impl Search {
     // --- All pairs ---------------------------------------------------------------------------------------------------------------
 
     /// True if the query stopped at an intersecting pair, the last result.
-    fn ask_all(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
-        let Some(budget) = request.error_budget else { return self.pass_over_all(ground, request) };
-        if !ground.world.keeps_list(request.tolerance) {
+    fn ask_all(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
+        let Some(budget) = request.error_budget else { return self.pass_over_all(searched, request) };
+        if !searched.world.keeps_list(request.tolerance) {
             // Which pairs may take shares is known of near pairs alone.
-            return self.pass_over_all(ground, &request.with_share(None));
+            return self.pass_over_all(searched, &request.with_share(None));
         }
-        self.bring_up_to_date(ground, request.tolerance)?;
-        let share = self.share(ground, request, budget)?;
-        self.pass_over_all(ground, &request.with_share(Some(share)))
+        self.bring_up_to_date(searched, request.tolerance)?;
+        let share = self.share(searched, request, budget)?;
+        self.pass_over_all(searched, &request.with_share(Some(share)))
     }
 
     /// What each pair may take that has a share of a budget: while nothing moves, what it was.
-    fn share(&mut self, ground: &mut Ground, request: &Request, budget: f64) -> Result<f64> {
-        let (proxies, list) = (&ground.world.proxies, &mut ground.near.list);
+    fn share(&mut self, searched: &mut Searched, request: &Request, budget: f64) -> Result<f64> {
+        let (proxies, list) = (&searched.world.proxies, &mut searched.near.list);
         let Kept { pass, asked, .. } = &mut self.kept[self.latest];
         if let (Some(pass), Some(asked)) = (&pass, &asked)
             && asked.error_budget == request.error_budget
@@ -193,33 +193,33 @@ impl Search {
     }
 
     /// One pass over the list, or where everything is near over all pairs.
-    fn pass_over_all(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
-        ground.world.passes += 1;
-        if ground.world.keeps_list(request.tolerance) {
-            match self.bring_up_to_date(ground, request.tolerance) {
-                Ok(()) => return self.pass_over_list(ground, request),
+    fn pass_over_all(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
+        searched.world.passes += 1;
+        if searched.world.keeps_list(request.tolerance) {
+            match self.bring_up_to_date(searched, request.tolerance) {
+                Ok(()) => return self.pass_over_list(searched, request),
                 // A list of all pairs saves time; without one they are gone through all the same.
-                Err(Error::Memory(_)) if request.tolerance == f64::INFINITY && ground.world.given.is_none() => {}
+                Err(Error::Memory(_)) if request.tolerance == f64::INFINITY && searched.world.given.is_none() => {}
                 Err(error) => return Err(error),
             }
         }
         let Kept { findings, pass, .. } = &mut self.kept[self.latest];
         *pass = None;
         findings.begin(None);
-        let (proxies, mut rules, _) = ground.world.parts();
+        let (proxies, mut rules, _) = searched.world.parts();
         let pass = Pass::new(request, proxies, None);
-        run_over_all(&pass, &mut rules, &mut ground.near.list, findings)
+        run_over_all(&pass, &mut rules, &mut searched.near.list, findings)
     }
 
     /// The list, and the marks of passes of this kind.
-    fn bring_up_to_date(&self, ground: &mut Ground, tolerance: f64) -> Result<()> {
-        ground.near.update(ground.world, tolerance, ground.workers)?;
-        ground.near.list.make_marks(self.latest)
+    fn bring_up_to_date(&self, searched: &mut Searched, tolerance: f64) -> Result<()> {
+        searched.near.update(searched.world, tolerance, searched.workers)?;
+        searched.near.list.make_marks(self.latest)
     }
 
     /// The same over the list. Where the last pass of the kind asked the same, it gives the answers of what rests again.
-    fn pass_over_list(&mut self, ground: &mut Ground, request: &Request) -> Result<bool> {
-        let (kind, proxies, list) = (self.latest, &ground.world.proxies, &mut ground.near.list);
+    fn pass_over_list(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
+        let (kind, proxies, list) = (self.latest, &searched.world.proxies, &mut searched.near.list);
         let Kept { findings, pass: last_pass, asked } = &mut self.kept[kind];
         let asked_same = last_pass.take().filter(|_| asked.as_ref().is_some_and(|asked| asked.is_same(request)));
         let gives_again = match asked_same {
@@ -231,8 +231,8 @@ impl Search {
             list.contacts.make_room(list.caches.len())?;
         }
         let pass = Pass::new(request, proxies, gives_again.then_some(&self.before));
-        let stopped = if ground.workers.share(list.pairs.len()) && !request.early_exit {
-            run_in_parts(ground.workers, &mut self.parts, &pass, list, kind, findings)?;
+        let stopped = if searched.workers.share(list.pairs.len()) && !request.early_exit {
+            run_in_parts(searched.workers, &mut self.parts, &pass, list, kind, findings)?;
             false
         } else {
             let NearPairs { pairs, marks, caches, contacts, .. } = list;
@@ -246,7 +246,7 @@ impl Search {
             if asked_same.is_none() || request.error_budget.is_some() {
                 *asked = Some(*request);
             }
-            *last_pass = Some(ground.world.passes);
+            *last_pass = Some(searched.world.passes);
             if request.details.is_some() {
                 list.forget_depths(kind);
             }
@@ -256,42 +256,47 @@ impl Search {
 
     // --- Pairs of one body -------------------------------------------------------------------------------------------------------
 
-    fn ask_object(&mut self, ground: &mut Ground, id: ObjectId, request: &Request) -> Result<bool> {
-        ground.world.passes += 1;
-        if !ground.world.keeps_list(request.tolerance) {
-            let mut pairs = all_pairs_of(ground.world, id)?;
-            return self.pass_without_memory(ground.world, &mut pairs, request);
+    fn ask_object(&mut self, searched: &mut Searched, id: ObjectId, request: &Request) -> Result<bool> {
+        searched.world.passes += 1;
+        if !searched.world.keeps_list(request.tolerance) {
+            let mut pairs = all_pairs_of(searched.world, id)?;
+            return self.pass_without_memory(searched.world, &mut pairs, request);
         }
-        ground.near.update(ground.world, request.tolerance, ground.workers)?;
-        let mut pairs = near_pairs_of(ground.world, &ground.near.list, id)?;
-        let NearPairs { caches, contacts, .. } = &mut ground.near.list;
+        searched.near.update(searched.world, request.tolerance, searched.workers)?;
+        let mut pairs = near_pairs_of(searched.world, &searched.near.list, id)?;
+        let NearPairs { caches, contacts, .. } = &mut searched.near.list;
         if request.details.is_some() {
             contacts.make_room(caches.len())?;
         }
         let memory = Own { caches, contacts: Some(contacts) };
-        self.pass_over_few(ground.world, &mut pairs, memory, request)
+        self.pass_over_few(searched.world, &mut pairs, memory, request)
     }
 
-    fn ask_placed(&mut self, ground: &mut Ground, body: &PlacedBody<Arc<Shape>>, request: &Request) -> Result<bool> {
-        ground.world.passes += 1;
+    fn ask_placed(
+        &mut self,
+        searched: &mut Searched,
+        body: &PlacedBody<Arc<Shape>>,
+        request: &Request,
+    ) -> Result<bool> {
+        searched.world.passes += 1;
         // Boxes are good for their tolerance where the scene itself finds the pairs.
-        let by_boxes = ground.world.given.is_none() && ground.world.keeps_list(request.tolerance);
+        let by_boxes = searched.world.given.is_none() && searched.world.keeps_list(request.tolerance);
         if by_boxes {
-            ground.near.update(ground.world, request.tolerance, ground.workers)?;
+            searched.near.update(searched.world, request.tolerance, searched.workers)?;
         }
-        let proxies = &mut ground.world.proxies;
+        let proxies = &mut searched.world.proxies;
         let first = proxies.len();
         proxies.reserve(body.pieces.len())?;
         for (piece, (shape, pose)) in (0..).zip(&*body.pieces) {
             let label = Label { object: ObjectId::NULL, user_data: 0, piece, fixed: false, groups: 0, mask: 0 };
             let own = proxies.push_unseen(NewProxy { shape: shape.clone(), pose: *pose, label });
             if by_boxes {
-                proxies.refit(own, ground.near.tolerance());
+                proxies.refit(own, searched.near.tolerance());
             }
         }
         let pairs = pairs_of_last(proxies, first, body.mask, by_boxes);
-        let stopped = pairs.and_then(|mut pairs| self.pass_without_memory(ground.world, &mut pairs, request));
-        ground.world.proxies.end_unseen(first);
+        let stopped = pairs.and_then(|mut pairs| self.pass_without_memory(searched.world, &mut pairs, request));
+        searched.world.proxies.end_unseen(first);
         stopped
     }
 

@@ -1,0 +1,117 @@
+/* Grounds: surfaces of triangles for bodies to rest on. */
+#ifndef SWIFTPROX_GROUND_HPP
+#define SWIFTPROX_GROUND_HPP
+
+#include "pair.hpp"
+
+namespace swiftprox
+{
+
+/** A share of a ground, or none. */
+class Ground
+{
+  public:
+    Ground() noexcept = default;
+    Ground(const Ground &other) noexcept : ground_(other.ground_ ? swiftprox_ground_retain(other.ground_) : nullptr) {}
+    Ground(Ground &&other) noexcept : ground_(std::exchange(other.ground_, nullptr)) {}
+    Ground &operator=(Ground other) noexcept
+    {
+        std::swap(ground_, other.ground_);
+        return *this;
+    }
+    ~Ground() { swiftprox_ground_release(ground_); }
+    const swiftprox_ground *get() const noexcept { return ground_; }
+    explicit operator bool() const noexcept { return ground_ != nullptr; }
+
+    /** 3 coordinates a vertex, 3 vertex numbers a triangle. */
+    static Result<Ground> try_from_triangles(Range<const double> vertices, Range<const std::uint32_t> corners) noexcept
+    {
+        if (vertices.size() % 3 != 0 || corners.size() % 3 != 0) {
+            return detail::refused<Ground>("vertices and corners of a ground come in threes");
+        }
+        Result<Ground> result;
+        result.status = swiftprox_ground_create_from_triangles(vertices.data(), vertices.size() / 3, corners.data(),
+                                                               corners.size() / 3, &result.value.ground_);
+        return result;
+    }
+    /** As many heights in a row as there are columns. */
+    static Result<Ground> try_from_heights(Range<const double> heights, std::size_t columns, double row_spacing,
+                                           double column_spacing) noexcept
+    {
+        if (columns == 0 || heights.size() % columns != 0) {
+            return detail::refused<Ground>("the heights of a ground come in rows");
+        }
+        Result<Ground> result;
+        result.status = swiftprox_ground_create_from_heights(heights.size() / columns, columns, row_spacing, column_spacing,
+                                                             heights.data(), &result.value.ground_);
+        return result;
+    }
+    Result<swiftprox_ground_info> try_info() const noexcept
+    {
+        Result<swiftprox_ground_info> result;
+        result.status = swiftprox_ground_get_info(ground_, &result.value);
+        return result;
+    }
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+    static Ground from_triangles(Range<const double> vertices, Range<const std::uint32_t> corners)
+    {
+        return take(try_from_triangles(vertices, corners));
+    }
+    static Ground from_heights(Range<const double> heights, std::size_t columns, double row_spacing, double column_spacing)
+    {
+        return take(try_from_heights(heights, columns, row_spacing, column_spacing));
+    }
+    swiftprox_ground_info info() const { return take(try_info()); }
+#endif
+
+  private:
+    const swiftprox_ground *ground_ = nullptr;
+};
+
+/** A ground where it is, for the time of a call. */
+struct PlacedGround {
+    const Ground &ground;
+    const Pose &pose;
+};
+
+/** SWIFTPROX_QUERY_KIND_DISTANCE or SWIFTPROX_QUERY_KIND_INTERSECTION. */
+inline Result<swiftprox_ground_distance> try_ground_distance(swiftprox_query_kind kind, Placed body, PlacedGround ground,
+                                                             const PairConfig &config = {}) noexcept
+{
+    const swiftprox_pair_config c = config.to_c();
+    Result<swiftprox_ground_distance> result;
+    result.status = swiftprox_pair_ground_distance(kind, body.shape.get(), body.pose.data(), ground.ground.get(),
+                                                   ground.pose.data(), &c, &result.value);
+    return result;
+}
+/** Writes as many contacts and points as there is room for. */
+inline Result<swiftprox_ground_count> try_ground_contacts(Placed body, PlacedGround ground,
+                                                          Range<swiftprox_ground_contact> contacts,
+                                                          Range<swiftprox_manifold_point> points,
+                                                          const ManifoldConfig &config = {}) noexcept
+{
+    const swiftprox_manifold_config c = config.to_c();
+    Result<swiftprox_ground_count> result;
+    result.status = swiftprox_pair_ground_contacts(body.shape.get(), body.pose.data(), ground.ground.get(), ground.pose.data(), &c,
+                                                   contacts.data(), contacts.size(), points.data(), points.size(),
+                                                   &result.value);
+    return result;
+}
+
+#if SWIFTPROX_HAS_EXCEPTIONS
+inline swiftprox_ground_distance ground_distance(swiftprox_query_kind kind, Placed body, PlacedGround ground,
+                                                 const PairConfig &config = {})
+{
+    return take(try_ground_distance(kind, body, ground, config));
+}
+inline swiftprox_ground_count ground_contacts(Placed body, PlacedGround ground, Range<swiftprox_ground_contact> contacts,
+                                              Range<swiftprox_manifold_point> points, const ManifoldConfig &config = {})
+{
+    return take(try_ground_contacts(body, ground, contacts, points, config));
+}
+#endif
+
+} // namespace swiftprox
+
+#endif

@@ -1,0 +1,224 @@
+//! Grounds: made from arrays, shared by count, and asked about bodies.
+
+use std::sync::Arc;
+
+use super::arrays::{check_count, read_vectors};
+use super::depth::{CManifoldConfig, read_manifold_config, room_for_points};
+use super::enumerators::{QueryNumber, read_enumerator};
+use super::failure::{Checked, Failure, StatusCode};
+use super::guard::{guard, keep_panics_quiet};
+use super::pair::{CPairConfig, read_config};
+use super::pointers::{array, input, output};
+use crate::base::math::Pose;
+use crate::ground::{
+    Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, ground_contacts, ground_distance,
+};
+use crate::pair::ManifoldPoint;
+use crate::shape::Shape;
+
+/// Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
+///
+/// `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of a
+/// triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
+/// Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles without
+/// area, or smaller than 2^-200, are left out, and keep their numbers.
+///
+/// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that is
+/// not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
+/// SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
+    vertices: *const f64,
+    vertex_count: usize,
+    corners: *const u32,
+    triangle_count: usize,
+    ground: *mut *const Ground,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; three numbers are as aligned as one.
+    create(ground, || unsafe {
+        let vertices = read_vectors(vertices, vertex_count, "vertices")?;
+        check_count(triangle_count, "triangle_count")?;
+        Ok(Ground::from_triangles(&vertices, array(corners.cast::<[u32; 3]>(), triangle_count, "corners")?)?)
+    })
+}
+
+/// Makes a ground from heights over a grid in the plane of x and y; the caller owns it and gives it back with
+/// swiftprox_ground_release. The heights are copied.
+///
+/// `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
+/// column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into triangles that look up: 2 *
+/// c, which has the corner along x, and 2 * c + 1, with c = i * (columns - 1) + j of the cell's least corner. A cell with a hole at a
+/// corner is a hole.
+///
+/// On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
+/// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT: more
+/// than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
+    rows: usize,
+    columns: usize,
+    row_spacing: f64,
+    column_spacing: f64,
+    heights: *const f64,
+    ground: *mut *const Ground,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(ground, || unsafe {
+        let count = rows.saturating_mul(columns);
+        check_count(count, "rows * columns")?;
+        let heights = array(heights, count, "heights")?;
+        Ok(Ground::from_heights(&HeightGrid { rows, columns, spacing: [column_spacing, row_spacing], heights })?)
+    })
+}
+
+/// Gives the caller one more share of a ground, to be given back with a swiftprox_ground_release of its own; returns the ground.
+/// Safe from any thread. Of null it returns null.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_retain(ground: *const Ground) -> *const Ground {
+    if !ground.is_null() {
+        // SAFETY: a live ground by the header's pointer rules; every one comes from Arc::into_raw.
+        unsafe { Arc::increment_strong_count(ground) };
+    }
+    ground
+}
+
+/// Gives back one share of a ground that the caller owns; the last one frees it. Safe from any thread. Null is ignored.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_release(ground: *const Ground) {
+    // A bug in the freeing is told by the message and the log.
+    let _: StatusCode = guard(|| {
+        if !ground.is_null() {
+            // SAFETY: a live ground by the header's pointer rules, and this share is given up.
+            unsafe { Arc::decrement_strong_count(ground) };
+        }
+        Ok(())
+    });
+}
+
+/// What a ground is.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct GroundInfo {
+    /// Vertices, as they were given.
+    pub vertex_count: usize,
+    /// Triangles, those included that are left out.
+    pub triangle_count: usize,
+    /// Memory that it holds, in bytes.
+    pub bytes: usize,
+}
+
+/// Says what a ground is. On failure all is 0. SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: *mut GroundInfo) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(info, "info", GroundInfo { vertex_count: 0, triangle_count: 0, bytes: 0 })?;
+        let ground = input(ground, "ground")?;
+        let (vertex_count, triangle_count) = (ground.vertex_count(), ground.triangle_count());
+        output(info, "info", GroundInfo { vertex_count, triangle_count, bytes: ground.bytes() })
+    })
+}
+
+/// How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE or
+/// SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or swiftprox_pair_intersection, of
+/// the ground as a set of points; `config` is as there. There is no cache.
+///
+/// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
+/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
+/// SWIFTPROX_ERROR_STRUCT_SIZE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_ground_distance(
+    kind: QueryNumber,
+    shape: *const Shape,
+    pose: *const f64,
+    ground: *const Ground,
+    ground_pose: *const f64,
+    config: *const CPairConfig,
+    answer: *mut GroundDistance,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    guard(|| unsafe {
+        output(answer, "answer", GroundDistance::default())?;
+        let query = read_enumerator(kind, "kind", "swiftprox_query_kind")?;
+        let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+        let (ground, place) = (input(ground, "ground")?, input(ground_pose.cast::<Pose>(), "ground_pose")?);
+        output(answer, "answer", ground_distance(query, shape.at(pose), ground.at(place), &read_config(config)?)?)
+    })
+}
+
+/// How many contacts there are with a ground, and points of all of them.
+#[derive(Debug, Clone, Copy, Default)]
+#[repr(C)]
+pub struct GroundCount {
+    /// Contacts found.
+    pub contact_count: usize,
+    /// Points found.
+    pub point_count: usize,
+}
+
+/// Where a shape, which is object 1, meets a ground, or is up to config->margin apart: contacts, each of points with one normal out
+/// of the ground, sorted by triangle. `contacts` and `points` receive as many as there is room for, and may be null with no room;
+/// `count` says how many there are. Points of contact c are those from its first_point on, as many as its manifold.point_count.
+///
+/// A triangle acts on bodies whose centre of mass is not behind its plane. The normal is the one along which the body and the
+/// triangle are nearest, or overlap least, where that is normal to the surface at the point that is touched; else it is the
+/// triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
+///
+/// On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
+/// SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_LIMIT: a
+/// capacity is larger than memory. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_ground_contacts(
+    shape: *const Shape,
+    pose: *const f64,
+    ground: *const Ground,
+    ground_pose: *const f64,
+    config: *const CManifoldConfig,
+    contacts: *mut GroundContact,
+    contact_capacity: usize,
+    points: *mut ManifoldPoint,
+    point_capacity: usize,
+    count: *mut GroundCount,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+        let (shape, pose, ground, place, config) = unsafe {
+            output(count, "count", GroundCount::default())?;
+            (
+                input(shape, "shape")?,
+                input(pose.cast::<Pose>(), "pose")?,
+                input(ground, "ground")?,
+                input(ground_pose.cast::<Pose>(), "ground_pose")?,
+                read_manifold_config(config)?,
+            )
+        };
+        if contacts.is_null() && contact_capacity > 0 {
+            return Err(Failure::null("contacts"));
+        }
+        room_for_points(points, point_capacity)?;
+        let mut found = GroundContacts::default();
+        ground_contacts(shape.at(pose), ground.at(place), &config, &mut found)?;
+        for (place, contact) in found.contacts.iter().take(contact_capacity).enumerate() {
+            // SAFETY: not null, and place < capacity.
+            unsafe { contacts.add(place).write(*contact) };
+        }
+        for (place, point) in found.points.iter().take(point_capacity).enumerate() {
+            // SAFETY: as above.
+            unsafe { points.add(place).write(*point) };
+        }
+        let all = GroundCount { contact_count: found.contacts.len(), point_count: found.points.len() };
+        // SAFETY: the header's pointer rules.
+        unsafe { output(count, "count", all) }
+    })
+}
+
+fn create(ground: *mut *const Ground, make: impl FnOnce() -> Checked<Ground>) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe { output(ground, "ground", std::ptr::null()) }?;
+        keep_panics_quiet();
+        let made = Arc::into_raw(Arc::new(make()?));
+        // SAFETY: as above.
+        unsafe { output(ground, "ground", made) }
+    })
+}

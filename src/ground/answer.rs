@@ -1,0 +1,25 @@
+//! What is said of a body that meets a ground.
+
+use crate::pair::{Manifold, ManifoldPoint};
+
+/// One contact of a body, which is object 1, with a ground: points with one normal.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct GroundContact {
+    /// Its normal is out of the ground. Its outcome is that of the body and the triangles that it meets with this normal; `lower`
+    /// and `upper` are the least gap of its points.
+    pub manifold: Manifold,
+    /// The triangle that has the least.
+    pub triangle: u32,
+    /// Where among all points those of the contact begin.
+    pub first_point: usize,
+}
+
+/// The contacts of a body with a ground, and their points.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct GroundContacts {
+    /// By their triangles.
+    pub contacts: Vec<GroundContact>,
+    /// Of each contact its points together. The face of object 2 is a triangle of the ground.
+    pub points: Vec<ManifoldPoint>,
+}

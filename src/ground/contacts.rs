@@ -1,0 +1,200 @@
+//! Where a body meets a ground: contacts with normals of the surface.
+
+use super::PlacedGround;
+use super::answer::GroundContacts;
+use super::grouping::{Touch, group};
+use super::reach::{LEAST_STRETCH, Reach};
+use super::tree::Visit;
+use crate::base::error::Result;
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::memory::push;
+use crate::base::simd::environment::with_default;
+use crate::pair::{
+    self, Feature, FeatureKind, Fill, ManifoldConfig, ManifoldPoint, Outcome, PairConfig, Placed, SignedDistance,
+    SignedDistanceCache, Sink, manifold_along,
+};
+use crate::shape::TriangleShape;
+
+/// Where a body, which is object 1, meets a ground, or is up to `config.margin` apart; written over what `found` holds.
+///
+/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane. The
+/// normal of a contact is the one along which the body and the triangle are nearest, or overlap least, where that is in the normal
+/// cone of the surface at the point that is touched; else it is the triangle's. So no contact holds a body up that slides over an
+/// edge which is flat or concave. Contacts with one normal are one, however many triangles they are on.
+///
+/// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
+/// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
+/// anew each time.
+///
+/// # Errors
+/// As of [`pair::manifold`]; then `found` is empty. [`Error::Memory`](crate::base::error::Error::Memory).
+pub fn ground_contacts(
+    body: Placed,
+    ground: PlacedGround,
+    config: &ManifoldConfig,
+    found: &mut GroundContacts,
+) -> Result<()> {
+    found.contacts.clear();
+    found.points.clear();
+    with_default(|| {
+        config.check()?;
+        body.pose.check(config.rotation_limit)?;
+        ground.pose.check(config.rotation_limit)?;
+        let reach = Reach::new(body, ground)?;
+        let bounds = reach.bounds;
+        let within = PairConfig {
+            distance_tolerance: config.margin,
+            rotation_limit: config.rotation_limit,
+            ..PairConfig::default()
+        };
+        let scratch = TriangleShape::new()?;
+        // Four points are chosen of all triangles' together.
+        let all = ManifoldConfig { reduces: false, ..*config };
+        let mut meeting = Meeting {
+            body,
+            ground,
+            reach,
+            within,
+            all,
+            scratch,
+            touches: Vec::new(),
+            points: Vec::new(),
+            missed: None,
+        };
+        ground.ground.tree().walk(&bounds, &mut meeting)?;
+        meeting.keep_missed()?;
+        let size = body.shape.polyhedron().radius;
+        group(meeting.touches, &meeting.points, config.reduces, size, found)
+    })
+}
+
+/// What a walk over the triangles near a body has found.
+struct Meeting<'a> {
+    body: Placed<'a>,
+    ground: PlacedGround<'a>,
+    reach: Reach,
+    within: PairConfig,
+    all: ManifoldConfig,
+    scratch: TriangleShape,
+    touches: Vec<Touch>,
+    points: Vec<ManifoldPoint>,
+    /// The deepest contact along the normal of a triangle that has no points over it.
+    missed: Option<(u32, SignedDistance)>,
+}
+
+impl Visit for Meeting<'_> {
+    fn goes_to(&mut self, gap: f64) -> bool {
+        gap * LEAST_STRETCH <= self.all.margin
+    }
+
+    fn triangle(&mut self, triangle: u32) -> Result<bool> {
+        let own = self.ground.ground.triangle(triangle);
+        if own.normal.dot(&(self.reach.centre - own.corners[0])) < 0.0 {
+            return Ok(true);
+        }
+        let bodies = [self.body, self.scratch.of(&own).at(self.ground.pose)];
+        let mut contact = SignedDistance::default();
+        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
+        if contact.outcome == Outcome::Beyond {
+            return Ok(true);
+        }
+        let normal = self.reach.local_normal(&contact.normal.into());
+        let is_allowed = self.ground.ground.allows(triangle, &normal);
+        let is_over = is_allowed || {
+            let up = self.reach.world_normal(&own.normal);
+            let corner = self.ground.pose.transform(&own.corners[0]);
+            contact = along(&up, &corner, &contact, &self.body);
+            let foot = self.reach.point(&contact.world2.into());
+            contact.local2 = foot.into();
+            contact.feature2 = Feature { kind: FeatureKind::Face, ids: [triangle, 0] };
+            is_over(&own.corners, &own.normal, &foot)
+        };
+        self.touch(triangle, &contact, is_over)?;
+        Ok(true)
+    }
+}
+
+impl Meeting<'_> {
+    /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
+    fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
+        let bodies = [self.body, self.scratch.shape().at(self.ground.pose)];
+        let first_point = self.points.len();
+        let mut written = Ok(());
+        let points = &mut self.points;
+        let mut write = |_: usize, fill: Fill| {
+            if written.is_ok() {
+                written = push(points, ManifoldPoint::default());
+            }
+            if let (Ok(()), Some(point)) = (&written, points.last_mut()) {
+                fill(point);
+            }
+        };
+        let mut sink = Sink { capacity: usize::MAX, written: 0, write: &mut write };
+        // What is not over the triangle is none of the points that faces have in common, however deep it is.
+        let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
+        let manifold = manifold_along(bodies, if is_over { contact } else { &far }, &self.all, &mut sink);
+        written?;
+        // Without a reference it is the contact's own pair of points.
+        if manifold.reference == 0 && !is_over {
+            self.points.truncate(first_point);
+            let is_deeper = self.missed.is_none_or(|(_, missed)| contact.upper < missed.upper);
+            if contact.outcome == Outcome::Intersecting && is_deeper {
+                self.missed = Some((triangle, *contact));
+            }
+            return Ok(());
+        }
+        push(&mut self.touches, Touch { triangle, manifold, first_point })
+    }
+
+    /// A body that meets the ground has a contact, if only beside the triangle.
+    fn keep_missed(&mut self) -> Result<()> {
+        let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
+        if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
+            self.scratch.of(&self.ground.ground.triangle(triangle));
+            self.touch(triangle, &contact, true)?;
+        }
+        Ok(())
+    }
+}
+
+/// A contact turned to the normal of its triangle, of which a corner is given in the world: a low point of the body, the witness
+/// point unless it was above, and what is below that on the plane. `lower` and `upper` become its height over the plane.
+fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) -> SignedDistance {
+    let (polyhedron, radius) = (body.shape.polyhedron(), body.shape.swept_radius());
+    let normal = Vector::from(contact.normal);
+    // Of the polyhedron; from there it is the radius to the ball's lowest.
+    let (own, feature1) = if normal.dot(up) > 0.0 {
+        (Vector::from(contact.world1) + normal * radius, contact.feature1)
+    } else {
+        let (vertex, _) = polyhedron.support(&body.pose.rotate_back(&-up), 0);
+        let feature = Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
+        (body.pose.transform(&polyhedron.local_position(vertex)), feature)
+    };
+    let lowest = own - up * radius;
+    let height = up.dot(&(lowest - corner));
+    // Points are right to some 8u of where they are, the normal to 8u, and so are the product and the radius.
+    let error = 64.0 * UNIT_ROUNDOFF * (lowest.lp_norm(1) + corner.lp_norm(1) + radius);
+    let from = lowest - body.pose.translation();
+    let local = body.pose.rotation().try_inverse().map_or_else(|| body.pose.rotate_back(&from), |back| back * from);
+    SignedDistance {
+        distance: height,
+        lower: height - error,
+        upper: height + error,
+        normal: (*up).into(),
+        local1: local.into(),
+        world1: lowest.into(),
+        world2: (lowest - up * height).into(),
+        feature1,
+        ..*contact
+    }
+}
+
+/// Whether a point of the plane of a triangle is in it, rounding included.
+fn is_over(corners: &[Vector; 3], normal: &Vector, point: &Vector) -> bool {
+    (0..3).all(|k| {
+        let [tail, head] = [corners[k], corners[(k + 1) % 3]];
+        let inward = normal.cross(&(head - tail));
+        let rounding = 64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + tail.lp_norm(1));
+        inward.dot(&(point - tail)) >= -rounding * inward.norm()
+    })
+}

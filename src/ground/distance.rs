@@ -1,0 +1,131 @@
+//! How far a body is from a ground: the least over its triangles, each answered by the pair layer.
+
+use super::PlacedGround;
+use super::reach::{LEAST_STRETCH, Reach};
+use super::tree::Visit;
+use crate::base::error::{Error, Result};
+use crate::base::simd::environment::with_default;
+use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
+use crate::shape::TriangleShape;
+
+/// What is said of a body, which is object 1, and a ground.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct GroundDistance {
+    /// As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by their
+    /// vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+    pub answer: PairAnswer,
+    /// The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
+    /// where the answer is about none.
+    pub triangle: u32,
+}
+
+/// How far a body is from a ground, or whether they intersect: `query` is [`Query::Distance`] or [`Query::Intersection`], and the
+/// answer is as certain as that of [`pair::distance`] or [`pair::intersection`].
+///
+/// # Errors
+/// [`Error::Argument`] for another query; else as of these two, for both poses; [`Error::Memory`]: about 4 kB are asked for.
+pub fn ground_distance(
+    query: Query,
+    body: Placed,
+    ground: PlacedGround,
+    config: &PairConfig,
+) -> Result<GroundDistance> {
+    with_default(|| {
+        let ask: Ask = match query {
+            Query::Distance => pair::distance,
+            Query::Intersection => pair::intersection,
+            Query::Approximate | Query::Contact => {
+                return Err(Error::Argument("a ground is asked for distance or intersection".into()));
+            }
+        };
+        config.check(query)?;
+        body.pose.check(config.rotation_limit)?;
+        ground.pose.check(config.rotation_limit)?;
+        let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
+        let count = ground.ground.triangle_count() as u32;
+        let unsaid = PairAnswer { outcome: Outcome::Separated, upper: f64::INFINITY, ..PairAnswer::UNSAID };
+        let mut least = Least {
+            ask,
+            body,
+            ground,
+            config: *config,
+            scratch: TriangleShape::new()?,
+            nearest: GroundDistance { answer: unsaid, triangle: count },
+            lower: f64::INFINITY,
+            enough: if is_verdict { 0.0 } else { config.distance_tolerance },
+            is_verdict,
+        };
+        let reach = Reach::new(body, ground)?;
+        ground.ground.tree().walk(&reach.bounds, &mut least)?;
+        Ok(least.answer())
+    })
+}
+
+type Ask = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+
+/// The least distance of the triangles that a walk has come to.
+struct Least<'a> {
+    ask: Ask,
+    body: Placed<'a>,
+    ground: PlacedGround<'a>,
+    config: PairConfig,
+    scratch: TriangleShape,
+    nearest: GroundDistance,
+    /// All that has been looked at or passed by is at least this far away.
+    lower: f64,
+    /// What is farther away counts no more.
+    enough: f64,
+    is_verdict: bool,
+}
+
+impl Visit for Least<'_> {
+    fn goes_to(&mut self, gap: f64) -> bool {
+        let gap = gap * LEAST_STRETCH;
+        let goes = gap <= self.enough;
+        if !goes {
+            self.lower = self.lower.min(gap);
+        }
+        goes
+    }
+
+    fn triangle(&mut self, triangle: u32) -> Result<bool> {
+        let mut answer = PairAnswer::default();
+        let shape = self.scratch.of(&self.ground.ground.triangle(triangle));
+        let bodies = [self.body, shape.at(self.ground.pose)];
+        if !self.is_verdict {
+            self.config.distance_tolerance = self.enough;
+        }
+        (self.ask)(bodies, &mut PairCache::default(), &self.config, &mut answer)?;
+        self.lower = self.lower.min(answer.lower);
+        match answer.outcome {
+            Outcome::Intersecting => {
+                self.nearest = GroundDistance { answer, triangle };
+                return Ok(false);
+            }
+            Outcome::Separated if !self.is_verdict && answer.upper < self.nearest.answer.upper => {
+                self.enough = answer.upper;
+                self.nearest = GroundDistance { answer, triangle };
+            }
+            _ => {}
+        }
+        Ok(true)
+    }
+}
+
+impl Least<'_> {
+    fn answer(self) -> GroundDistance {
+        let GroundDistance { mut answer, triangle } = self.nearest;
+        let is_found = triangle < self.ground.ground.triangle_count() as u32;
+        if answer.outcome == Outcome::Intersecting {
+            return self.nearest;
+        }
+        answer.lower = self.lower;
+        if !is_found {
+            // A verdict without a tolerance finds no nearest.
+            answer.outcome = if self.is_verdict { Outcome::Separated } else { Outcome::Beyond };
+            answer.distance = answer.lower;
+        }
+        GroundDistance { answer, triangle }
+    }
+}

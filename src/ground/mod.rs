@@ -1,0 +1,36 @@
+//! Grounds: surfaces of triangles, such as soups and grids of heights, for bodies to rest on. A ground is not a body and need not be
+//! convex or closed. Its triangles are compact; a query lays those out that a body may touch, and asks the pair layer of each.
+//!
+//! Distance and intersection are those of the surface as a set of points. Contacts are one-sided and free of ghost normals:
+//! `normals.rs` has the rule.
+
+mod tree;
+mod surface;
+mod reach;
+mod normals;
+mod distance;
+mod answer;
+mod grouping;
+mod contacts;
+
+use crate::base::math::Pose;
+pub use answer::{GroundContact, GroundContacts};
+pub use contacts::ground_contacts;
+pub use distance::{GroundDistance, ground_distance};
+pub use surface::{Ground, HeightGrid};
+
+/// A ground where it is.
+#[derive(Debug, Clone, Copy)]
+pub struct PlacedGround<'a> {
+    /// Its triangles.
+    pub ground: &'a Ground,
+    /// Where it is.
+    pub pose: &'a Pose,
+}
+
+impl Ground {
+    /// The ground where `pose` says.
+    pub fn at<'a>(&'a self, pose: &'a Pose) -> PlacedGround<'a> {
+        PlacedGround { ground: self, pose }
+    }
+}

@@ -1,0 +1,141 @@
+//! A static tree of boxes over the triangles of a ground. Boxes are exact: least and greatest coordinates of vertices.
+
+use crate::base::error::Result;
+use crate::base::math::Vector;
+use crate::base::memory::{collected, copied, push, with_capacity};
+
+/// So many triangles are looked at one by one.
+const LEAF: usize = 4;
+
+/// A tree of 2³⁰ triangles, split at medians, is less deep; a walk keeps one node for each step down.
+const DEEPEST: usize = 64;
+
+/// A closed box along the axes.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Bounds {
+    pub lower: Vector,
+    pub upper: Vector,
+}
+
+impl Bounds {
+    fn union(&self, other: &Bounds) -> Bounds {
+        Bounds { lower: self.lower.zip_map(&other.lower, f64::min), upper: self.upper.zip_map(&other.upper, f64::max) }
+    }
+
+    /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 3u more.
+    pub fn gap(&self, other: &Bounds) -> f64 {
+        let between = |lower: f64, upper: f64| (lower - upper).max(0.0);
+        let gap =
+            Vector::from_fn(|k, _| between(self.lower[k], other.upper[k]).max(between(other.lower[k], self.upper[k])));
+        gap.norm() * (1.0 - 8.0 * f64::EPSILON)
+    }
+}
+
+/// A node; the first child of an inner one is the next node.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Node {
+    bounds: Bounds,
+    /// Of an inner node its second child, of a leaf the place of its first triangle.
+    at: u32,
+    /// How many triangles a leaf has; 0 of an inner node.
+    count: u32,
+}
+
+/// The tree.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Tree {
+    nodes: Vec<Node>,
+    /// The triangles in the order of leaves.
+    triangles: Vec<u32>,
+}
+
+/// What a walk does with what it comes to.
+pub(super) trait Visit {
+    /// Whether to go to what is at least this far away.
+    fn goes_to(&mut self, gap: f64) -> bool;
+    /// Comes to a triangle; `false` ends the walk.
+    ///
+    /// # Errors
+    /// The walk's.
+    fn triangle(&mut self, triangle: u32) -> Result<bool>;
+}
+
+impl Tree {
+    /// Of triangles with the corners of their boxes; those without are left out. `None` if all are.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn new(boxes: impl Iterator<Item = Option<[Vector; 2]>>) -> Result<Option<Tree>> {
+        let mut items = Vec::new();
+        for (triangle, corners) in (0..).zip(boxes) {
+            if let Some([lower, upper]) = corners {
+                push(&mut items, (triangle, Bounds { lower, upper }))?;
+            }
+        }
+        if items.is_empty() {
+            return Ok(None);
+        }
+        let mut nodes = with_capacity(items.len().next_power_of_two())?;
+        grow(&mut nodes, &mut items, 0)?;
+        Ok(Some(Tree { nodes: copied(&nodes)?, triangles: collected(items.iter().map(|(triangle, _)| *triangle))? }))
+    }
+
+    /// Memory held beside the struct, in bytes.
+    pub fn heap_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.triangles[..])
+    }
+
+    /// Goes to all triangles that `visit` wants of those near a box, the nearer half of each node first.
+    ///
+    /// # Errors
+    /// Those of `visit`.
+    pub fn walk(&self, body: &Bounds, visit: &mut impl Visit) -> Result<()> {
+        let mut stack = [(0_u32, 0.0_f64); DEEPEST];
+        let mut depth = 1;
+        stack[0] = (0, self.nodes[0].bounds.gap(body));
+        while depth > 0 {
+            depth -= 1;
+            let (number, gap) = stack[depth];
+            if !visit.goes_to(gap) {
+                continue;
+            }
+            let node = &self.nodes[number as usize];
+            if node.count > 0 {
+                for &triangle in &self.triangles[node.at as usize..(node.at + node.count) as usize] {
+                    if !visit.triangle(triangle)? {
+                        return Ok(());
+                    }
+                }
+                continue;
+            }
+            let children = [number + 1, node.at].map(|child| (child, self.nodes[child as usize].bounds.gap(body)));
+            let nearer = usize::from(children[1].1 < children[0].1);
+            stack[depth] = children[1 - nearer];
+            stack[depth + 1] = children[nearer];
+            depth += 2;
+        }
+        Ok(())
+    }
+}
+
+/// Adds the node of some triangles, the first of which has this place, and those below it.
+fn grow(nodes: &mut Vec<Node>, items: &mut [(u32, Bounds)], first: usize) -> Result<()> {
+    let all = items.iter().map(|(_, bounds)| *bounds).reduce(|a, b| a.union(&b));
+    let Some(bounds) = all else { return Ok(()) };
+    let number = nodes.len();
+    let count = if items.len() <= LEAF { items.len() as u32 } else { 0 };
+    push(nodes, Node { bounds, at: first as u32, count })?;
+    if count > 0 {
+        return Ok(());
+    }
+    let middle = |bounds: &Bounds, axis: usize| bounds.lower[axis] + bounds.upper[axis];
+    let axis = (bounds.upper - bounds.lower).imax();
+    let half = items.len() / 2;
+    items.select_nth_unstable_by(half, |(t1, b1), (t2, b2)| {
+        middle(b1, axis).total_cmp(&middle(b2, axis)).then(t1.cmp(t2))
+    });
+    let (before, behind) = items.split_at_mut(half);
+    grow(nodes, before, first)?;
+    nodes[number].at = nodes.len() as u32;
+    grow(nodes, behind, first + half)
+}

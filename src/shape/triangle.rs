@@ -1,0 +1,73 @@
+//! A shape that is one triangle, then another: what a query of many triangles asks the pair layer about.
+
+use super::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
+use crate::base::error::Result;
+use crate::base::math::Vector;
+use crate::build::assembly::refill_triangle;
+use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
+use crate::polyhedron::Polyhedron;
+
+/// A triangle as a shape, to be moved to others' places.
+#[derive(Debug)]
+pub(crate) struct TriangleShape {
+    shape: Shape,
+    /// Of each vertex the corner that it is.
+    corner_of: [usize; 3],
+    /// The face from which the corners go around counter-clockwise.
+    front: usize,
+}
+
+/// A triangle of a surface in the caller's numbering.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Triangle {
+    pub corners: [Vector; 3],
+    /// The unit normal of the side from which they go around counter-clockwise, right to a few u.
+    pub normal: Vector,
+    /// What the corners are called, and the triangle.
+    pub labels: [u32; 3],
+    pub label: u32,
+}
+
+impl TriangleShape {
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn new() -> Result<TriangleShape> {
+        let corners = [Vector::zeros(), Vector::x(), Vector::y()];
+        let options = ShapeOptions {
+            input: InputPolicy::Hull,
+            hierarchy: HierarchyOptions { kind: HierarchyKind::None, ..HierarchyOptions::default() },
+            // A table would hold the corners of before.
+            lookup: LookupOptions { kind: LookupKind::None, ..LookupOptions::default() },
+            ..ShapeOptions::default()
+        };
+        let shape = Shape::from_points(&corners, &options)?;
+        let Polyhedron { vertex_labels, faces, .. } = &shape.polyhedron;
+        let corner_of = [0, 1, 2].map(|v| vertex_labels[v] as usize);
+        let front = usize::from(faces[0].normal.z < 0.0);
+        Ok(TriangleShape { shape, corner_of, front })
+    }
+
+    /// The triangle that it is.
+    pub fn shape(&self) -> &Shape {
+        &self.shape
+    }
+
+    /// The shape of a triangle that is not on a line, whose coordinates are within the range that
+    /// [`refill_triangle`] says.
+    pub fn of(&mut self, triangle: &Triangle) -> &Shape {
+        let polyhedron = &mut self.shape.polyhedron;
+        let corners = self.corner_of.map(|corner| triangle.corners[corner]);
+        let mut normals = [-triangle.normal; 2];
+        normals[self.front] = triangle.normal;
+        refill_triangle(polyhedron, &corners, &normals);
+        let labels = self.corner_of.map(|corner| triangle.labels[corner]);
+        polyhedron.vertex_labels.copy_from_slice(&labels);
+        polyhedron
+            .edges
+            .iter_mut()
+            .for_each(|edge| edge.labels = [edge.tail(), edge.head()].map(|v| labels[v as usize]));
+        polyhedron.face_labels.fill(triangle.label);
+        polyhedron.faces.iter_mut().for_each(|face| face.label = triangle.label);
+        &self.shape
+    }
+}

@@ -1,0 +1,105 @@
+//! Distances and verdicts, against all triangles in rational numbers.
+
+use super::hills;
+use swiftprox::error::Error;
+use swiftprox::ground::{Ground, ground_distance};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{FeatureKind, Outcome, PairConfig, Query};
+use testkit::oracle::{Polytope, Truth, truth};
+use testkit::random::Random;
+use testkit::shapes::{at, cuboid, hull};
+
+fn rows(pose: &Pose) -> [f64; 12] {
+    std::array::from_fn(|k| pose.rows[k / 4][k % 4])
+}
+
+/// Of each triangle the truth.
+fn of_all(cloud: &[Vector], pose: &Pose, vertices: &[Vector], triangles: &[[u32; 3]], place: &Pose) -> Vec<Truth> {
+    let body = Polytope::new(&cloud.iter().map(|p| (*p).into()).collect::<Vec<_>>());
+    let of = |corners: &[u32; 3]| {
+        let triangle = Polytope::new(&corners.map(|v| vertices[v as usize].into()));
+        truth(&body, &rows(pose), &triangle, &rows(place))
+    };
+    triangles.iter().map(of).collect()
+}
+
+/// Hulls near hills and soups, grounds turned and moved, rotations that are skewed: the interval holds the least distance, the
+/// verdict is right, the triangle that is named has that distance.
+#[test]
+fn intervals_hold_the_least_over_all_triangles() {
+    let mut random = Random::new(0x6e0);
+    let mut seen = [0; 3];
+    for round in 0..60 {
+        let (mut vertices, mut triangles) = hills(&mut random, 4, 0.5);
+        if round % 3 == 0 {
+            vertices = (0..12).map(|_| random.vector() * 2.0).collect();
+            triangles = (0..12).map(|_| std::array::from_fn(|_| random.below(12) as u32)).collect();
+        }
+        let Ok(ground) = Ground::from_triangles(&vertices, &triangles) else { continue };
+        let cloud: Vec<Vector> = (0..6).map(|_| random.vector() * 0.5).collect();
+        let shape = hull(&cloud);
+        let skewed = Matrix::identity() + Matrix::from_diagonal(&(random.vector() * 1e-3));
+        let place = match round % 4 {
+            0 => Pose::IDENTITY,
+            1 => Pose::new(&(random.rotation() * skewed), &random.vector()),
+            _ => Pose::new(&random.rotation(), &(random.vector() * 1e3)),
+        };
+        let near = place.transform(&Vector::new(random.uniform(0.0, 3.0), random.uniform(0.0, 3.0), random.signed()));
+        let pose = Pose::new(&random.rotation(), &near);
+        let has_area = |corners: &[u32; 3]| {
+            let [a, b, c] = corners.map(|v| vertices[v as usize]);
+            (b - a).cross(&(c - a)) != Vector::zeros()
+        };
+        let truths = of_all(&cloud, &pose, &vertices, &triangles, &place);
+        let counted = || truths.iter().zip(&triangles).filter(|(_, corners)| has_area(corners)).map(|(truth, _)| truth);
+        let least = counted().min_by(|a, b| a.squared_distance.cmp(&b.squared_distance)).unwrap();
+
+        let ask =
+            |query, config: &PairConfig| ground_distance(query, shape.at(&pose), ground.at(&place), config).unwrap();
+        let found = ask(Query::Distance, &PairConfig::default());
+        let answer = &found.answer;
+        assert!(least.lies_between(answer.lower, answer.upper), "{round}: {answer:?}");
+        assert_eq!(answer.outcome == Outcome::Intersecting, least.intersecting());
+        let named = &truths[found.triangle as usize];
+        assert!(named.lies_between(answer.lower, answer.upper));
+        let verdict = ask(Query::Intersection, &PairConfig::default()).answer;
+        assert_eq!(verdict.outcome, answer.outcome);
+        assert!(least.lies_between(verdict.lower, verdict.upper) && (verdict.lower > 0.0) != least.intersecting());
+        seen[usize::from(least.intersecting())] += 1;
+        if answer.outcome == Outcome::Separated {
+            assert!(answer.upper - answer.lower <= 1e-12 * (1.0 + near.norm()));
+            let known = |v: u32| triangles[found.triangle as usize].contains(&v);
+            match answer.feature2.kind {
+                FeatureKind::Face => assert_eq!(answer.feature2.ids[0], found.triangle),
+                FeatureKind::Edge => assert!(answer.feature2.ids.into_iter().all(known)),
+                FeatureKind::Vertex => assert!(known(answer.feature2.ids[0])),
+                FeatureKind::None => panic!("{answer:?}"),
+            }
+            for query in [Query::Distance, Query::Intersection] {
+                let below = ask(query, &PairConfig { distance_tolerance: 0.5 * answer.lower, ..PairConfig::default() });
+                assert_eq!(below.answer.outcome, Outcome::Beyond);
+                assert!(
+                    least.lies_between(below.answer.lower, f64::INFINITY) && below.answer.lower >= 0.5 * answer.lower
+                );
+                let above = ask(query, &PairConfig { distance_tolerance: 2.0 * answer.upper, ..PairConfig::default() });
+                assert_eq!(above.answer.outcome, Outcome::Separated);
+                seen[2] += 1;
+            }
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 10), "{seen:?}");
+}
+
+#[test]
+fn what_is_asked_is_checked() {
+    let ground = super::level(2, 2, 1.0);
+    let (cube, here) = (cuboid([1.0; 3]), at(9.0, 9.0, 9.0));
+    let skewed = Pose::new(&Matrix::from_diagonal_element(1.1), &Vector::zeros());
+    let ask = |query, pose, place, config: &PairConfig| ground_distance(query, cube.at(pose), ground.at(place), config);
+    let config = PairConfig::default();
+    assert!(matches!(ask(Query::Contact, &here, &here, &config), Err(Error::Argument(_))));
+    assert!(matches!(ask(Query::Distance, &skewed, &here, &config), Err(Error::Pose(_))));
+    assert!(matches!(ask(Query::Distance, &here, &skewed, &config), Err(Error::Pose(_))));
+    let refused = PairConfig { distance_tolerance: -1.0, ..config };
+    assert!(matches!(ask(Query::Distance, &here, &here, &refused), Err(Error::Argument(_))));
+}
