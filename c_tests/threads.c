@@ -1,8 +1,8 @@
 /*
  * What several threads may do at once by the header's rules: pair queries on shapes that all share, each with a cache of its
  * own; shares taken and given back; const calls on one scene, questions about sets with a scratch of each thread's own among them;
- * scenes of their own over the same shapes; failures, whose messages are each thread's own. Run under helgrind it shows that nothing
- * is shared behind the caller's back.
+ * scenes of their own over the same shapes; failures, whose messages are each thread's own. Run under helgrind it shows that
+ * nothing is shared behind the caller's back.
  *
  *     threads [rounds]
  */

@@ -2770,13 +2770,13 @@ typedef struct swiftprox_ground swiftprox_ground;
 /**
  * Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
  *
- * `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of a
- * triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
- * Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles without
- * area, or smaller than 2^-200, are left out, and keep their numbers.
+ * `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of
+ * a triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
+ * Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles
+ * without area, or smaller than 2^-200, are left out, and keep their numbers.
  *
- * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that is
- * not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
+ * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
+ * is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
  * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
  *
  * Experimental.
@@ -2793,13 +2793,13 @@ swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
  * swiftprox_ground_release. The heights are copied.
  *
  * `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
- * column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into triangles that look up: 2 *
- * c, which has the corner along x, and 2 * c + 1, with c = i * (columns - 1) + j of the cell's least corner. A cell with a hole at a
- * corner is a hole.
+ * column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into two triangles that look
+ * up. With c = i * (columns - 1) + j of the least corner, triangle 2 * c has the corner along x, triangle 2 * c + 1 the other. A
+ * cell with a hole at a corner is a hole.
  *
  * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
- * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT: more
- * than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
+ * more than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
  *
  * Experimental.
  */
@@ -2848,8 +2848,8 @@ swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground
 /** What is said of a body, which is object 1, and a ground. */
 typedef struct swiftprox_ground_distance {
   /**
-   * As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by their
-   * vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+   * As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by
+   * their vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
    */
   struct swiftprox_pair_answer answer;
   /**
@@ -2860,9 +2860,9 @@ typedef struct swiftprox_ground_distance {
 } swiftprox_ground_distance;
 
 /**
- * How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE or
- * SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or swiftprox_pair_intersection, of
- * the ground as a set of points; `config` is as there. There is no cache.
+ * How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE
+ * or SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or
+ * swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
  *
  * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
  * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
@@ -3287,9 +3287,9 @@ typedef struct swiftprox_scene_cast_answer {
 /**
  * Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
  * times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own;
- * pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses is
- * not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be null
- * for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
+ * pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses
+ * is not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be
+ * null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
  *
  * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
  * neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id names no

@@ -70,7 +70,7 @@ static double least_distance(const struct arm_scene *world, const double *angles
     return least.lower;
 }
 
-/* A share of the edge at which the arm is within the margin of something, of STATES that are tried in bisection order; 1 if none. */
+/* A share of the edge at which the arm is within the margin of something, of STATES tried in bisection order; 1 if none. */
 static double first_hit(const struct arm_scene *world, const double *from, const double *to)
 {
     static double poses[12 * MOST_JOINTS * STATES];

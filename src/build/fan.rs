@@ -100,9 +100,9 @@ fn arcs_around_corners(polyhedron: &Polyhedron, corners: &[u32]) -> Result<Optio
     Ok(is_closed.then_some(arcs))
 }
 
-/// Of each corner, a unit vector that all of its faces' normals look along, as closely as it is found: from their sum on towards the
-/// centre of the least ball around them (Bădoiu and Clarkson 2003). The sum alone need not be one: at the base of a pyramid two steep
-/// sides outweigh the base.
+/// Of each corner, a unit vector that all of its faces' normals look along, as closely as it is found: from their sum on towards
+/// the centre of the least ball around them (Bădoiu and Clarkson 2003). The sum alone need not be one: at the base of a pyramid two
+/// steep sides outweigh the base.
 fn axes_of(arcs: &[Arc], count: usize) -> Result<Vec<Vector>> {
     let mut axes = filled(Vector::zeros(), count)?;
     for arc in arcs {

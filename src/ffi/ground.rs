@@ -18,13 +18,13 @@ use crate::shape::Shape;
 
 /// Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
 ///
-/// `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of a
-/// triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
-/// Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles without
-/// area, or smaller than 2^-200, are left out, and keep their numbers.
+/// `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of
+/// a triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
+/// Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles
+/// without area, or smaller than 2^-200, are left out, and keep their numbers.
 ///
-/// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that is
-/// not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
+/// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
+/// is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
 /// SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
@@ -46,13 +46,13 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
 /// swiftprox_ground_release. The heights are copied.
 ///
 /// `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
-/// column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into triangles that look up: 2 *
-/// c, which has the corner along x, and 2 * c + 1, with c = i * (columns - 1) + j of the cell's least corner. A cell with a hole at a
-/// corner is a hole.
+/// column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into two triangles that look
+/// up. With c = i * (columns - 1) + j of the least corner, triangle 2 * c has the corner along x, triangle 2 * c + 1 the other. A
+/// cell with a hole at a corner is a hole.
 ///
 /// On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
-/// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT: more
-/// than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
+/// more than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
     rows: usize,
@@ -119,9 +119,9 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
     })
 }
 
-/// How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE or
-/// SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or swiftprox_pair_intersection, of
-/// the ground as a set of points; `config` is as there. There is no cache.
+/// How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE
+/// or SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or
+/// swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
 ///
 /// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
 /// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,

@@ -163,9 +163,9 @@ pub unsafe extern "C" fn swiftprox_scene_cast_ray(
 
 /// Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
 /// times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own;
-/// pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses is
-/// not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be null
-/// for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
+/// pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses
+/// is not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be
+/// null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
 ///
 /// On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
 /// neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id names no

@@ -12,8 +12,8 @@ use crate::shape::TriangleShape;
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct GroundDistance {
-    /// As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by their
-    /// vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+    /// As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by
+    /// their vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
     pub answer: PairAnswer,
     /// The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
     /// where the answer is about none.

@@ -1,5 +1,5 @@
-//! Grounds: surfaces of triangles, such as soups and grids of heights, for bodies to rest on. A ground is not a body and need not be
-//! convex or closed. Its triangles are compact; a query lays those out that a body may touch, and asks the pair layer of each.
+//! Grounds: surfaces of triangles, such as soups and grids of heights, for bodies to rest on. A ground is not a body and need not
+//! be convex or closed. Its triangles are compact; a query lays those out that a body may touch, and asks the pair layer of each.
 //!
 //! Distance and intersection are those of the surface as a set of points. Contacts are one-sided and free of ghost normals:
 //! `normals.rs` has the rule.

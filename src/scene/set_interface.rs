@@ -113,8 +113,8 @@ impl Scene {
     }
 
     /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain, as
-    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own; pieces
-    /// with poses of their own move with their object.
+    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own;
+    /// pieces with poses of their own move with their object.
     /// Pairs of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test;
     /// both may be fixed. `config.step_budget` is that of each pair.
     ///

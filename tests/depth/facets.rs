@@ -102,8 +102,8 @@ fn depths_of_scaled_and_skewed_solids_hold() {
 }
 
 /// A pyramid, a cone of five sides, a wedge whose side is bent by rounding to single precision: steep faces beside a flat one, or
-/// several that are all but one, outweigh what else is at a corner. Cut-off: the mean of a corner's normals, which all of them had to
-/// look along, and which the base of a pyramid does not. Such bodies had no fan, and each query searched by a polytope.
+/// several that are all but one, outweigh what else is at a corner. Cut-off: the mean of a corner's normals, which all of them had
+/// to look along, and which the base of a pyramid does not. Such bodies had no fan, and each query searched by a polytope.
 #[test]
 fn depths_of_solids_with_steep_corners_are_told_by_all_facets() {
     let mut random = Random::new(73);

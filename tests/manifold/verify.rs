@@ -78,8 +78,8 @@ fn any_shape(random: &mut Random, kind: usize) -> Shape {
     }
 }
 
-/// Manifolds of needles and boxes, hulls, cubes and prisms of few digits, capsules and round tetrahedra, near each other and in each other: all hold,
-/// whatever cache is handed over and however many points there was room for.
+/// Manifolds of needles and boxes, hulls, cubes and prisms of few digits, capsules and round tetrahedra, near each other and in
+/// each other: all hold, whatever cache is handed over and however many points there was room for.
 #[test]
 fn what_queries_say_holds() {
     let mut random = Random::new(0x3e41f);

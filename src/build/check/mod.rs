@@ -51,7 +51,8 @@ pub fn check_mesh_in_steps(
 /// one fan, the surface connected and of genus 0.
 ///
 /// # Errors
-/// The first violation found, naming the face, edge or vertex; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
+/// The first violation found, naming the face, edge or vertex; [`crate::base::error::Error::Cancelled`] when the caller does not
+/// want to go on.
 pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
     check_indices(mesh)?;
     let corners = Corners::new(mesh, &mut progress.part(0.0, 0.3))?;

@@ -64,8 +64,8 @@ impl Thinned<'_> {
 /// Four places, or fewer.
 type Four<'a> = [Option<&'a CommonPoint>; FOUR];
 
-/// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is what is a length next to
-/// the pair.
+/// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is what is a length next
+/// to the pair.
 pub fn four_of<'a>(places: &'a [CommonPoint], kept: &[u32; FOUR], size: f64) -> Four<'a> {
     if places.len() <= FOUR {
         return std::array::from_fn(|i| places.get(i));
