@@ -132,9 +132,9 @@ static const char *constant_of_start(swiftprox_start start)
 static const char *query_name(const struct tune_scene *scene, const struct tune_setting *setting)
 {
     return scene->kind == SWIFTPROX_QUERY_KIND_INTERSECTION ? "intersection"
-           : scene->kind == SWIFTPROX_QUERY_KIND_CONTACT    ? "contacts"
-           : setting->error > 0                             ? "approximate_distance"
-                                                            : "exact_distance";
+           : scene->kind == SWIFTPROX_QUERY_KIND_CONTACT    ? "contact"
+           : setting->error > 0                             ? "approximate"
+                                                            : "distance";
 }
 
 static bool tunes_pairs(const struct tune_setting *setting)
