@@ -9,6 +9,7 @@ mod listener;
 mod motions;
 mod placed;
 mod record;
+mod remembered;
 mod scenes;
 mod sets;
 mod soak;
