@@ -47,10 +47,6 @@ fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<Cast
     let wanted = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
     let mut here = pair.at(config.t_begin)?;
     let mut clearance = f64::INFINITY;
-    if let Some(step) = sweep.by_spheres(&here, config.t_end, &wanted)? {
-        let free = CastAnswer { clearance: clearance_of(&step).max(config.margin), ..CastAnswer::default() };
-        return Ok(said(CastOutcome::Free, &step.ends[1], sweep, free));
-    }
     loop {
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, config.t_end, &wanted)? {

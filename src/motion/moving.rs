@@ -87,23 +87,6 @@ impl<'a> MovingPair<'a> {
         gap - moment.rounding - U * (gap.abs() + moment.rounding)
     }
 
-    /// The bounding spheres at a moment: from the centre of body 2 to that of body 1, and the sum of the radii, rounded up.
-    pub fn spheres(&self, moment: &Moment) -> (Vector, f64) {
-        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
-        let between = moment.poses[0].transform(&body1.centre) - moment.poses[1].transform(&body2.centre);
-        (between, (body1.radius + body2.radius) * STRETCH + self.swept())
-    }
-
-    /// What the bounding spheres say of [`MovingPair::gap`]. Centres and their product with the direction err by less than 32u of
-    /// all lengths together.
-    pub fn gap_of_spheres(&self, moment: &Moment, direction: &Vector) -> f64 {
-        let (between, radii) = self.spheres(moment);
-        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
-        let lengths = moment.poses.iter().map(|pose| pose.translation().norm()).sum::<f64>();
-        let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
-        direction.dot(&between) - radii - moment.rounding - 64.0 * U * size
-    }
-
     /// K along a vector of at most unit length.
     pub fn acceleration(&self, direction: &Vector) -> f64 {
         self.travels.iter().map(|travel| travel.acceleration(direction)).sum::<f64>() * (1.0 + 4.0 * U)

@@ -114,22 +114,6 @@ impl<'a> Sweep<'a> {
         Ok(answer)
     }
 
-    /// On from a moment to `end` in one step, by the bounding spheres alone; only where they are so far apart that no distance on
-    /// the way is more than about twice what is proved.
-    pub fn by_spheres(&self, here: &Moment, end: f64, wanted: &Wanted) -> Result<Option<FreeStep>> {
-        let (between, radii) = self.pair.spheres(here);
-        let apart = between.norm();
-        if !(apart > 2.0 * radii) {
-            return Ok(None);
-        }
-        let direction = between / apart;
-        let gap = self.pair.gap_of_spheres(here, &direction);
-        let trial = Trial::with_gap(self.pair, here, direction, gap, wanted);
-        let there = self.pair.at(end)?;
-        let step = trial.step(&there, direction, self.pair.gap_of_spheres(&there, &direction));
-        Ok((step.least > trial.needed && step.least >= radii).then_some(step))
-    }
-
     /// On from a moment, whose distance is known, to `end` at most.
     pub fn on(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Ahead> {
         if near.outcome == Outcome::Separated && near.lower > wanted.margin {
