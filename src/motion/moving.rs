@@ -1,6 +1,6 @@
 //! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
 
-use super::bound::{STRETCH, Travel, is_exact, rounding_of_place};
+use super::bound::{Travel, is_exact, rounding_of_place};
 use super::carried::Carried;
 use super::enclosed_ball::EnclosedBall;
 use super::gap::Along;
