@@ -31,7 +31,7 @@ use crate::polyhedron::LARGEST;
 pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// What products of numbers in range may lose to underflow, several times over.
-const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
+pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// The spectral norm of a rotation whose RᵀR − I has entries up to 1e-2 is at most √1.03.
 pub(super) const STRETCH: f64 = 1.015;

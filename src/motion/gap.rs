@@ -1,6 +1,7 @@
 //! The gap of two placed bodies along a given direction, rounded down.
 
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
+use super::bound::{STRETCH, UNDERFLOW};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
 use crate::solve::certificate::{interval, of_vertex, reciprocal_length};
@@ -23,7 +24,23 @@ impl Along<'_> {
     /// The lowest of body 1 over the highest of body 2, at most: per unit of the direction's length. −∞ where the magnitudes are
     /// beyond what doubles bound.
     pub fn gap(mut self) -> f64 {
-        simd::dispatch(&mut self)
+        let gap = simd::dispatch(&mut self);
+        if gap > f64::NEG_INFINITY { gap } else { self.gap_of_spheres() }
+    }
+
+    /// The same by bounding spheres, which need no frame: two points, over which balls may be swept, have none.
+    ///
+    /// Each centre in the world errs by 6u of its translation and of twice its local length, their difference by u, its product
+    /// with the direction by 4u, and the direction's length by 4u: together less than 32u of all lengths, and of what underflows.
+    fn gap_of_spheres(&self) -> f64 {
+        let [body1, body2] = self.polyhedra;
+        let between = self.poses[0].transform(&body1.centre) - self.poses[1].transform(&body2.centre);
+        let radii = (body1.radius + body2.radius) * STRETCH;
+        let lengths = self.poses.map(|pose| pose.translation().norm()).iter().sum::<f64>();
+        let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
+        let gap = self.direction.dot(&between) - radii - 64.0 * U * size - UNDERFLOW;
+        // Where lengths overflow nothing is proved.
+        if gap.is_finite() { gap } else { f64::NEG_INFINITY }
     }
 }
 

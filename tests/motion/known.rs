@@ -2,10 +2,11 @@
 
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 
-use swiftprox::math::Pose;
-use swiftprox::motion::{Callback, CastConfig, CastOutcome, Motion};
+use swiftprox::math::{Pose, Vector};
+use swiftprox::motion::{Callback, CastConfig, CastOutcome, Motion, verify_cast};
 use swiftprox::pair::Outcome;
-use testkit::shapes::cuboid;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::shapes::{cuboid, hull};
 
 use crate::{at, moving, run, screw, straight};
 
@@ -78,6 +79,39 @@ fn bodies_that_move_together_raise_no_alarm() {
 }
 
 /// A corner that passes a face at 1e-12, or 1e-12 in it, as it turns by.
+/// Two points at rest, one of whose poses is off orthonormal. Cause: points have no size, so no frame, and no gap could be proved.
+/// Cut-off: bounding spheres, which here are the bodies themselves. Such motions were NEAR, however far apart.
+#[test]
+fn two_points_at_rest_are_as_far_apart_as_is_proved() {
+    let point = hull(&[Vector::zeros()]);
+    let [mut first, mut second] = [at(0.0, 0.0, -32.0), at(-32.0, -32.0, -32.0)];
+    let off = 4.547_473_508_864e-13;
+    (first.rows[0][1], first.rows[1][2], first.rows[2][0]) = (off, off, off);
+    (first.rows[1][0], first.rows[2][1], first.rows[0][2]) = (-off, -off, -off);
+    second.rows[0][0] = 1.003_906_25;
+    let motions = [Motion::Fixed(first), Motion::Fixed(second)];
+    let bodies = moving([&point, &point], [&motions[0], &motions[1]]);
+    let answer = run(bodies, &CastConfig::default());
+    verify_cast(bodies, &CastConfig::default(), &answer).unwrap();
+    let apart = 32.0 * 2.0_f64.sqrt();
+    assert_eq!(answer.outcome, CastOutcome::Free, "{answer:?}");
+    assert!(answer.clearance <= apart && answer.clearance > 0.25 * apart, "{answer:?}");
+}
+
+/// Balls are points with a swept radius.
+#[test]
+fn a_ball_hits_a_ball() {
+    let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: 1.0, ..ShapeOptions::default() };
+    let ball = Shape::from_points(&[Vector::zeros()], &options).unwrap();
+    let (still, flying) = (Motion::Fixed(Pose::IDENTITY), straight(at(-3.0, 0.0, 0.0), [4.0, 0.0, 0.0]));
+    let answer = run(moving([&ball, &ball], [&flying, &still]), &CastConfig::default());
+    assert_eq!(answer.outcome, CastOutcome::Hit, "{answer:?}");
+    assert!(answer.t_lo <= 0.25 && 0.25 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9, "{answer:?}");
+    let past = straight(at(-3.0, 2.5, 0.0), [4.0, 0.0, 0.0]);
+    let answer = run(moving([&ball, &ball], [&past, &still]), &CastConfig::default());
+    assert!(answer.outcome == CastOutcome::Free && answer.clearance <= 0.5, "{answer:?}");
+}
+
 #[test]
 fn grazing_is_told_from_touching() {
     let half = FRAC_1_SQRT_2;
