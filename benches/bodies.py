@@ -35,6 +35,7 @@ WAYS = {
     "parry-hc": Style("parry3d-f64, climbing", charts.RED, marker="s"),
     "coal": Style("coal", charts.INDIGO, marker="D"),
     "mujoco": Style("MuJoCo", charts.PINK, DASHED, "v"),
+    "jolt": Style("Jolt", charts.GREEN, marker="p"),
     "bullet": Style("Bullet, double", charts.ORANGE, DASHED, "^"),
     "libccd-gjk": Style("libccd GJK", charts.GREY, DOTTED, "s"),
     "libccd-epa": Style("libccd EPA", charts.GREY, DOTTED, "X"),
@@ -46,8 +47,9 @@ FRONT = "front"
 FAMILIES = {"paper": "ellipsoids of 1,002 vertices", "real": "real hulls", "cad": "CAD-like bodies", "unlike": "a box beside each"}
 QUERIES = {"distance": "small", "verdict": "small", "depth": "deep"}
 # Of each query the strongest way of each library, which is measured of all bodies.
-STRONGEST = {"distance": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6"), "verdict": (OWN, "parry-hc", "coal-1e-6", "libccd-mpr-1e-4"),
-             "depth": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6")}
+STRONGEST = {"distance": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6"),
+             "verdict": (OWN, "parry-hc", "coal-1e-6", "libccd-mpr-1e-4", "jolt-1e-6"),
+             "depth": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6")}
 STEPS = ("0.1", "1", "10", "random")
 ERRORS = Axis("", 1e-17, 4.0, [(10.0**e, f"1e{e}" if e else "1") for e in range(-16, 1, 4)])
 LEAST_ERROR = 1e-16  # what is less is rounding, and drawn at this place
