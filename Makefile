@@ -12,8 +12,9 @@
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
-# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers: some fifteen
-#                             minutes; benches/results/bodies*.csv, docs/charts/bodies-*.svg. QUICK=--quick: seconds, build/bodies*.csv
+# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers, and their
+#                             instructions where valgrind is: some half an hour; benches/results/bodies*.csv, docs/charts/bodies-*.svg.
+#                             QUICK=--quick: a minute, build/bodies*.csv
 # make depths                 depths beside coal, MuJoCo, Jolt, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md

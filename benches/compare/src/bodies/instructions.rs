@@ -1,5 +1,5 @@
-//! How many instructions queries of the strongest ways take, which no other program on the machine changes: a line for a body, query
-//! and motion, a column for a method.
+//! How many instructions queries of the strongest ways take, which no other program on the machine changes: a line for a body,
+//! query and motion, a column for a method.
 
 use std::collections::BTreeMap;
 use std::fmt::Write;
