@@ -18,7 +18,7 @@
 # make depths                 depths beside coal, MuJoCo, Jolt, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
-# make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, hours of it
+# make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
