@@ -19,7 +19,7 @@
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
-# make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
+# make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -195,9 +195,10 @@ hard-motions:
 engines:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	-@scripts/require.sh /usr/include/bullet=libbullet-dev
+	-@scripts/require.sh /usr/include/dart/collision/bullet=libdart-collision-bullet-dev
 	. scripts/peers.sh
 	$(MAKE) build
-	for engine in mujoco bullet; do if [ -x $(BUILD)/examples/engines/$${engine}_compare ]; then \
+	for engine in mujoco bullet dart; do if [ -x $(BUILD)/examples/engines/$${engine}_compare ]; then \
 	    $(BUILD)/examples/engines/$${engine}_compare $(BUILD) || exit 1; fi; done
 
 steps:

@@ -345,6 +345,190 @@ static void pairs(void)
     swiftprox_shape_release(shape);
 }
 
+/* Shapes with a ball swept over them, and what is no radius and no noise. */
+static void swept_shapes(void)
+{
+    static const double bad[] = {NAN, INFINITY, -1};
+    const swiftprox_shape *const before = (const swiftprox_shape *)(const void *)CORNERS, *shape;
+    swiftprox_shape_options options;
+    size_t i;
+    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        swiftprox_shape_options_init(&options);
+        options.swept_radius = bad[i];
+        shape = before;
+        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius",
+                    swiftprox_shape_create_from_points(CORNERS, 4, &options, &shape));
+        CHECK(shape == NULL);
+        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    }
+    swiftprox_shape_options_init(&options);
+    options.swept_radius = 1e300;
+    options.scale = 1e10;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius times scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    swiftprox_shape_options_init(&options);
+    options.face_noise = INFINITY;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "face_noise", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+}
+
+/* A point below the ground, with a ball swept over it: however often it is refused, it is answered in the end. */
+static void half_spaces(void)
+{
+    static const double bad[] = {NAN, INFINITY, -INFINITY};
+    const swiftprox_half_space ground = {{0, 0, 2}, 8};
+    const double origin[3] = {0, 0, 0};
+    swiftprox_shape_options options;
+    const swiftprox_shape *shape = NULL;
+    swiftprox_half_space other;
+    swiftprox_signed_distance answer;
+    swiftprox_manifold_config config;
+    swiftprox_manifold manifold;
+    swiftprox_manifold_point point, untouched;
+    size_t i;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_HULL;
+    options.swept_radius = 0.5;
+    CHECK_OK(swiftprox_shape_create_from_points(origin, 1, &options, &shape));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_pair_half_space_distance(NULL, HERE, &ground, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose", swiftprox_pair_half_space_distance(shape, NULL, &ground, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "half_space", swiftprox_pair_half_space_distance(shape, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_half_space_distance(shape, HERE, &ground, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 5", swiftprox_pair_half_space_distance(shape, with(5, NAN), &ground, &answer));
+    CHECK(answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.lower) && isnan(answer.world1[0]));
+    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
+        other = ground;
+        other.normal[i] = bad[i];
+        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "normal of the half-space",
+                    swiftprox_pair_half_space_distance(shape, HERE, &other, &answer));
+        other = ground;
+        other.offset = bad[i];
+        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "offset of the half-space",
+                    swiftprox_pair_half_space_manifold(shape, HERE, &other, NULL, &point, 1, &manifold));
+        CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && manifold.point_count == 0);
+    }
+    swiftprox_manifold_config_init(&config);
+    config.margin = NAN;
+    memset(&point, 0x5a, sizeof point);
+    memset(&untouched, 0x5a, sizeof untouched);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+                swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
+    memset(&config, 0, sizeof config);
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init",
+                swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
+                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, NULL, 1, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points",
+                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, SIZE_MAX, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "manifold",
+                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, 1, NULL));
+    CHECK(memcmp(&point, &untouched, sizeof point) == 0);
+    CHECK_OK(swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, 1, &manifold));
+    CHECK(manifold.point_count == 1 && point.gap_lower <= -4.5 && -4.5 <= point.gap_upper);
+    swiftprox_shape_release(shape);
+}
+
+/* A ground of one triangle, and all that may be wrong about it, about a shape on it and about the room for answers. */
+static void grounds(void)
+{
+    static const uint32_t one[3] = {0, 1, 2}, absent[3] = {0, 1, 4}, thin[3] = {0, 1, 1};
+    const double heights[4] = {0, 1, 2, 3}, holes[4] = {NAN, 1, 2, 3}, vast[4] = {0, 1, INFINITY, 3};
+    double vertices[12];
+    const swiftprox_shape *shape = NULL;
+    const swiftprox_ground *ground = NULL, *none = (const swiftprox_ground *)(const void *)vertices;
+    swiftprox_ground_info info;
+    swiftprox_ground_distance answer;
+    swiftprox_ground_contact contact;
+    swiftprox_ground_count count;
+    swiftprox_manifold_point point;
+    swiftprox_manifold_config config;
+    swiftprox_pair_config distance;
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_ground_create_from_triangles(CORNERS, 4, one, 1, &ground));
+
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground", swiftprox_ground_create_from_triangles(CORNERS, 4, one, 1, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices", swiftprox_ground_create_from_triangles(NULL, 4, one, 1, &none));
+    CHECK(none == NULL);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "corners", swiftprox_ground_create_from_triangles(CORNERS, 4, NULL, 1, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", swiftprox_ground_create_from_triangles(CORNERS, SIZE_MAX, one, 1, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "triangle_count",
+                swiftprox_ground_create_from_triangles(CORNERS, 4, one, (size_t)-1, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "triangle 0", swiftprox_ground_create_from_triangles(CORNERS, 4, absent, 1, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "area", swiftprox_ground_create_from_triangles(CORNERS, 4, thin, 1, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "area", swiftprox_ground_create_from_triangles(CORNERS, 4, one, 0, &none));
+    memcpy(vertices, CORNERS, sizeof vertices);
+    vertices[10] = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 3", swiftprox_ground_create_from_triangles(vertices, 4, one, 1, &none));
+
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "1 columns", swiftprox_ground_create_from_heights(4, 1, 1, 1, heights, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "spacing", swiftprox_ground_create_from_heights(2, 2, 0, 1, heights, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "spacing", swiftprox_ground_create_from_heights(2, 2, 1, NAN, heights, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "rows * columns",
+                swiftprox_ground_create_from_heights(SIZE_MAX, SIZE_MAX, 1, 1, heights, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "heights", swiftprox_ground_create_from_heights(2, 2, 1, 1, NULL, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "area", swiftprox_ground_create_from_heights(2, 2, 1, 1, holes, &none));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "vertex 2", swiftprox_ground_create_from_heights(2, 2, 1, 1, vast, &none));
+
+    memset(&info, 0x7f, sizeof info);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground", swiftprox_ground_get_info(NULL, &info));
+    CHECK(info.triangle_count == 0 && info.bytes == 0);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "info", swiftprox_ground_get_info(ground, NULL));
+    CHECK(swiftprox_ground_retain(NULL) == NULL);
+    swiftprox_ground_release(NULL);
+
+#define DISTANCE(kind, shape, pose, ground, place, config, answer) \
+    swiftprox_pair_ground_distance((swiftprox_query_kind)(kind), shape, pose, ground, place, config, answer)
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "kind is 77", DISTANCE(77, shape, HERE, ground, HERE, NULL, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.answer.distance));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance or intersection",
+                DISTANCE(SWIFTPROX_QUERY_KIND_APPROXIMATE, shape, HERE, ground, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, NULL, HERE, ground, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, NULL, ground, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, NULL, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground_pose",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, with(5, 0), ground, HERE, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
+                DISTANCE(SWIFTPROX_QUERY_KIND_INTERSECTION, shape, HERE, ground, with(0, -1), NULL, &answer));
+    swiftprox_pair_config_init(&distance);
+    distance.distance_tolerance = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
+    memset(&distance, 0, sizeof distance);
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
+                DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
+#undef DISTANCE
+
+#define CONTACTS(config, contacts, contact_room, points, point_room) \
+    swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, config, contacts, contact_room, points, point_room, &count)
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", CONTACTS(NULL, NULL, 1, &point, 1));
+    CHECK(count.contact_count == 0 && count.point_count == 0);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points", CONTACTS(NULL, &contact, 1, NULL, 1));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "contacts", CONTACTS(NULL, &contact, SIZE_MAX, &point, 1));
+    CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", CONTACTS(NULL, &contact, 1, &point, SIZE_MAX));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "count",
+                swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, NULL, NULL, 0, NULL, 0, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 3",
+                swiftprox_pair_ground_contacts(shape, with(3, NAN), ground, HERE, NULL, NULL, 0, NULL, 0, &count));
+    swiftprox_manifold_config_init(&config);
+    config.margin = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", CONTACTS(&config, &contact, 1, &point, 1));
+    memset(&config, 0, sizeof config);
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init", CONTACTS(&config, &contact, 1, &point, 1));
+
+    /* After all that the tetrahedron stands on the triangle, with more points than there is room for. */
+    CHECK_OK(CONTACTS(NULL, &contact, 1, &point, 1));
+    CHECK(count.contact_count == 1 && count.point_count == 3 && contact.manifold.point_count == 3);
+    CHECK(point.gap_lower <= 0 && 0 <= point.gap_upper);
+#undef CONTACTS
+    swiftprox_ground_release(ground);
+    swiftprox_shape_release(shape);
+}
+
 /* The scene still holds two tetrahedra at distance 2. */
 static void still_usable(swiftprox_scene *scene, int line)
 {
@@ -521,6 +705,9 @@ int main(int argc, char **argv)
     shape_options();
     files(argc > 1 ? argv[1] : ".");
     pairs();
+    swept_shapes();
+    half_spaces();
+    grounds();
     scenes();
     return check_report("bad_input");
 }

@@ -196,10 +196,10 @@ static void deallocate(void *user, void *memory, size_t size, size_t alignment)
 
 /* ---- bodies and poses, made before any environment is set ---- */
 
-enum { POINTS = 300, POSES = 24, CORNERS = 8 };
+enum { POINTS = 300, POSES = 24, CORNERS = 8, SIDE = 5 };
 
 static double sphere[3 * POINTS], cube[3 * CORNERS], low_cube[3 * CORNERS], huge_cube[3 * CORNERS], tiny_cube[3 * CORNERS];
-static double poses[POSES][12];
+static double poses[POSES][12], heights[SIDE * SIDE];
 static char mesh_path[1024], reader_path[1024], shape_path[1024];
 
 static void write_file(const char *path, const char *mode, int vertices)
@@ -236,6 +236,8 @@ static void prepare(const char *folder)
         const double pose[12] = {c, -s, 0, x, s, c, 0, 0.1 * x, 0, 0, 1, 0.3};
         memcpy(poses[i], pose, sizeof pose);
     }
+    for (int i = 0; i < SIDE * SIDE; ++i)
+        heights[i] = i == 7 ? NAN : 0.1 * (i * 5 % 7);
     snprintf(mesh_path, sizeof mesh_path, "%s/environment.off", folder);
     snprintf(reader_path, sizeof reader_path, "%s/environment.txt", folder);
     snprintf(shape_path, sizeof shape_path, "%s/environment.shape", folder);
@@ -486,6 +488,81 @@ static void ask_a_scene(void)
     swiftprox_shape_release(shapes[1]);
 }
 
+static void tell_signed_distance(const swiftprox_signed_distance *answer)
+{
+    tell(&answer->outcome, sizeof answer->outcome);
+    tell(&answer->distance, sizeof *answer - offsetof(swiftprox_signed_distance, distance));
+}
+
+/* Where a body meets a ground, and how far it is from it. */
+static void ask_ground(const swiftprox_shape *shape, const double *pose, const swiftprox_ground *ground, double margin)
+{
+    enum { MOST_CONTACTS = 16 };
+    static const swiftprox_query_kind kinds[] = {SWIFTPROX_QUERY_KIND_DISTANCE, SWIFTPROX_QUERY_KIND_INTERSECTION};
+    swiftprox_ground_distance answer;
+    swiftprox_ground_contact contacts[MOST_CONTACTS];
+    swiftprox_ground_count count;
+    swiftprox_manifold_point points[MOST_POINTS];
+    swiftprox_manifold_config config;
+    for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
+        CALL_OK(swiftprox_pair_ground_distance(kinds[i], shape, pose, ground, poses[0], NULL, &answer));
+        tell_answer(&answer.answer);
+        tell(&answer.triangle, sizeof answer.triangle);
+    }
+    swiftprox_manifold_config_init(&config);
+    config.margin = margin;
+    config.reduces = 1;
+    CALL_OK(swiftprox_pair_ground_contacts(shape, pose, ground, poses[0], &config, contacts, MOST_CONTACTS, points, MOST_POINTS,
+                                           &count));
+    tell(&count, sizeof count);
+    for (size_t i = 0; i < count.contact_count && i < MOST_CONTACTS; ++i) {
+        tell(&contacts[i].manifold, sizeof contacts[i].manifold);
+        tell(&contacts[i].triangle, sizeof contacts[i].triangle);
+        tell(&contacts[i].first_point, sizeof contacts[i].first_point);
+    }
+    tell(points, (count.point_count < MOST_POINTS ? count.point_count : MOST_POINTS) * sizeof points[0]);
+}
+
+/* A cube with round edges: beside another one, on a slanted plane, on a soup of two triangles and on heights. */
+static void ask_round_bodies(void)
+{
+    static const uint32_t corners[6] = {0, 1, 2, 2, 1, 3};
+    const double soup[12] = {-9, -9, 0.1, 9, -9, -0.2, -9, 9, 0.3, 9, 9, 0.7};
+    const swiftprox_half_space half_space = {{0.3, -0.1, 0.9}, 0.2};
+    const swiftprox_ground *grounds[2];
+    const swiftprox_shape *round;
+    swiftprox_shape_options options;
+    contact_caches contact = {{{0}}, {{0}}};
+    swiftprox_shape_options_init(&options);
+    options.swept_radius = 0.1;
+    options.face_noise = 1e-6;
+    round = shape_of(cube, CORNERS, &options);
+    CALL_OK(swiftprox_ground_create_from_triangles(soup, 4, corners, 2, &grounds[0]));
+    CALL_OK(swiftprox_ground_create_from_heights(SIDE, SIDE, 0.7, 1.1, heights, &grounds[1]));
+    for (int i = 0; i < POSES; ++i) {
+        swiftprox_pair_cache caches[QUERY_COUNT];
+        swiftprox_signed_distance distance;
+        swiftprox_manifold manifold;
+        swiftprox_manifold_point points[MOST_POINTS];
+        memset(caches, 0, sizeof caches);
+        ask(round, poses[0], round, poses[i], caches, NULL);
+        ask_contact(round, poses[0], round, poses[i], &contact);
+        CALL_OK(swiftprox_pair_half_space_distance(round, poses[i], &half_space, &distance));
+        tell_signed_distance(&distance);
+        CALL_OK(swiftprox_pair_half_space_manifold(round, poses[i], &half_space, NULL, points, MOST_POINTS, &manifold));
+        tell(&manifold, sizeof manifold);
+        tell(points, manifold.point_count * sizeof points[0]);
+        for (size_t k = 0; k < 2; ++k)
+            ask_ground(round, poses[i], grounds[k], i % 2 ? 0.25 : 0);
+    }
+    for (size_t k = 0; k < 2; ++k) {
+        CHECK(swiftprox_ground_retain(grounds[k]) == grounds[k]);
+        swiftprox_ground_release(grounds[k]);
+        swiftprox_ground_release(grounds[k]);
+    }
+    swiftprox_shape_release(round);
+}
+
 static void raise_underflow(void)
 {
     static volatile double small = 1e-300, product;
@@ -502,6 +579,7 @@ static void run(const environment *environment)
     build_and_ask();
     read_files();
     ask_a_scene();
+    ask_round_bodies();
     /* A call's flag is not taken back. */
     CHECK(fetestexcept(FE_UNDERFLOW) != 0);
 #ifdef __x86_64__

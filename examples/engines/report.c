@@ -18,7 +18,12 @@ bool report_scene(const struct scene *scene, const struct run *theirs, const str
     printf("| %s | %.2g | %.2g | %.1e | %.1e | %d | %d | %.0f | %.0f |\n", scene->name, theirs->motion, ours->motion, theirs->energy,
            ours->energy, theirs->contacts, ours->contacts, theirs->microseconds, ours->microseconds);
     fflush(stdout);
-    return !scene->stands || !(theirs->motion < FALLEN) || ours->motion < FALLEN;
+    return !scene->stands || !report_stands(theirs) || report_stands(ours);
+}
+
+bool report_stands(const struct run *run)
+{
+    return run->motion < FALLEN;
 }
 
 double report_now(void)

@@ -21,6 +21,9 @@ void report_head(const char *engine);
 /* Prints a row; false if a scene that stands with the engine's collider does not with swiftprox. */
 bool report_scene(const struct scene *scene, const struct run *theirs, const struct run *ours);
 
+/* Whether all bodies have stayed about where they began. */
+bool report_stands(const struct run *run);
+
 /* Microseconds since some moment. */
 double report_now(void);
 

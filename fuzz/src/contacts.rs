@@ -8,7 +8,7 @@ use swiftprox::pair::{
     DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
     Placed, depth, manifold,
 };
-use swiftprox::verify::verify_depth;
+use swiftprox::verify::{verify_depth, verify_manifold};
 use testkit::random::Random;
 
 use crate::geometry::inside;
@@ -109,6 +109,11 @@ fn check_manifold(
     for point in &points {
         assert!(point.gap_lower <= point.gap_upper && point.gap_lower <= config.margin, "{point:?} {found:?}");
     }
+    match verify_manifold(bodies, &after, config, &found, &points) {
+        // What is too large or too far apart.
+        Ok(()) | Err(Error::Argument(_)) => {}
+        Err(error) => panic!("{error}: {found:?} {points:?} {}", description(bodies)),
+    }
     // Asked again and again, with what is remembered since: where nothing else is said, the points keep their ids. The first time
     // damage may have chosen between faces that are as parallel.
     let (second, points2, after) = ask(after);
@@ -141,7 +146,7 @@ fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
 fn measure(bodies: [Placed; 2], found: &Manifold, points: &[ManifoldPoint]) {
     let normal = Vector::from(found.normal);
     assert!((normal.norm() - 1.0).abs() < 1e-14, "{found:?}");
-    let size: f64 = bodies.iter().map(|body| body.shape.polyhedron().radius).sum();
+    let size: f64 = bodies.iter().map(|body| body.shape.polyhedron().radius + body.shape.swept_radius()).sum();
     let world = bodies.iter().map(|body| {
         let polyhedron = body.shape.polyhedron();
         polyhedron.centre.norm() + body.pose.translation().norm()

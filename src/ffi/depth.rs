@@ -383,7 +383,7 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
                 exclusive(distance, "distance")?,
             )
         };
-        room_for_points(points, capacity)?;
+        check_room(points, "points", capacity)?;
         let mut write = |place: usize, fill: Fill| {
             // SAFETY: not null, place < capacity, and it is written before it is a reference.
             fill(unsafe {
@@ -441,7 +441,7 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
         let (shape1, pose1, shape2, pose2, cache, config, points, manifold) = unsafe {
             let manifold = read_manifold(manifold)?;
-            room_for_points(points, count)?;
+            check_room(points, "points", count)?;
             (
                 input(shape1, "shape1")?,
                 input(pose1.cast::<Pose>(), "pose1")?,
@@ -518,14 +518,14 @@ pub(super) unsafe fn read_manifold_config(config: *const CManifoldConfig) -> Che
     Ok(ManifoldConfig { rotation_limit: config.rotation_limit, margin: config.margin, reduces: config.reduces != 0 })
 }
 
-/// Refuses an array of points that cannot be one.
-pub(super) fn room_for_points(points: *const ManifoldPoint, capacity: usize) -> Checked<()> {
-    if points.is_null() && capacity > 0 {
-        return Err(Failure::null("points"));
+/// Refuses an array to be filled in that cannot be one.
+pub(super) fn check_room<T>(array: *const T, name: &str, capacity: usize) -> Checked<()> {
+    if array.is_null() && capacity > 0 {
+        return Err(Failure::null(name));
     }
     // No array in memory is longer: a negative count that became a size_t, most likely.
-    if capacity > isize::MAX as usize / size_of::<ManifoldPoint>() {
-        return Err(Failure::new(StatusCode::ErrorLimit, format!("`points` cannot have {capacity} entries")));
+    if capacity > isize::MAX as usize / size_of::<T>() {
+        return Err(Failure::new(StatusCode::ErrorLimit, format!("`{name}` cannot have {capacity} entries")));
     }
     Ok(())
 }

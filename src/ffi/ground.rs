@@ -3,9 +3,9 @@
 use std::sync::Arc;
 
 use super::arrays::{check_count, read_vectors};
-use super::depth::{CManifoldConfig, read_manifold_config, room_for_points};
+use super::depth::{CManifoldConfig, check_room, read_manifold_config};
 use super::enumerators::{QueryNumber, read_enumerator};
-use super::failure::{Checked, Failure, StatusCode};
+use super::failure::{Checked, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::pair::{CPairConfig, read_config};
 use super::pointers::{array, input, output};
@@ -192,10 +192,8 @@ pub unsafe extern "C" fn swiftprox_pair_ground_contacts(
                 read_manifold_config(config)?,
             )
         };
-        if contacts.is_null() && contact_capacity > 0 {
-            return Err(Failure::null("contacts"));
-        }
-        room_for_points(points, point_capacity)?;
+        check_room(contacts, "contacts", contact_capacity)?;
+        check_room(points, "points", point_capacity)?;
         let mut found = GroundContacts::default();
         ground_contacts(shape.at(pose), ground.at(place), &config, &mut found)?;
         for (place, contact) in found.contacts.iter().take(contact_capacity).enumerate() {

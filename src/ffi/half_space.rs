@@ -1,6 +1,6 @@
 //! Bodies and half-spaces.
 
-use super::depth::{CManifoldConfig, read_manifold_config, room_for_points};
+use super::depth::{CManifoldConfig, check_room, read_manifold_config};
 use super::failure::StatusCode;
 use super::guard::guard;
 use super::pointers::{input, output};
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
                 read_manifold_config(config)?,
             )
         };
-        room_for_points(points, capacity)?;
+        check_room(points, "points", capacity)?;
         let mut write = |place: usize, fill: Fill| {
             // SAFETY: not null, place < capacity, and it is written before it is a reference.
             fill(unsafe {

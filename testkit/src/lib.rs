@@ -24,6 +24,7 @@ pub mod casts;
 pub mod properties;
 pub mod rays;
 pub mod retold;
+pub mod swept;
 
 /// The poses of a pair: the row-major 3x4 `[R|T]` of object 1 and then of object 2.
 pub type PosePair = [f64; 24];

@@ -2,7 +2,7 @@
 
 use super::{ALL, FOUR, query, stacked};
 use swiftprox::error::Error;
-use swiftprox::math::{Pose, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::verify::verify_manifold;
 use swiftprox::pair::{FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, Placed};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -209,4 +209,27 @@ fn forgeries_are_refused() {
             }
         }));
     }
+}
+
+/// A place on the far face of a plate in the place of the one below it, over a corner of a box: on the surface, in line with its
+/// partner, with the gap of the two and their id. Only that the face looks up gives it away.
+#[test]
+fn a_point_on_the_far_side_is_refused() {
+    let of = |turn: Vector| {
+        let shapes = [cuboid([2.0, 2.0, 0.25]), cuboid([1.0, 1.0, 0.5])];
+        let above = Pose::new(&Matrix::from_diagonal(&turn), &Vector::new(0.0, 0.0, 0.75));
+        Case::new(shapes, [above, Pose::IDENTITY], ManifoldConfig { margin: 1.0, ..ALL })
+    };
+    // Turned over, the plate lies on its far face, and says its name.
+    let (case, turned_over) = (of(Vector::repeat(1.0)), of(Vector::new(1.0, -1.0, -1.0)));
+    assert!(case.verify().is_ok() && case.points.len() == 4);
+    let (manifold, mut points) = (case.manifold, case.points.clone());
+    let point = &mut points[1];
+    let far = turned_over.points.iter().find(|far| far.feature2 == point.feature2).expect("the same corner");
+    assert!(far.feature1.kind == FeatureKind::Face && far.feature1 != point.feature1);
+    (point.feature1, point.id) = (far.feature1, far.id);
+    (point.local1[2], point.world1[2]) = (point.local1[2] + 0.5, point.world1[2] + 0.5);
+    (point.gap_lower, point.gap_upper) = (point.gap_lower + 0.5, point.gap_upper + 0.5);
+    let refused = verify_manifold(case.bodies(), &case.cache, &case.config, &manifold, &points).unwrap_err();
+    assert!(refused.message().contains("on no face that looks towards the other"), "{refused}");
 }

@@ -1,18 +1,15 @@
 //! Bodies and half-spaces: heights of vertices in rational numbers.
 
-use std::cmp::Ordering;
-
 use crate::{capsule, sphere, swept};
-use dashu_ratio::RBig;
 use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{
     HalfSpace, Manifold, ManifoldConfig, ManifoldPoint, Outcome, half_space_distance, half_space_manifold,
 };
 use swiftprox::shape::Shape;
-use testkit::oracle::{rational, transform};
 use testkit::random::Random;
 use testkit::shapes::at;
+use testkit::swept::Length;
 
 const GROUND: HalfSpace = HalfSpace { normal: [0.0, 0.0, 1.0], offset: 0.0 };
 
@@ -43,31 +40,14 @@ fn intervals_hold_the_lowest_vertex() {
         let pose = Pose::new(&random.rotation(), &(random.vector() * 2.0));
         let normal = random.vector() * random.power(-8, 8);
         let half_space = HalfSpace { normal: normal.into(), offset: random.signed() * normal.norm() };
-        let rows = std::array::from_fn(|k| pose.rows[k / 4][k % 4]);
-        let product = |point: &Vector| {
-            let world = transform(&rows, &<[f64; 3]>::from(*point).map(rational));
-            (0..3).map(|k| rational(normal[k]) * &world[k]).fold(rational(-half_space.offset), |sum, part| sum + part)
-        };
-        let square =
-            (0..3).map(|k| rational(normal[k]) * rational(normal[k])).fold(rational(0.0), |sum, part| sum + part);
-        // A bound against (product)/|n| − r: (bound + r)·|n| against the product.
-        let compare = |bound: f64, product: &RBig| {
-            let bound = rational(bound) + rational(radius);
-            let zero = rational(0.0);
-            match (bound >= zero, *product >= zero) {
-                (true, true) => (&bound * &bound * &square).cmp(&(product * product)),
-                (false, false) => (product * product).cmp(&(&bound * &bound * &square)),
-                (true, false) => Ordering::Greater,
-                (false, true) => Ordering::Less,
-            }
-        };
-        let least = cloud.iter().map(product).min().unwrap();
+        let heights: Vec<Length> = cloud.iter().map(|v| Length::above(&half_space, &pose, v, radius)).collect();
         let answer = half_space_distance(body.at(&pose), &half_space).unwrap();
-        assert!(compare(answer.lower, &least).is_le() && compare(answer.upper, &least).is_ge(), "{answer:?}");
+        assert!(heights.iter().all(|height| height.compared_with(answer.lower).is_ge()), "{answer:?}");
+        assert!(heights.iter().any(|height| height.compared_with(answer.upper).is_le()), "{answer:?}");
         assert!(
             answer.upper - answer.lower < 1e-14 && answer.lower <= answer.distance && answer.distance <= answer.upper
         );
-        let is_apart = compare(0.0, &least).is_lt();
+        let is_apart = heights.iter().all(|height| height.compared_with(0.0).is_gt());
         assert_eq!(answer.outcome, if is_apart { Outcome::Separated } else { Outcome::Intersecting });
         seen[usize::from(is_apart)] += 1;
         let [world1, world2, up] = [answer.world1, answer.world2, answer.normal].map(Vector::from);
@@ -78,9 +58,8 @@ fn intervals_hold_the_lowest_vertex() {
         assert!(points.is_empty() == (found.outcome == Outcome::Beyond));
         let mut deepest = f64::INFINITY;
         for point in &points {
-            let vertex = &cloud[point.feature1.ids[0] as usize];
-            let exact = product(vertex);
-            assert!(compare(point.gap_lower, &exact).is_le() && compare(point.gap_upper, &exact).is_ge(), "{point:?}");
+            let height = &heights[point.feature1.ids[0] as usize];
+            assert!(height.lies_between(point.gap_lower, point.gap_upper), "{point:?}");
             assert!(point.gap_upper - point.gap_lower < 1e-13);
             deepest = deepest.min(point.gap_lower);
         }

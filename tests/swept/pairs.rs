@@ -12,9 +12,10 @@ use swiftprox::pair::{
 use swiftprox::ray::{Ray, cast_ray};
 use swiftprox::shape::{InputPolicy, LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use swiftprox::verify::{verify, verify_depth};
-use testkit::oracle::{Polytope, rational, truth};
+use testkit::oracle::{Polytope, truth};
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid};
+use testkit::swept::Length;
 
 type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<(), Error>;
 
@@ -61,24 +62,18 @@ fn intervals_hold_the_distance_less_the_radii() {
         let [first, second] =
             points.map(|points| Polytope::new(&points.iter().map(|p| (*p).into()).collect::<Vec<[f64; 3]>>()));
         let rows = poses.map(|pose| std::array::from_fn(|k| pose.rows[k / 4][k % 4]));
-        let square = truth(&first, &rows[0], &second, &rows[1]).squared_distance;
-        let apart = square.to_f64().value().sqrt();
+        let of_polytopes = truth(&first, &rows[0], &second, &rows[1]);
+        let apart = of_polytopes.squared_distance.to_f64().value().sqrt();
         for share in [0.3, 0.999_999, 1.0, 1.000_001, 1.7] {
             let part = random.uniform(0.0, 1.0);
             let radii = [part * share * apart, (1.0 - part) * share * apart];
             let bodies = [swept(points[0], radii[0]), swept(points[1], radii[1])];
             let bodies = [&bodies[0], &bodies[1]];
-            let sum = || rational(radii[0]) + rational(radii[1]);
-            let is_apart = square > sum() * sum();
+            let length = Length::between(&of_polytopes, radii);
+            let at_least = |bound: f64| length.compared_with(bound).is_ge();
+            let at_most = |bound: f64| length.compared_with(bound).is_le();
+            let is_apart = length.compared_with(0.0).is_gt();
             seen[usize::from(is_apart)] += 1;
-            let at_least = |length: f64| {
-                let whole = rational(length) + sum();
-                whole <= rational(0.0) || &whole * &whole <= square
-            };
-            let at_most = |length: f64| {
-                let whole = rational(length) + sum();
-                whole >= rational(0.0) && &whole * &whole >= square
-            };
             let outcome = if is_apart { Outcome::Separated } else { Outcome::Intersecting };
             let exact = PairConfig::default();
             for query in [distance as Query, contact, approximate, intersection] {

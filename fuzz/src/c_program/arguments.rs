@@ -191,6 +191,8 @@ pub fn shape_options(u: &mut Unstructured) -> Result<Option<Block>> {
         (std::mem::offset_of!(CShapeOptions, scale), &scale[..]),
         (std::mem::offset_of!(CShapeOptions, translation), &translation[..]),
         (std::mem::offset_of!(CShapeOptions, convexity_tolerance), &tolerance[..]),
+        (std::mem::offset_of!(CShapeOptions, face_noise), &scale[..]),
+        (std::mem::offset_of!(CShapeOptions, swept_radius), &translation[..]),
     ];
     Ok(options(u, &value, &changes)?.map(|options| options.with(tuning)))
 }

@@ -2,6 +2,7 @@
 
 mod approximate;
 mod arguments;
+mod grounds;
 mod model;
 mod readers;
 mod recordings;
@@ -89,6 +90,7 @@ impl Program {
                 0 => self.statistics(u),
                 1 | 2 => self.change_one(u),
                 3 | 4 => self.choose_pairs(u),
+                5 => self.ground_or_half_space(u),
                 _ => self.near_query(u),
             },
             // At the end, so that the bytes of the corpus go on to mean the same calls.
