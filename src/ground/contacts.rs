@@ -138,20 +138,22 @@ impl Meeting<'_> {
         if margin.is_beyond(lowest.lower) {
             return Ok(None);
         }
-        let bodies = [self.body, self.shape.of(own).at(self.ground.pose)];
-        if let Some(contact) = lowest.contact(self.body, own, &self.reach, margin) {
-            return Ok(Some(contact));
+        let mut contact = lowest.contact(self.body, own, &self.reach, margin);
+        if contact.is_none() {
+            contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
+                Behind::Beyond => return Ok(None),
+                Behind::Nearest(contact) => Some(contact),
+                Behind::Open => None,
+            };
         }
-        match behind_face(self.body, self.ground, own, &lowest, margin) {
-            Behind::Beyond => return Ok(None),
-            Behind::Nearest(contact) => return Ok(Some(contact)),
-            Behind::Open => {}
+        // Laying it out takes longer than all that.
+        let bodies = [self.body, self.shape.of(own).at(self.ground.pose)];
+        if contact.is_some() {
+            return Ok(contact);
         }
         if lowest.is_through(own, &self.reach) {
-            let (config, mut deep) = (
-                DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() },
-                DepthAnswer::default(),
-            );
+            let config = DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() };
+            let mut deep = DepthAnswer::default();
             pair::depth(bodies, &mut DepthCache::default(), &config, &mut deep)?;
             if deep.outcome == Outcome::Intersecting {
                 return Ok(Some((&deep).into()));

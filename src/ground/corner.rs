@@ -1,8 +1,9 @@
-//! The corner of a triangle that reaches farthest behind a face of the body. The face tells triangles that are out of reach; where
-//! all other faces are farther from the corner, it is the nearest point, or the deepest.
+//! The corner of a triangle that reaches farthest behind a face of the body. The face, and the box in the body's frame, tell
+//! triangles that are out of reach; where all other faces are farther from the corner, it is the nearest point, or the deepest.
 
 use super::PlacedGround;
 use super::lowest::{Lowest, Margin, local_point};
+use super::tree::Bounds;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::pair::{Feature, FeatureKind, Placed, SignedDistance, label};
 use crate::polyhedron::{NONE, Polyhedron};
@@ -20,7 +21,8 @@ pub(super) enum Behind {
     Open,
 }
 
-/// Looks at the face most parallel to a triangle of those at the lowest vertex, for poses that are accepted.
+/// Looks at the body's own box, and at the face most parallel to a triangle of those at the lowest vertex, for poses that are
+/// accepted.
 ///
 /// Of a face with the plane n·x = o and the slack σ, all of the body has n·x ≤ o + σ, and all of the face |n·x − o| ≤ σ. So the
 /// signed distance is at least that of the triangle from the plane, less σ. A point with n·x < o − σ for all faces is not on the
@@ -34,17 +36,21 @@ pub(super) fn behind_face(
     margin: Margin,
 ) -> Behind {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
-    let is_solid = polyhedron.dimension == 3 && body.shape.extent().inner_radius > 0.0;
-    if !(is_solid && pose.rotation_defect() <= RIGID) {
+    if pose.rotation_defect() > RIGID {
         return Behind::Open;
     }
-    let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)) else {
-        return Behind::Open;
-    };
     // The bound of `Lowest` holds twice over for points in the body's frame: the transpose is off by three times the defect.
     let error = 2.0 * lowest.error;
     let world = triangle.corners.map(|corner| ground.pose.transform(&corner));
     let corners = world.map(|corner| pose.rotate_back(&(corner - pose.translation())) - polyhedron.centre);
+    if margin.is_beyond(gap_of_own_box(body, &Bounds::of(&corners)) - error) {
+        return Behind::Beyond;
+    }
+    let is_solid = polyhedron.dimension == 3 && body.shape.extent().inner_radius > 0.0;
+    let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)).filter(|_| is_solid)
+    else {
+        return Behind::Open;
+    };
     let plane = &polyhedron.faces[face as usize];
     let heights = corners.map(|corner| plane.planes.value(0, &corner));
     let least = (1..3).fold(0, |least, k| if heights[k] < heights[least] { k } else { least });
@@ -77,6 +83,13 @@ pub(super) fn behind_face(
         feature2: Feature { kind: FeatureKind::Vertex, ids: [triangle.labels[least], 0] },
         ..distance
     })
+}
+
+/// How far a box in the centred frame of a body is from the body's own box along one of its axes, or less than 0.
+fn gap_of_own_box(body: Placed, bounds: &Bounds) -> f64 {
+    let (middle, half) = body.shape.extent().box_about_centre();
+    let aside = (bounds.lower - middle).sup(&(middle - bounds.upper)) - half;
+    aside.max()
 }
 
 /// Of the faces at a vertex the one most parallel to a direction. `None` of a vertex without edges.
