@@ -16,8 +16,8 @@ pub struct GroundContact {
     pub first_point: usize,
 }
 
-/// The contacts of a body with a ground, and their points. It keeps the room that they were found in, some 10 kB: once that is large
-/// enough, queries that write over it ask for no memory.
+/// The contacts of a body with a ground, and their points. It keeps the room that they were found in, some 10 kB: once that is
+/// large enough, queries that write over it ask for no memory.
 #[derive(Debug, Default)]
 pub struct GroundContacts {
     /// By their triangles.

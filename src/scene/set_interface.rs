@@ -166,9 +166,9 @@ impl Scene {
         Ok(())
     }
 
-    /// Where objects, all or those of a set, meet a ground that is in no scene, or are up to `config.margin` apart from it: piece by
-    /// piece what [`ground_contacts`](crate::ground::ground_contacts) says, with the default rotation limit for objects; that of
-    /// `config` is for the ground.
+    /// Where objects, all or those of a set, meet a ground that is in no scene, or are up to `config.margin` apart from it: piece
+    /// by piece what [`ground_contacts`](crate::ground::ground_contacts) says, with the default rotation limit for objects; that
+    /// of `config` is for the ground.
     ///
     /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do not
     /// count. Fixed objects are left out, unless the set says where they are. The set's `among` is not looked at.
