@@ -12,13 +12,14 @@
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts
-# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers: some fifteen
-#                             minutes; benches/results/bodies.csv, docs/charts/bodies-*.svg. QUICK=--quick: seconds, build/bodies.csv
-# make depths                 depths beside coal, MuJoCo, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
+# make bodies                 every method on ellipsoids, real hulls and CAD-like bodies, answers held against integers, and their
+#                             instructions where valgrind is: some half an hour; benches/results/bodies*.csv, docs/charts/bodies-*.svg.
+#                             QUICK=--quick: a minute, build/bodies*.csv
+# make depths                 depths beside coal, MuJoCo, Jolt, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
-# make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, hours of it
+# make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes of meshes in MuJoCo and Bullet, with their colliders and with swiftprox: tables as in docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
@@ -43,6 +44,7 @@ TARGET =
 # gcc alone comes without the headers and start-up files of the C library, which it merely recommends.
 CC_PACKAGES = cc=gcc /usr/include/stdio.h=libc6-dev
 PEERS = /usr/include/ccd/ccd.h=libccd-dev /usr/include/fcl/fcl.h=libfcl-dev
+DEPTH_PEERS = $(PEERS) pkg-config=pkg-config /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev cmake=cmake curl=curl
 # What draws charts: Debian's own Python has Debian's matplotlib, even where another one comes first in PATH.
 # DRAW=python3 takes that.
 DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
@@ -169,14 +171,14 @@ crowds:
 
 bodies:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
-	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
+	-@scripts/require.sh $(DEPTH_PEERS) valgrind=valgrind
 	mkdir -p $(BUILD)
-	TIMED='$(TIMED)' scripts/bodies.sh $(if $(QUICK),$(BUILD)/bodies.csv --quick,$(BODIES).csv)
+	TIMED='$(TIMED)' scripts/bodies.sh $(if $(QUICK),$(BUILD)/bodies --quick,$(BODIES))
 	$(if $(QUICK),,$(DRAW) benches/bodies.py --again)
 
 depths:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
-	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
+	-@scripts/require.sh $(DEPTH_PEERS)
 	TIMED='$(TIMED)' scripts/depths.sh $(DEPTHS).csv $(DEPTHS)-resting.csv $(DEPTHS)-failures.csv
 	$(DRAW) benches/plot.py $(DEPTHS).csv
 	$(DRAW) benches/plot.py $(DEPTHS)-failures.csv

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the charts of bodies.csv, which compare --bodies writes, and checks what pages say of it.
+"""Draws the charts of bodies.csv, which compare --bodies writes, and checks what pages say of it and of bodies-instructions.csv.
 
 usage: bodies.py RESULTS.csv [OUTPUT_DIRECTORY]
        bodies.py --again
@@ -12,8 +12,9 @@ Writes into the directory (docs/charts)
   bodies-motion.svg      time a query over motion, a row a query, a panel a family
   bodies-vertices.svg    time a query over the vertices of a round ellipsoid, a row a query, a panel a motion
   bodies-sides.svg       the same over the sides of a cylinder
-With --again they are drawn anew from benches/results/bodies.csv, with the tables of the pages. With --check nothing is drawn, and the
-program fails where a chart or a page does not say what that file says.
+With --again they are drawn anew from benches/results/bodies.csv, with the tables of the pages, of which one is of
+benches/results/bodies-instructions.csv. With --check nothing is drawn, and the program fails where a chart or a page does not say
+what these files say.
 """
 import math
 import os
@@ -25,8 +26,10 @@ from charts import DASHED, DOTTED, Axis, Cell, Cells, Curve, Kind, Line, Panel, 
 from rows import geometric_mean, in_order, machine, read
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-RESULTS = os.path.join(HERE, "results", "bodies.csv")
-NUMBERS = ("best_ns", "worst_error", "widest", "n1", "n2", "judged", "wrong", "missed")
+RESULTS, INSTRUCTIONS = (os.path.join(HERE, "results", name) for name in ("bodies.csv", "bodies-instructions.csv"))
+NUMBERS = ("best_ns", "worst_error", "widest", "n1", "judged", "wrong", "missed")
+SCENE = ("query", "family", "body", "form", "step")  # all other columns of bodies-instructions.csv are methods
+COUNT = "instructions"
 OWN, LEVELS = "swiftprox", "swiftprox-levels"
 # Of each way of a library its mark; tolerances, behind the last dash, share it.
 WAYS = {
@@ -35,6 +38,7 @@ WAYS = {
     "parry-hc": Style("parry3d-f64, climbing", charts.RED, marker="s"),
     "coal": Style("coal", charts.INDIGO, marker="D"),
     "mujoco": Style("MuJoCo", charts.PINK, DASHED, "v"),
+    "jolt": Style("Jolt", charts.GREEN, marker="p"),
     "bullet": Style("Bullet, double", charts.ORANGE, DASHED, "^"),
     "libccd-gjk": Style("libccd GJK", charts.GREY, DOTTED, "s"),
     "libccd-epa": Style("libccd EPA", charts.GREY, DOTTED, "X"),
@@ -46,8 +50,9 @@ FRONT = "front"
 FAMILIES = {"paper": "ellipsoids of 1,002 vertices", "real": "real hulls", "cad": "CAD-like bodies", "unlike": "a box beside each"}
 QUERIES = {"distance": "small", "verdict": "small", "depth": "deep"}
 # Of each query the strongest way of each library, which is measured of all bodies.
-STRONGEST = {"distance": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6"), "verdict": (OWN, "parry-hc", "coal-1e-6", "libccd-mpr-1e-4"),
-             "depth": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6")}
+STRONGEST = {"distance": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6"),
+             "verdict": (OWN, "parry-hc", "coal-1e-6", "libccd-mpr-1e-4", "jolt-1e-6"),
+             "depth": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6")}
 STEPS = ("0.1", "1", "10", "random")
 ERRORS = Axis("", 1e-17, 4.0, [(10.0**e, f"1e{e}" if e else "1") for e in range(-16, 1, 4)])
 LEAST_ERROR = 1e-16  # what is less is rounding, and drawn at this place
@@ -64,6 +69,16 @@ def motion(step):
 
 def of(rows, **wanted):
     return [row for row in rows if all(row[name] == value for name, value in wanted.items())]
+
+
+def legend_of(rows):
+    present = {way(row["method"]) for row in rows}
+    return {name: style for name, style in WAYS.items() if name in present}
+
+
+def others_of(rows):
+    """The other libraries, as in a sentence."""
+    return ", ".join(style.label.replace(",", "") for name, style in legend_of(rows).items() if name not in (OWN, LEVELS))
 
 
 def strongest(rows):
@@ -125,7 +140,8 @@ def accuracy(where, rows, query, title, axis):
     x = Axis(axis, ERRORS.low, ERRORS.high, ERRORS.ticks)
     return Panels(title, where, x, legend, made,
                   f"One mark a method and tolerance; geometric means over {said}. Others: the worst error observed, truth in integers.\n"
-                  f"swiftprox: the widest interval that it guarantees. Left and down is better. Wrong verdicts of swiftprox: {wrong}.")
+                  f"swiftprox: the widest interval that it guarantees. Left and down is better. Wrong verdicts of swiftprox: {wrong}.\n"
+                  "A library that refuses bodies, Jolt those of more than 256 vertices, has its mean over the others.")
 
 
 # ---- the grid ----
@@ -137,11 +153,11 @@ def band(ratio):
     return next(colour for least, colour in BANDS if ratio >= least)
 
 
-def ratios(rows, step):
-    """Of each body how many times as long the quickest other library takes."""
+def ratios(rows, step, cost="best_ns"):
+    """Of each body how many times as long, or as many instructions, the other library that needs least takes."""
     found = {}
     for row in of(rows, step=step):
-        found.setdefault((row["body"], row["form"]), {})[row["method"]] = row["best_ns"]
+        found.setdefault((row["body"], row["form"]), {})[row["method"]] = row[cost]
     return [min(time for method, time in times.items() if method != OWN) / times[OWN]
             for times in found.values() if OWN in times and len(times) > 1]
 
@@ -183,16 +199,11 @@ def grid(where, rows):
     columns = [(query, motion(step).replace(" a query", "").replace(" poses", "")) for query in QUERIES for step in STEPS]
     legend = [(colour, f"{least} and more" if least else "less") for least, colour in BANDS]
     return Cells("How many times as long the quickest other library takes", where,
-                 "of parry3d-f64 climbing, coal, MuJoCo, of verdicts libccd's MPR: geometric mean, small the least, where a line is several bodies",
+                 f"of {others_of(rows)}: geometric mean, small the least, where a line is several bodies",
                  columns, lines, legend, 138)
 
 
 # ---- time over motion, vertices and sides ----
-
-def legend_of(rows):
-    present = {way(row["method"]) for row in rows}
-    return {name: style for name, style in WAYS.items() if name in present}
-
 
 def over_motion(where, rows):
     rows = [row for row in strongest(rows) if row["form"] in ("1002", "hull", "turned")]
@@ -210,7 +221,8 @@ def over_motion(where, rows):
             panels.append(Panel(f"{query}, {FAMILIES[family].replace(' of 1,002 vertices', '')}", curves))
         made.append(Row(panels, charts.value_axis("time a query", times, charts.duration), 140))
     return Panels("Time a query over motion", where, x, legend_of(rows), made,
-                  "Geometric means over the bodies of a family: ellipsoids of 1,002 vertices, real hulls, CAD-like bodies, and a box beside each of those.")
+                  "Geometric means over the bodies of a family: ellipsoids of 1,002 vertices, real hulls, CAD-like bodies, and a box beside each of those.\n"
+                  "A library that refuses bodies, Jolt those of more than 256 vertices, has its mean over the others.")
 
 
 def over_size(where, rows, size, title, axis):
@@ -245,10 +257,10 @@ NAMED = 5  # bodies of a query whose ratios are the least
 
 
 def judgement(rows):
-    """How many answers were held against integers, and how they stood."""
+    """Beside whom, how many answers were held against integers, and how they stood."""
     own = [row for row in rows if row["method"].startswith(OWN)]
     judged, wrong, missed = (sum(int(row[name]) for row in own) for name in ("judged", "wrong", "missed"))
-    return f"The run held {judged:,} of its answers against integers: {wrong} were wrong, and {missed} intervals missed the truth."
+    return f"The others: {others_of(strongest(rows))}. The run held {judged:,} of its answers against integers: {wrong} were wrong, and {missed} intervals missed the truth."
 
 
 def family_table(rows):
@@ -279,13 +291,28 @@ def weak_table(rows):
     return "\n".join(lines)
 
 
-TABLES = {"README.md": {"bodies": family_table, "weak": weak_table}}
+def instruction_table(counts):
+    """Geometric means of a family: our instructions a query, and behind them how many times as many the other library takes that
+    takes the fewest."""
+    lines = ["| query | bodies | " + " | ".join(MOTIONS.values()) + " |", "|---|---|" + "--:|" * len(STEPS)]
+    for query in QUERIES:
+        for family, name in FAMILIES.items():
+            here = of(counts, query=query, family=family)
+            cells = [f"{geometric_mean([row[COUNT] for row in of(here, method=OWN, step=step)]):,.0f}"
+                     f" ({geometric_mean(ratios(here, step, COUNT)):.1f})" for step in STEPS]
+            lines.append(f"| {query} | {name.replace('of 1,002 vertices', 'of 10 to 1,002 vertices')} | " + " | ".join(cells) + " |")
+    return "\n".join(lines + ["", f"The others: {others_of(counts)}."])
 
 
-def with_tables(text, tables, rows):
+def tables_of(rows, counts):
+    """Of each page the tables by name."""
+    return {"README.md": {"bodies": family_table(rows), "weak": weak_table(rows), "instructions": instruction_table(counts)}}
+
+
+def with_tables(text, tables):
     """The page with each table between its two comments made anew."""
-    for name, make in tables.items():
-        text, count = re.subn(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda found: found[1] + make(rows) + "\n" + found[2], text,
+    for name, table in tables.items():
+        text, count = re.subn(rf"(<!-- table: {name} -->\n).*?(<!-- end -->)", lambda found: found[1] + table + "\n" + found[2], text,
                               flags=re.DOTALL)
         if count != 1:
             sys.exit(f"there are {count} tables called {name}")
@@ -298,8 +325,15 @@ def numbers_of(path):
     """Where was measured, and the rows."""
     head, rows = read(path)
     for row in rows:
-        row.update((name, float(row[name])) for name in NUMBERS)
+        row.update((name, float(row[name] or math.nan)) for name in NUMBERS)
     return machine(head[0]), rows
+
+
+def counts_of(path):
+    """A row for each method of a scene, which stand beside each other in the file."""
+    _, scenes = read(path)
+    return [{**{name: scene[name] for name in SCENE}, "method": method, COUNT: float(count)}
+            for scene in scenes for method, count in scene.items() if method not in SCENE and count]
 
 
 def made_of(where, rows):
@@ -318,11 +352,13 @@ def chart_path(name, folder=charts.FOLDER):
     return os.path.join(folder, name + ".svg")
 
 
-def pages():
-    for page, tables in TABLES.items():
+def pages(rows):
+    """Of each page its file, what it says, and what it should say."""
+    for page, tables in tables_of(rows, counts_of(INSTRUCTIONS)).items():
         path = os.path.join(HERE, "..", page)
         with open(path, encoding="utf-8") as file:
-            yield path, file.read(), tables
+            text = file.read()
+        yield path, text, with_tables(text, tables)
 
 
 def main():
@@ -331,17 +367,16 @@ def main():
         where, rows = numbers_of(RESULTS)
         for name, chart in made_of(where, rows).items():
             charts.check(chart_path(name), chart)
-        for path, text, tables in pages():
-            if text != with_tables(text, tables, rows):
-                sys.exit(f"{os.path.basename(path)} does not say what bodies.csv says: run make charts")
+        for path, text, wanted in pages(rows):
+            if text != wanted:
+                sys.exit(f"{os.path.basename(path)} does not say what bodies.csv and bodies-instructions.csv say: run make charts")
     elif arguments == ["--again"]:
         where, rows = numbers_of(RESULTS)
         for name, chart in made_of(where, rows).items():
             charts.draw(chart_path(name), chart, [RESULTS])
-        for path, text, tables in pages():
-            filled = with_tables(text, tables, rows)
+        for path, _, wanted in pages(rows):
             with open(path, "w", encoding="utf-8") as file:
-                file.write(filled)
+                file.write(wanted)
     elif len(arguments) in (1, 2) and not arguments[0].startswith("--"):
         for name, chart in made_of(*numbers_of(arguments[0])).items():
             charts.draw(chart_path(name, *arguments[1:]), chart, arguments[:1])

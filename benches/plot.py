@@ -51,6 +51,7 @@ DEPTHS = {  # of each library the way that the chart of speeds shows
     "swiftprox": ("swiftprox", Style("swiftprox, tight interval", charts.BLUE)),
     "coal": ("coal-1e-10", Style("coal, 1e-10", charts.INDIGO, marker="D")),
     "mujoco": ("mujoco-1e-6", Style("MuJoCo, 1e-6", charts.PINK, DASHED, "v")),
+    "jolt": ("jolt-1e-6", Style("Jolt, 1e-6", charts.GREEN, marker="p")),
     "parry": ("parry-hc", Style("parry3d-f64, hill climbing", charts.RED, marker="s")),
     "bullet": ("bullet-1e-4", Style("Bullet, 1e-4", charts.ORANGE, DASHED, "^")),
     "libccd-epa": ("libccd-epa-1e-4", Style("libccd EPA, 1e-4", charts.GREY, DOTTED, "X")),

@@ -3,6 +3,7 @@
 import math
 import os
 import sys
+import tempfile
 import unittest
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -11,7 +12,7 @@ import bodies  # noqa: E402
 
 def row(method, time, body="box", step="1", query="distance", family="cad", error=1e-9, widest=math.nan, form="turned"):
     return {"query": query, "family": family, "body": body, "form": form, "orbit": bodies.QUERIES[query], "step": step,
-            "method": method, "best_ns": float(time), "worst_error": error, "widest": widest, "n1": 8.0, "n2": 8.0,
+            "method": method, "best_ns": float(time), "worst_error": error, "widest": widest, "n1": 8.0,
             "judged": 12.0, "wrong": 0.0, "missed": 0.0}
 
 
@@ -63,13 +64,33 @@ class Ratios(unittest.TestCase):
         self.assertIn("| depth | box turned, 10°: 0.80 |", bodies.weak_table(rows))
 
 
+class Instructions(unittest.TestCase):
+    HEAD = "# any, commit abc, 2026-01-01, how\nquery,family,body,form,step,swiftprox,parry-hc,coal-1e-10\n"
+
+    def counts(self, lines):
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "counts.csv")
+            with open(path, "w") as file:
+                file.write(self.HEAD + lines)
+            return bodies.counts_of(path)
+
+    def test_what_was_not_asked_is_no_row(self):
+        found = self.counts("distance,cad,box,turned,1,100,700,\n")
+        self.assertEqual([(row["method"], row["instructions"]) for row in found], [("swiftprox", 100.0), ("parry-hc", 700.0)])
+
+    def test_a_family_has_its_means_and_the_library_that_takes_the_fewest(self):
+        lines = "".join(f"{query},{family},{body},turned,{step},{own},{parry},{coal}\n" for query in bodies.QUERIES for family in bodies.FAMILIES
+                        for step in bodies.STEPS for body, own, parry, coal in (("box", 100, 200, 300), ("disc", 400, 9000, 3200)))
+        self.assertIn("| depth | CAD-like bodies | 200 (4.0) | 200 (4.0) | 200 (4.0) | 200 (4.0) |", bodies.instruction_table(self.counts(lines)))
+
+
 class Pages(unittest.TestCase):
     def test_a_table_is_made_anew_and_one_that_is_missing_is_refused(self):
         page = "before\n<!-- table: a -->\nold\n<!-- end -->\n<!-- table: b -->\nkept\n<!-- end -->\n"
-        made = bodies.with_tables(page, {"a": lambda rows: rows}, "new")
+        made = bodies.with_tables(page, {"a": "new"})
         self.assertEqual(made, page.replace("old", "new"))
         with self.assertRaises(SystemExit):
-            bodies.with_tables(page, {"c": lambda rows: rows}, "new")
+            bodies.with_tables(page, {"c": "new"})
 
     def test_every_chart_is_made_of_the_committed_rows(self):
         if not os.path.exists(bodies.RESULTS):

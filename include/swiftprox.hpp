@@ -24,6 +24,7 @@
 #include "swiftprox/pair.hpp"
 #include "swiftprox/point.hpp"
 #include "swiftprox/pose.hpp"
+#include "swiftprox/replay.hpp"
 #include "swiftprox/scene.hpp"
 #include "swiftprox/sets.hpp"
 #include "swiftprox/shape.hpp"

@@ -8,7 +8,8 @@
 set -e
 cd "${0%/*}/.."
 . scripts/peers.sh
-if [ -n "$PEERS_PYTHON" ]; then export PEERS_PYTHON; else unset PEERS_PYTHON; fi
+. scripts/jolt.sh
+export PEERS_PYTHON PEERS_JOLT
 cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 compare="${CARGO_TARGET_DIR:-benches/compare/target}/release/compare"
 $TIMED "$compare" --query depth --n 102,1002,10002 --models fat,plate --orbits deep --steps 0.1,1,10,random \

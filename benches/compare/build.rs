@@ -1,6 +1,6 @@
-//! Notes the compiler, and compiles the shims of those peers in C and C++ that are there: what pkg-config finds (Debian:
-//! libfcl-dev, libccd-dev, libbullet-dev), and of the environment of Python that `PEERS_PYTHON` names, coal and mujoco. The
-//! comparison leaves out what is not there.
+//! Notes the compiler, and compiles the shims of valgrind and of those peers in C and C++ that are there: what pkg-config finds (Debian:
+//! libfcl-dev, libccd-dev, libbullet-dev), of the environment of Python that `PEERS_PYTHON` names coal and mujoco, and the Jolt
+//! that is built in the folder `PEERS_JOLT`. The comparison leaves out what is not there.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -21,11 +21,16 @@ fn main() {
     let bullet64 = pkg_config("bullet-float64", "libbullet-dev");
     Shim { peer: "bullet64", sources: &["src/cast/bullet.cpp"], flags: bullet64 }
         .link(cc::Build::new().cpp(true).std("c++14"));
+    // Of the header alone; what valgrind's libraries are for is another thing.
+    let valgrind = pkg_config("valgrind", "valgrind").map(|flags| Flags { link: Vec::new(), ..flags });
+    Shim { peer: "callgrind", sources: &["src/callgrind.c"], flags: valgrind }.link(cc::Build::new().std("gnu99"));
     let packages = python_packages();
     let coal = packages.as_deref().and_then(coal);
     Shim { peer: "coal", sources: &["src/peers/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
     let mujoco = packages.as_deref().and_then(mujoco);
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
+    Shim { peer: "jolt", sources: &["src/peers/jolt.cpp"], flags: jolt() }
+        .link(cc::Build::new().cpp(true).std("c++17"));
     for header in ["src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
         println!("cargo:rerun-if-changed={header}");
     }
@@ -93,6 +98,13 @@ fn mujoco(packages: &Path) -> Option<Flags> {
         compile: vec![format!("-I{folder}/include")],
         link: vec![format!("{folder}/{library}"), format!("-Wl,-rpath,{folder}")],
     })
+}
+
+/// What scripts/jolt.sh has built: its jolt.pc has the definitions and instruction sets that the shim must share.
+fn jolt() -> Option<Flags> {
+    println!("cargo:rerun-if-env-changed=PEERS_JOLT");
+    let folder = std::env::var("PEERS_JOLT").ok().filter(|folder| !folder.is_empty())?;
+    pkg_config(&format!("{folder}/jolt.pc"), "none; see scripts/jolt.sh")
 }
 
 /// The version of parry that Cargo.toml pins.

@@ -34,8 +34,8 @@ sys.path.insert(0, HERE)
 import stability  # noqa: E402
 from stability import Judge, Method, cases  # noqa: E402
 
-METHODS = ("swiftprox", "coal-1e-10", "mujoco-1e-10", "parry-hc", "bullet-1e-4", "libccd-epa-1e-10", "libccd-mpr-1e-10",
-           "fcl-1e-10")
+METHODS = ("swiftprox", "coal-1e-10", "mujoco-1e-10", "jolt-1e-6", "parry-hc", "bullet-1e-4", "libccd-epa-1e-10",
+           "libccd-mpr-1e-10", "fcl-1e-10")
 COUNTS = ("depth", "normal", "separated", "nan", "threw", "aborted", "timed_out", "refused")
 
 

@@ -20,7 +20,7 @@ impl Ground {
         if (normal - own).norm() <= TILT {
             return true;
         }
-        // A NaN is none either.
+        // NaN fails the comparison, too.
         if !(normal.dot(&own) >= -TILT) {
             return false;
         }

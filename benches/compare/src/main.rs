@@ -4,6 +4,7 @@ mod accuracy;
 mod answers;
 mod bodies;
 mod build_time;
+mod callgrind;
 mod cast;
 mod crowd;
 mod depth;

@@ -19,8 +19,8 @@ usage: compare [options]
   --beside-box      body 2 is a cube of the same bounding radius, not another such body; distance only, without FCL
   --methods LIST    of swiftprox, parry-hc, parry-hc-matrix, parry-hc-steepest, fcl-1e-6, fcl-1e-10 (all);
                     of intersection, of swiftprox, libccd-mpr-1e-4; answers are compared with those of the first of them;
-                    of depth, of swiftprox, which may be asked for an error (swiftprox-1e-3), coal, mujoco, parry-hc, libccd-epa,
-                    libccd-mpr, bullet, fcl, most of them with a tolerance (coal-1e-10)
+                    of depth, of swiftprox, which may be asked for an error (swiftprox-1e-3), coal, mujoco, jolt, parry-hc,
+                    libccd-epa, libccd-mpr, bullet, fcl, most of them with a tolerance (coal-1e-10)
   --count N         poses a scene (3600)
   --passes N        timed passes over each scene (9)
   --workload DIR    MODEL.off and ORBIT_STEP.poses from DIR instead of the built-in generator
@@ -30,11 +30,15 @@ usage: compare [options]
   --bodies LIST     time distances, verdicts, depths and manifolds of bodies whose names begin so, or all, instead: ellipsoids,
                     boxes, prisms, bodies of revolution, and a box beside each of those; at the steps of that option;
                     --meshes DIR adds the hulls of the OFF files in DIR. Some of the answers are held against the truth in integers
+  --instructions OUT
+                    with --bodies and --csv, under valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=OUT: count the
+                    instructions of queries instead of timing them
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
-                    swiftprox-manifold, coal-1e-10, mujoco-1e-6, bullet-1e-4, libccd-mpr-1e-4, parry-hc
+                    swiftprox-manifold, coal-1e-10, mujoco-1e-6, jolt-1e-6, bullet-1e-4, libccd-mpr-1e-4,
+                    parry-hc
   --grounds         time contacts of 1,000 bodies at rest and sliding on a ground of 20,000 triangles instead; --count is rounded up to
                     thousands, --methods of swiftprox, parry, parry-fixed
   --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
@@ -76,6 +80,8 @@ pub struct Options {
     pub figures: Option<Vec<String>>,
     /// Beginnings of names; empty: all.
     pub bodies: Option<Vec<String>>,
+    /// Where callgrind writes: instructions are counted, not times.
+    pub instructions: Option<PathBuf>,
     pub meshes: Option<PathBuf>,
     pub csv: Option<PathBuf>,
     pub help: bool,
@@ -106,6 +112,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         depths: None,
         figures: None,
         bodies: None,
+        instructions: None,
         meshes: None,
         csv: None,
         help: false,
@@ -149,6 +156,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--bodies" => {
                 options.bodies = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
+            "--instructions" => options.instructions = Some(value()?.into()),
             "--meshes" => options.meshes = Some(value()?.into()),
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,

@@ -111,7 +111,12 @@ pub fn build_csv(rows: &[BuildRow]) -> String {
 
 /// Writes a CSV, its folder too, under a line that says on what it was measured.
 pub fn write(path: &Path, passes: usize, csv: &str) -> Result<(), String> {
-    let head = format!("# {}, {passes} passes, {}\n", provenance(), env!("COMPILER"));
+    write_as(path, &format!("{passes} passes"), csv)
+}
+
+/// The same of what was not measured in passes.
+pub fn write_as(path: &Path, how: &str, csv: &str) -> Result<(), String> {
+    let head = format!("# {}, {how}, {}\n", provenance(), env!("COMPILER"));
     let folder = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(folder)
         .and_then(|()| fs::write(path, head + csv))

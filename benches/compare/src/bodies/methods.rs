@@ -41,7 +41,7 @@ const ERRORS_BY_LEVELS: [f64; 3] = [1e-1, 1e-2, 0.0];
 /// What is left of the triangles from one level to the next.
 const DECIMATION: f64 = 0.25;
 
-const STRONGEST_DISTANCES: [&str; 2] = ["coal-1e-10", "mujoco-1e-6"];
+const STRONGEST_DISTANCES: [&str; 3] = ["coal-1e-10", "mujoco-1e-6", "jolt-1e-6"];
 const FURTHER_DISTANCES: [&str; 11] = [
     "coal-1e-1",
     "coal-1e-2",
@@ -55,7 +55,7 @@ const FURTHER_DISTANCES: [&str; 11] = [
     "fcl-indep-1e-6",
     "fcl-indep-1e-10",
 ];
-const STRONGEST_VERDICTS: [&str; 2] = ["libccd-mpr-1e-4", "coal-1e-6"];
+const STRONGEST_VERDICTS: [&str; 3] = ["libccd-mpr-1e-4", "coal-1e-6", "jolt-1e-6"];
 const FURTHER_VERDICTS: [&str; 4] = ["libccd-gjk-1e-4", "mujoco-1e-6", "fcl-1e-6", "fcl-indep-1e-6"];
 
 /// What methods are made of.

@@ -1,6 +1,7 @@
 //! One run over families of bodies, motions, queries and methods: how long each method takes, and how far its answers are from the
 //! truth in integers.
 
+mod instructions;
 mod list;
 pub mod manifold;
 mod methods;
@@ -36,6 +37,9 @@ const ASKED: [(Question, &str); 5] = [
 /// # Errors
 /// A message about what cannot be read, made or written.
 pub fn run(options: &Options, wanted: &[String]) -> Result<(), String> {
+    if let Some(out) = &options.instructions {
+        return instructions::run(out, options, wanted);
+    }
     let bodies = list::bodies(options, wanted)?;
     let mut rows = Vec::new();
     for (number, body) in bodies.iter().enumerate() {
@@ -72,10 +76,7 @@ fn measure(
     (question, orbit, step): (Question, &str, Step),
     options: &Options,
 ) -> Result<Vec<Row>, String> {
-    let mut poses = motion(options, orbit, step)?;
-    if matches!(question, Question::Depth | Question::Manifold) {
-        poses = intersecting(methods.shapes(), &poses)?;
-    }
+    let poses = poses_asked(methods, (question, orbit, step), options)?;
     if poses.is_empty() {
         return Ok(Vec::new());
     }
@@ -90,6 +91,19 @@ fn measure(
     Ok(found
         .map(|((method, time), replies)| Row::new(body, (question, orbit, step), method.name(), time, replies, &truths))
         .collect())
+}
+
+/// The poses at which is asked.
+fn poses_asked(
+    methods: &Methods,
+    (question, orbit, step): (Question, &str, Step),
+    options: &Options,
+) -> Result<Vec<PosePair>, String> {
+    let poses = motion(options, orbit, step)?;
+    match question {
+        Question::Distance | Question::Verdict => Ok(poses),
+        Question::Depth | Question::Manifold => intersecting(methods.shapes(), &poses),
+    }
 }
 
 /// The poses whose bodies intersect, as this library says; whether they do is judged with the answers.

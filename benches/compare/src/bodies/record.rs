@@ -8,7 +8,7 @@ use super::methods::Question;
 use super::truth::Truth;
 use crate::method::Reply;
 use crate::report::{geometric_mean, in_order};
-use crate::timing::{Time, median};
+use crate::timing::Time;
 use testkit::orbits::Step;
 
 /// A method on a scene.
@@ -17,17 +17,16 @@ pub struct Row {
     family: &'static str,
     body: String,
     form: String,
-    vertices: [usize; 2],
+    /// Of the first body.
+    vertices: usize,
     orbit: String,
     step: Step,
     method: String,
-    count: usize,
     time: Time,
     /// Poses whose answers were held against the truth.
     judged: usize,
     /// Of those, another verdict or no answer.
     wrong: usize,
-    median_error: f64,
     worst_error: f64,
     /// The widest guaranteed interval of all poses; NaN where nothing is guaranteed.
     widest: f64,
@@ -56,22 +55,19 @@ impl Row {
             }
         }
         let widths = replies.iter().map(Reply::width).filter(|width| !width.is_nan());
-        let median_error = median(&mut errors);
         Row {
             question,
             family: body.family,
             body: body.name.clone(),
             form: body.form.clone(),
-            vertices: [0, 1].map(|k| body.meshes[k].vertices.len()),
+            vertices: body.meshes[0].vertices.len(),
             orbit: orbit.into(),
             step,
             method: method.into(),
-            count: replies.len(),
             time,
             judged: truths.len(),
             wrong,
-            median_error,
-            worst_error: errors.last().copied().unwrap_or(f64::NAN),
+            worst_error: errors.into_iter().fold(f64::NAN, f64::max),
             widest: if question == Question::Verdict { f64::NAN } else { widths.fold(f64::NAN, f64::max) },
             missed,
         }
@@ -80,17 +76,18 @@ impl Row {
 
 pub fn csv(rows: &[Row]) -> String {
     let mut text =
-        "query,family,body,form,n1,n2,orbit,step,method,count,best_ns,median_ns,judged,wrong,median_error,worst_error,\
-                    widest,missed\n"
+        "query,family,body,form,n1,orbit,step,method,best_ns,median_ns,judged,wrong,worst_error,widest,missed\n"
             .to_string();
+    // Empty where there is none.
+    let error = |error: f64| if error.is_nan() { String::new() } else { format!("{error:.1e}") };
     for row in rows {
-        let Row { family, body, form, vertices: [n1, n2], orbit, step, method, count, time, judged, .. } = row;
-        let Row { question, wrong, median_error, worst_error, widest, missed, .. } = row;
+        let Row { question, family, body, form, vertices, orbit, step, method, time, judged, wrong, missed, .. } = row;
         let (query, Time { best, median }) = (question.name(), time);
+        let [worst_error, widest] = [error(row.worst_error), error(row.widest)];
         let _ = writeln!(
             text,
-            "{query},{family},{body},{form},{n1},{n2},{orbit},{step},{method},{count},{best:.0},{median:.0},{judged},{wrong},\
-             {median_error:.1e},{worst_error:.1e},{widest:.1e},{missed}"
+            "{query},{family},{body},{form},{vertices},{orbit},{step},{method},{best:.0},{median:.0},{judged},{wrong},\
+             {worst_error},{widest},{missed}"
         );
     }
     text

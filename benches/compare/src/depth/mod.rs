@@ -32,15 +32,17 @@ use testkit::random::rotation;
 pub const ERRORS: [f64; 5] = [1e-8, 1e-6, 1e-4, 1e-3, 1e-2];
 
 /// Those that this library is to be held against.
-pub const STRONGEST: [&str; 2] = ["coal-1e-10", "mujoco-1e-6"];
+pub const STRONGEST: [&str; 3] = ["coal-1e-10", "mujoco-1e-6", "jolt-1e-6"];
 
 /// Further tolerances, and further libraries; the default of each is among them.
-pub const OTHERS: [&str; 11] = [
+pub const OTHERS: [&str; 13] = [
     "coal-1e-6",
     "coal-1e-4",
     "coal-1e-3",
     "coal-1e-2",
     "mujoco-1e-10",
+    "jolt-1e-4",
+    "jolt-1e-2",
     "libccd-epa-1e-4",
     "libccd-epa-1e-10",
     "libccd-mpr-1e-4",

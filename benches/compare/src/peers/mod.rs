@@ -72,11 +72,13 @@ macro_rules! way {
 }
 
 #[rustfmt::skip]
-const WAYS: [Way; 8] = [
+const WAYS: [Way; 9] = [
     way!("coal", coal: coal_peer_create, coal_peer_load, coal_peer_forget, coal_peer_free;
          distance: coal_distance, verdict: coal_verdict, depth: coal_depth),
     way!("mujoco", mujoco: mujoco_peer_create, mujoco_peer_load, mujoco_peer_forget, mujoco_peer_free;
          distance: mujoco_distance, verdict: mujoco_verdict, depth: mujoco_depth),
+    way!("jolt", jolt: jolt_peer_create, jolt_peer_load, jolt_peer_forget, jolt_peer_free;
+         distance: jolt_distance, verdict: jolt_verdict, depth: jolt_depth),
     way!("bullet", bullet: bullet_peer_create, bullet_peer_load, bullet_peer_forget, bullet_peer_free;
          distance: bullet_distance, depth: bullet_depth),
     way!("libccd-gjk", ccd: ccd_peer_create, ccd_peer_load, ccd_peer_forget, ccd_peer_free; verdict: ccd_gjk_verdict),
