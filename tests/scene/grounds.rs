@@ -252,7 +252,7 @@ fn threads_are_told_the_same() {
     };
     let first = ask();
     std::thread::scope(|scope| {
-        let threads = [(); 3].map(|()| scope.spawn(&ask));
+        let threads = [(); 3].map(|()| scope.spawn(ask));
         for thread in threads {
             assert_eq!(thread.join().unwrap(), first);
         }
