@@ -18,6 +18,7 @@
 # make depths                 depths beside coal, MuJoCo, Jolt, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
+# make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
@@ -55,11 +56,12 @@ BODIES = benches/results/bodies
 QUICK =
 FIGURES = benches/results/figures
 CASTS = benches/results/casts.csv
+GROUNDS = benches/results/grounds.csv
 MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -187,6 +189,11 @@ casts:
 	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --casts all --count 600 --passes 5 --csv $(CASTS)
 	$(DRAW) benches/casts.py $(CASTS)
+
+grounds:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++
+	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	$(TIMED) benches/compare/target/release/compare --grounds --count 10000 --passes 5 --csv $(GROUNDS)
 
 hard-motions:
 	@scripts/require.sh $(CC_PACKAGES)

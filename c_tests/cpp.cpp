@@ -305,12 +305,24 @@ static void sets()
     CHECK(cast && cast.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.value.pair.object2 == there.value);
     const auto edges = swiftprox::try_cast_batch(scene, set, motions, 1, scratch.value);
     CHECK(edges && edges.value.size() == 1 && edges.value[0].t_hi == cast.value.t_hi);
+    const std::array<double, 4> heights{-0.25, -0.25, -0.25, -0.25};
+    const auto level = swiftprox::Ground::try_from_heights(swiftprox::Range<const double>(heights), 2, 9, 9);
+    const Pose under = Pose::at(-2, -2, 0);
+    const auto standing = swiftprox::try_ground_contacts(scene, {level.value, under}, scratch.value, {}, &set);
+    CHECK(standing && swiftprox::contacts(standing.value).size() == 1);
+    const swiftprox_scene_ground_contact &foot = *swiftprox::contacts(standing.value).begin();
+    CHECK(foot.object == here.value && swiftprox::points(standing.value, foot).size() == swiftprox::points(standing.value).size());
+    CHECK(foot.contact.manifold.normal[2] == 1 && foot.contact.manifold.point_count >= 4);
+    const auto floor = swiftprox::try_half_space_contacts(scene, {{0, 0, 1}, -0.25}, scratch.value);
+    CHECK(floor && swiftprox::contacts(floor.value).size() == 2);
     const std::array<Pose, 1> few{Pose{}};
     const std::array<swiftprox_object_id, 2> both{here.value, there.value};
     swiftprox::ObjectSet uneven;
     uneven.ids = both;
     uneven.poses = few;
     CHECK(swiftprox::try_least_distance(scene, uneven, scratch.value).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox::try_ground_contacts(scene, {level.value, under}, scratch.value, {}, &uneven).status ==
+          SWIFTPROX_ERROR_INVALID_ARGUMENT);
     std::array<swiftprox::PairCache, 2> caches;
     const Pose origin, beside = Pose::at(3, 0, 0);
     const std::array<swiftprox_pair_question, 2> questions{swiftprox::question({box, origin}, {box, beside}, caches[0]),

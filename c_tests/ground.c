@@ -92,9 +92,92 @@ static void what_a_program_may_do_wrong(void)
     swiftprox_shape_release(body);
 }
 
+/* Cubes of a scene over a level grid and a half-space: two are 0.125 in, one of these in another group, one is fixed, one above. */
+static void objects_of_a_scene(void)
+{
+    double heights[25] = {0};
+    const double down[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, 0.375}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+    const swiftprox_half_space floor = {{0, 0, 2}, 0}, none = {{0, 0, 0}, 0};
+    const swiftprox_group_filter second = {1, 2};
+    const swiftprox_shape *body = cube();
+    const swiftprox_ground *ground = NULL;
+    swiftprox_scene *scene = NULL;
+    swiftprox_scratch *scratch = NULL;
+    swiftprox_object_id ids[4], stale = SWIFTPROX_OBJECT_ID_NULL;
+    swiftprox_object_set set = {0};
+    swiftprox_object_options options;
+    swiftprox_manifold_config config;
+    swiftprox_scene_ground_answer answer;
+    int i;
+    CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    CHECK_OK(swiftprox_scratch_create(&scratch));
+    for (i = 0; i < 4; ++i) {
+        swiftprox_object_options_init(&options);
+        memcpy(options.pose, down, sizeof down);
+        options.pose[3] = 0.75 + 0.75 * i;
+        options.pose[11] = i == 3 ? 2 : 0.375;
+        options.groups = i == 1 ? 2 : 1;
+        options.fixed = i == 2;
+        options.user_data = 10 + (uint64_t)i;
+        CHECK_OK(swiftprox_scene_add_shape(scene, body, &options, &ids[i]));
+    }
+    swiftprox_manifold_config_init(&config);
+    config.reduces = 1;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[1].contact.first_point == 4);
+    CHECK(answer.contacts[0].object.bits == ids[0].bits && answer.contacts[0].user_data == 10 && answer.contacts[0].piece == 0);
+    CHECK(answer.contacts[1].contact.manifold.normal[2] == 1 && answer.contacts[1].contact.triangle < 32);
+    CHECK(answer.points[7].gap_lower <= -0.125 && -0.125 <= answer.points[7].gap_upper);
+    CHECK_OK(swiftprox_scene_half_space_contacts(scene, NULL, &floor, &config, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[0].contact.triangle == UINT32_MAX);
+    CHECK(answer.points[0].gap_lower <= -0.125 && -0.125 <= answer.points[0].gap_upper);
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, &second, scratch, &answer));
+    CHECK(answer.contact_count == 1 && answer.contacts[0].object.bits == ids[1].bits);
+    set.ids = ids + 2;
+    set.count = 1;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 0 && answer.contacts == NULL && answer.points == NULL);
+    set.poses = down;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 1 && answer.contacts[0].user_data == 12);
+
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene",
+                swiftprox_scene_ground_contacts(NULL, NULL, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 0 && answer.point_count == 0 && answer.contacts == NULL);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground",
+                swiftprox_scene_ground_contacts(scene, NULL, NULL, identity, NULL, NULL, scratch, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground_pose",
+                swiftprox_scene_ground_contacts(scene, NULL, ground, NULL, NULL, NULL, scratch, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scratch",
+                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, NULL, scratch, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "",
+                swiftprox_scene_ground_contacts(scene, NULL, ground, mirror, NULL, NULL, scratch, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "half_space",
+                swiftprox_scene_half_space_contacts(scene, NULL, NULL, NULL, NULL, scratch, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "normal",
+                swiftprox_scene_half_space_contacts(scene, NULL, &none, NULL, NULL, scratch, &answer));
+    set.poses = mirror;
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "object 0 of 1",
+                swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    set.ids = &stale;
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "null",
+                swiftprox_scene_half_space_contacts(scene, &set, &floor, NULL, NULL, scratch, &answer));
+    config.margin = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
+    swiftprox_scratch_destroy(scratch);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    swiftprox_ground_release(ground);
+    swiftprox_shape_release(body);
+}
+
 int main(void)
 {
     a_cube_on_a_level_grid();
+    objects_of_a_scene();
     what_a_program_may_do_wrong();
     return check_report("ground");
 }

@@ -3326,6 +3326,85 @@ swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
                                             struct swiftprox_scene_cast_answer *answers,
                                             size_t edge_count);
 
+/**
+ * The groups that something is in which is in no scene, and those that it is tested against, as of an object: it is asked about an
+ * object if the mask of each has a bit of the other's groups.
+ */
+typedef struct swiftprox_group_filter {
+  /** One bit for each group; the default is the first. */
+  uint32_t groups;
+  /** One bit for each group; the default is all. */
+  uint32_t mask;
+} swiftprox_group_filter;
+
+/** One contact of a piece, which is object 1, with a ground or a half-space. */
+typedef struct swiftprox_scene_ground_contact {
+  /** Whose piece it is. */
+  struct swiftprox_object_id object;
+  /** The caller's own number of the object. */
+  uint64_t user_data;
+  /** Which piece. */
+  uint32_t piece;
+  /** As of the pair; its points are among those of all contacts. Of a half-space all bits of the triangle are set. */
+  struct swiftprox_ground_contact contact;
+} swiftprox_scene_ground_contact;
+
+/** Where objects of a scene meet a ground or a half-space. Owned by the scratch and valid until its next use. */
+typedef struct swiftprox_scene_ground_answer {
+  /** By object, piece and triangle. Null when contact_count is 0. */
+  const struct swiftprox_scene_ground_contact *contacts;
+  /** How many. */
+  size_t contact_count;
+  /**
+   * Points of contact c are those from its contact.first_point on, as many as its contact.manifold.point_count. Null when
+   * point_count is 0.
+   */
+  const struct swiftprox_manifold_point *points;
+  /** How many. */
+  size_t point_count;
+} swiftprox_scene_ground_answer;
+
+/**
+ * Where objects of a scene meet a ground that is in no scene, or are up to config->margin apart from it: piece by piece what
+ * swiftprox_pair_ground_contacts says. set is who is asked; null: all objects, in order of creation. An object is asked if its
+ * groups have a bit of filter->mask and its mask has a bit of filter->groups; a null filter has group 1 and all bits in its mask.
+ * Activation and the scene's filter are about pairs of objects, and do not count. Fixed objects are left out, unless set->poses
+ * says where they are; set->among is not looked at. config->rotation_limit is for the ground's pose. Threads as of
+ * swiftprox_scene_least_distance; the scratch owns contacts and points and must not be null. Once it is large enough, only
+ * integer arithmetic asks for memory.
+ *
+ * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
+ * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_BUSY: the
+ * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_ground_contacts(const struct swiftprox_scene *scene,
+                                                 const struct swiftprox_object_set *set,
+                                                 const struct swiftprox_ground *ground,
+                                                 const double *ground_pose,
+                                                 const struct swiftprox_manifold_config *config,
+                                                 const struct swiftprox_group_filter *filter,
+                                                 struct swiftprox_scratch *scratch,
+                                                 struct swiftprox_scene_ground_answer *answer);
+
+/**
+ * The same of a half-space: a contact for each piece that is within the margin, as swiftprox_pair_half_space_manifold says; its
+ * triangle is UINT32_MAX. Errors as of swiftprox_scene_ground_contacts; SWIFTPROX_ERROR_INVALID_ARGUMENT also as of
+ * swiftprox_pair_half_space_distance.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_half_space_contacts(const struct swiftprox_scene *scene,
+                                                     const struct swiftprox_object_set *set,
+                                                     const struct swiftprox_half_space *half_space,
+                                                     const struct swiftprox_manifold_config *config,
+                                                     const struct swiftprox_group_filter *filter,
+                                                     struct swiftprox_scratch *scratch,
+                                                     struct swiftprox_scene_ground_answer *answer);
+
 /** @} */
 
 /**

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 27] = [
+const SOURCES: [&str; 28] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -35,6 +35,7 @@ const SOURCES: [&str; 27] = [
     "src/scene/sets/first_hit.rs",
     "src/scene/sets/rays.rs",
     "src/scene/sets/casts.rs",
+    "src/scene/sets/grounds.rs",
     "src/scene/sets/scratch.rs",
 ];
 

@@ -3,12 +3,13 @@
 
 use std::sync::Arc;
 
+use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, ManifoldConfig, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SceneQuery, SetScratch};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::counting::{Counting, allocations};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
@@ -133,4 +134,42 @@ fn scene_queries_allocate_nothing_once_they_have_seen_the_crowd() {
     let [allocating, without_exact_tier] = fly(&mut scene, &ids);
     assert_eq!(allocating, 0);
     assert!(without_exact_tier > 300, "integer arithmetic ran in all but {without_exact_tier} of 400 queries");
+}
+
+/// What a ground is asked about twice, in the room that the first time has made.
+#[test]
+fn contacts_with_grounds_allocate_nothing_once_there_is_room() {
+    let mut random = Random::new(8);
+    let heights: Vec<f64> = (0..441).map(|_| random.uniform(-0.1, 0.1)).collect();
+    let grid = HeightGrid { rows: 21, columns: 21, spacing: [0.5; 2], heights: &heights };
+    let (ground, here) = (Ground::from_heights(&grid).unwrap(), Pose::IDENTITY);
+    let shapes = shapes(&mut random);
+    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let bodies: Vec<(Arc<Shape>, Pose)> = (0..200)
+        .map(|k| {
+            let place = Vector::new(random.uniform(2.0, 8.0), random.uniform(2.0, 8.0), random.uniform(0.1, 0.6));
+            let pose = Pose::new(&random_pose(&mut random, 1.0).rotation(), &place);
+            let shape = shapes[k % shapes.len()].clone();
+            scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..Default::default() }).unwrap();
+            (shape, pose)
+        })
+        .collect();
+    scene.prepare().unwrap();
+    let (mut found, mut scratch) = (GroundContacts::default(), SetScratch::default());
+    let mut counts = [[0; 2]; 2];
+    for counts in &mut counts {
+        for reduces in [false, true] {
+            let config = ManifoldConfig { margin: 0.05, reduces, ..ManifoldConfig::default() };
+            for (shape, pose) in &bodies {
+                let ask = || ground_contacts(shape.at(pose), ground.at(&here), &config, &mut found).unwrap();
+                counts[0] += allocations(ask);
+            }
+            let filter = GroupFilter::default();
+            counts[1] += allocations(|| {
+                scene.ground_contacts(None, ground.at(&here), &config, filter, &mut scratch).unwrap();
+            });
+        }
+    }
+    assert!(counts[0].iter().all(|count| *count > 0), "room is made when it is needed");
+    assert_eq!(counts[1], [0; 2]);
 }

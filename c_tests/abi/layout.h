@@ -389,6 +389,22 @@ MEMBER(swiftprox_scene_cast_answer, t_hi, 16, 8)
 MEMBER(swiftprox_scene_cast_answer, upper, 24, 8)
 MEMBER(swiftprox_scene_cast_answer, pair, 32, 272)
 
+STRUCT(swiftprox_group_filter, 8, 4)
+MEMBER(swiftprox_group_filter, groups, 0, 4)
+MEMBER(swiftprox_group_filter, mask, 4, 4)
+
+STRUCT(swiftprox_scene_ground_contact, 96, 8)
+MEMBER(swiftprox_scene_ground_contact, object, 0, 8)
+MEMBER(swiftprox_scene_ground_contact, user_data, 8, 8)
+MEMBER(swiftprox_scene_ground_contact, piece, 16, 4)
+MEMBER(swiftprox_scene_ground_contact, contact, 24, 72)
+
+STRUCT(swiftprox_scene_ground_answer, 32, 8)
+MEMBER(swiftprox_scene_ground_answer, contacts, 0, 8)
+MEMBER(swiftprox_scene_ground_answer, contact_count, 8, 8)
+MEMBER(swiftprox_scene_ground_answer, points, 16, 8)
+MEMBER(swiftprox_scene_ground_answer, point_count, 24, 8)
+
 STRUCT(swiftprox_pair_event, 88, 8)
 MEMBER(swiftprox_pair_event, object1, 0, 8)
 MEMBER(swiftprox_pair_event, object2, 8, 8)

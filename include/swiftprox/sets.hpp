@@ -2,6 +2,7 @@
 #ifndef SWIFTPROX_SETS_HPP
 #define SWIFTPROX_SETS_HPP
 
+#include "ground.hpp"
 #include "motion.hpp"
 #include "ray.hpp"
 #include "scene.hpp"
@@ -137,6 +138,54 @@ inline Result<std::vector<swiftprox_scene_cast_answer>> try_cast_batch(const Sce
     return result;
 }
 
+inline Range<const swiftprox_scene_ground_contact> contacts(const swiftprox_scene_ground_answer &answer) noexcept
+{
+    return {answer.contacts, answer.contact_count};
+}
+/** Those of all contacts. */
+inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_ground_answer &answer) noexcept
+{
+    return {answer.points, answer.point_count};
+}
+/** Those of one. */
+inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_ground_answer &answer,
+                                                    const swiftprox_scene_ground_contact &contact) noexcept
+{
+    return {answer.points + contact.contact.first_point, contact.contact.manifold.point_count};
+}
+/** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
+inline Result<swiftprox_scene_ground_answer> try_ground_contacts(const SceneView &scene, PlacedGround ground, SetScratch &scratch,
+                                                                 const ManifoldConfig &config = {},
+                                                                 const ObjectSet *set = nullptr,
+                                                                 const swiftprox_group_filter *filter = nullptr)
+{
+    if (set && set->is_uneven()) {
+        return detail::uneven<swiftprox_scene_ground_answer>();
+    }
+    const swiftprox_manifold_config c = config.to_c();
+    const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
+    return detail::asked<swiftprox_scene_ground_answer>([&](swiftprox_scene_ground_answer *answer) {
+        return swiftprox_scene_ground_contacts(scene.get(), set ? &of : nullptr, ground.ground.get(), ground.pose.data(), &c,
+                                               filter, scratch.get(), answer);
+    });
+}
+/** A contact for each piece. */
+inline Result<swiftprox_scene_ground_answer> try_half_space_contacts(const SceneView &scene, const swiftprox_half_space &half_space,
+                                                                     SetScratch &scratch, const ManifoldConfig &config = {},
+                                                                     const ObjectSet *set = nullptr,
+                                                                     const swiftprox_group_filter *filter = nullptr)
+{
+    if (set && set->is_uneven()) {
+        return detail::uneven<swiftprox_scene_ground_answer>();
+    }
+    const swiftprox_manifold_config c = config.to_c();
+    const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
+    return detail::asked<swiftprox_scene_ground_answer>([&](swiftprox_scene_ground_answer *answer) {
+        return swiftprox_scene_half_space_contacts(scene.get(), set ? &of : nullptr, &half_space, &c, filter, scratch.get(),
+                                                   answer);
+    });
+}
+
 #if SWIFTPROX_HAS_EXCEPTIONS
 inline void prepare(SceneView &scene)
 {
@@ -168,6 +217,19 @@ inline std::vector<swiftprox_scene_cast_answer> cast_batch(const SceneView &scen
                                                            SetScratch &scratch, const CastConfig &config = {})
 {
     return take(try_cast_batch(scene, set, motions, edge_count, scratch, config));
+}
+inline swiftprox_scene_ground_answer ground_contacts(const SceneView &scene, PlacedGround ground, SetScratch &scratch,
+                                                     const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
+                                                     const swiftprox_group_filter *filter = nullptr)
+{
+    return take(try_ground_contacts(scene, ground, scratch, config, set, filter));
+}
+inline swiftprox_scene_ground_answer half_space_contacts(const SceneView &scene, const swiftprox_half_space &half_space,
+                                                         SetScratch &scratch, const ManifoldConfig &config = {},
+                                                         const ObjectSet *set = nullptr,
+                                                         const swiftprox_group_filter *filter = nullptr)
+{
+    return take(try_half_space_contacts(scene, half_space, scratch, config, set, filter));
 }
 #endif
 

@@ -121,6 +121,11 @@ impl<'a> RiseBounds<'a> {
 /// An upper bound, rounded up, of max over `points` of n·x minus n·s, in double-double: of a body of few vertices.
 pub fn rise_over(normal: &Vector, points: &[Vector], s: &Vector) -> f64 {
     let rises = points.iter().map(|x| {
+        let (roughly, error) = height(normal, x, s);
+        // What is certainly no higher takes no closer look.
+        if roughly <= -error {
+            return 0.0;
+        }
         let (height, error) = fine_height(normal, x, s);
         height + error
     });

@@ -40,6 +40,7 @@ pub mod filter;
 pub mod object_query;
 pub mod listener;
 pub mod object_set;
+pub mod scene_ground;
 pub mod pair_batch;
 pub mod record;
 pub mod former_names;

@@ -252,7 +252,7 @@ unsafe fn ask<A: Copy>(
 ///
 /// # Safety
 /// Its pointers meet the header's pointer rules for `'a`.
-unsafe fn read_set<'a>(set: &CObjectSet) -> Checked<ObjectSet<'a>> {
+pub(super) unsafe fn read_set<'a>(set: &CObjectSet) -> Checked<ObjectSet<'a>> {
     // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
     unsafe {
         let poses = match set.poses.is_null() {

@@ -1,5 +1,6 @@
 //! What is said of a body that meets a ground.
 
+use super::room::Room;
 use crate::pair::{Manifold, ManifoldPoint};
 
 /// One contact of a body, which is object 1, with a ground: points with one normal.
@@ -15,11 +16,13 @@ pub struct GroundContact {
     pub first_point: usize,
 }
 
-/// The contacts of a body with a ground, and their points.
-#[derive(Debug, Clone, PartialEq, Default)]
+/// The contacts of a body with a ground, and their points. It keeps the room that they were found in, some 10 kB: once that is
+/// large enough, queries that write over it ask for no memory.
+#[derive(Debug, Default)]
 pub struct GroundContacts {
     /// By their triangles.
     pub contacts: Vec<GroundContact>,
     /// Of each contact its points together. The face of object 2 is a triangle of the ground.
     pub points: Vec<ManifoldPoint>,
+    pub(super) room: Room,
 }

@@ -2,18 +2,21 @@
 
 use super::PlacedGround;
 use super::answer::GroundContacts;
-use super::grouping::{Touch, group};
+use super::corner::{Behind, behind_face};
+use super::grouping::group;
+use super::lowest::{Lowest, Margin, local_point};
 use super::reach::{LEAST_STRETCH, Reach};
-use super::tree::Visit;
+use super::room::{Room, Touch};
+use super::tree::{Bounds, Visit};
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
-    self, Feature, FeatureKind, Fill, ManifoldConfig, ManifoldPoint, Outcome, PairConfig, Placed, SignedDistance,
-    SignedDistanceCache, Sink, manifold_along,
+    self, DepthAnswer, DepthCache, DepthConfig, Feature, FeatureKind, ManifoldConfig, ManifoldPoint, Outcome,
+    PairConfig, Placed, SignedDistance, SignedDistanceCache, add_points, manifold_along,
 };
-use crate::shape::TriangleShape;
+use crate::shape::{Triangle, TriangleShape};
 
 /// Where a body, which is object 1, meets a ground, or is up to `config.margin` apart; written over what `found` holds.
 ///
@@ -36,6 +39,24 @@ pub fn ground_contacts(
 ) -> Result<()> {
     found.contacts.clear();
     found.points.clear();
+    let asked = add_contacts(body, ground, config, found);
+    if asked.is_err() {
+        found.contacts.clear();
+        found.points.clear();
+    }
+    asked
+}
+
+/// The same, added behind what `found` holds; what is there after a refusal is part of it.
+///
+/// # Errors
+/// As [`ground_contacts`].
+pub(crate) fn add_contacts(
+    body: Placed,
+    ground: PlacedGround,
+    config: &ManifoldConfig,
+    found: &mut GroundContacts,
+) -> Result<()> {
     with_default(|| {
         config.check()?;
         body.pose.check(config.rotation_limit)?;
@@ -47,24 +68,19 @@ pub fn ground_contacts(
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
-        let scratch = TriangleShape::new()?;
+        let Room { triangle, touches, points, .. } = &mut found.room;
+        touches.clear();
+        points.clear();
+        let shape = match triangle {
+            Some(shape) => shape,
+            None => triangle.insert(TriangleShape::new()?),
+        };
         // Four points are chosen of all triangles' together.
         let all = ManifoldConfig { reduces: false, ..*config };
-        let mut meeting = Meeting {
-            body,
-            ground,
-            reach,
-            within,
-            all,
-            scratch,
-            touches: Vec::new(),
-            points: Vec::new(),
-            missed: None,
-        };
+        let mut meeting = Meeting { body, ground, reach, within, all, shape, touches, points, lowest: 0, missed: None };
         ground.ground.tree().walk(&bounds, &mut meeting)?;
         meeting.keep_missed()?;
-        let size = body.shape.polyhedron().radius;
-        group(meeting.touches, &meeting.points, config.reduces, size, found)
+        group(found, config.reduces, body.shape.polyhedron().radius)
     })
 }
 
@@ -75,9 +91,12 @@ struct Meeting<'a> {
     reach: Reach,
     within: PairConfig,
     all: ManifoldConfig,
-    scratch: TriangleShape,
-    touches: Vec<Touch>,
-    points: Vec<ManifoldPoint>,
+    /// The triangle that is asked about.
+    shape: &'a mut TriangleShape,
+    touches: &'a mut Vec<Touch>,
+    points: &'a mut Vec<ManifoldPoint>,
+    /// The vertex that was lowest over the last triangle.
+    lowest: u32,
     /// The deepest contact along the normal of a triangle that has no points over it.
     missed: Option<(u32, SignedDistance)>,
 }
@@ -89,15 +108,11 @@ impl Visit for Meeting<'_> {
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        if own.normal.dot(&(self.reach.centre - own.corners[0])) < 0.0 {
+        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < 0.0;
+        if is_behind || !self.goes_to(Bounds::of(&own.corners).gap(&self.reach.bounds)) {
             return Ok(true);
         }
-        let bodies = [self.body, self.scratch.of(&own).at(self.ground.pose)];
-        let mut contact = SignedDistance::default();
-        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
-        if contact.outcome == Outcome::Beyond {
-            return Ok(true);
-        }
+        let Some(mut contact) = self.nearest(&own)? else { return Ok(true) };
         let normal = self.reach.local_normal(&contact.normal.into());
         let is_allowed = self.ground.ground.allows(triangle, &normal);
         let is_over = is_allowed || {
@@ -115,25 +130,50 @@ impl Visit for Meeting<'_> {
 }
 
 impl Meeting<'_> {
+    /// The signed distance of the body and a triangle, which is laid out; `None` beyond the margin.
+    fn nearest(&mut self, own: &Triangle) -> Result<Option<SignedDistance>> {
+        let lowest = Lowest::new(self.body, self.ground, own, &self.reach, self.lowest);
+        self.lowest = lowest.vertex;
+        let margin = Margin { radius: self.body.shape.swept_radius(), margin: self.all.margin };
+        if margin.is_beyond(lowest.lower) {
+            return Ok(None);
+        }
+        let mut contact = lowest.contact(self.body, own, &self.reach, margin);
+        if contact.is_none() {
+            contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
+                Behind::Beyond => return Ok(None),
+                Behind::Nearest(contact) => Some(contact),
+                Behind::Open => None,
+            };
+        }
+        // Laying it out takes longer than all that.
+        let bodies = [self.body, self.shape.of(own).at(self.ground.pose)];
+        if contact.is_some() {
+            return Ok(contact);
+        }
+        if lowest.is_through(own, &self.reach) {
+            let config = DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() };
+            let mut deep = DepthAnswer::default();
+            pair::depth(bodies, &mut DepthCache::default(), &config, &mut deep)?;
+            if deep.outcome == Outcome::Intersecting {
+                return Ok(Some((&deep).into()));
+            }
+        }
+        let mut contact = SignedDistance::default();
+        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
+        Ok(Some(contact).filter(|contact| contact.outcome != Outcome::Beyond))
+    }
+}
+
+impl Meeting<'_> {
     /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
     fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
-        let bodies = [self.body, self.scratch.shape().at(self.ground.pose)];
+        let bodies = [self.body, self.shape.shape().at(self.ground.pose)];
         let first_point = self.points.len();
-        let mut written = Ok(());
-        let points = &mut self.points;
-        let mut write = |_: usize, fill: Fill| {
-            if written.is_ok() {
-                written = push(points, ManifoldPoint::default());
-            }
-            if let (Ok(()), Some(point)) = (&written, points.last_mut()) {
-                fill(point);
-            }
-        };
-        let mut sink = Sink { capacity: usize::MAX, written: 0, write: &mut write };
         // What is not over the triangle is none of the points that faces have in common, however deep it is.
         let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
-        let manifold = manifold_along(bodies, if is_over { contact } else { &far }, &self.all, &mut sink);
-        written?;
+        let along = if is_over { contact } else { &far };
+        let manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
         // Without a reference it is the contact's own pair of points.
         if manifold.reference == 0 && !is_over {
             self.points.truncate(first_point);
@@ -143,14 +183,14 @@ impl Meeting<'_> {
             }
             return Ok(());
         }
-        push(&mut self.touches, Touch { triangle, manifold, first_point })
+        push(self.touches, Touch { triangle, manifold, first_point })
     }
 
     /// A body that meets the ground has a contact, if only beside the triangle.
     fn keep_missed(&mut self) -> Result<()> {
         let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
         if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
-            self.scratch.of(&self.ground.ground.triangle(triangle));
+            self.shape.of(&self.ground.ground.triangle(triangle));
             self.touch(triangle, &contact, true)?;
         }
         Ok(())
@@ -174,14 +214,12 @@ fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) 
     let height = up.dot(&(lowest - corner));
     // Points are right to some 8u of where they are, the normal to 8u, and so are the product and the radius.
     let error = 64.0 * UNIT_ROUNDOFF * (lowest.lp_norm(1) + corner.lp_norm(1) + radius);
-    let from = lowest - body.pose.translation();
-    let local = body.pose.rotation().try_inverse().map_or_else(|| body.pose.rotate_back(&from), |back| back * from);
     SignedDistance {
         distance: height,
         lower: height - error,
         upper: height + error,
         normal: (*up).into(),
-        local1: local.into(),
+        local1: local_point(body.pose, &lowest).into(),
         world1: lowest.into(),
         world2: (lowest - up * height).into(),
         feature1,

@@ -2,38 +2,30 @@
 
 use super::answer::{GroundContact, GroundContacts};
 use super::normals::TILT;
+use super::room::{Grouping, Room, Touch};
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::base::memory::{collected, push};
-use crate::pair::{Manifold, ManifoldPoint, Outcome, four_of_points};
+use crate::base::memory::{extend, push};
+use crate::pair::{ManifoldPoint, Outcome, four_of_points};
 
 /// What the gap of a point may be off along a normal that is turned by [`TILT`], relative to itself: 1 − cos of the angle is at
 /// most half its square, and rounding is less than the rest.
 const TURNED: f64 = TILT * TILT;
 
-/// A contact of one triangle, with its points behind each other.
-pub(super) struct Touch {
-    pub triangle: u32,
-    pub manifold: Manifold,
-    pub first_point: usize,
-}
-
-/// Joins contacts whose normals are the same, up to [`TILT`], with the deepest of them, and lists what comes of that by their
-/// triangles. Of points with one id one stays. If `reduces`, four points stay of a contact; `size` is a length next to the body.
-pub(super) fn group(
-    mut touches: Vec<Touch>,
-    points: &[ManifoldPoint],
-    reduces: bool,
-    size: f64,
-    found: &mut GroundContacts,
-) -> Result<()> {
-    for Touch { manifold, first_point, .. } in &mut touches {
+/// Joins contacts whose normals are the same, up to [`TILT`], with the deepest of them, and adds what comes of that to the list, by
+/// their triangles. Of points with one id one stays. If `reduces`, four points stay of a contact; `size` is a length next to the
+/// body.
+pub(super) fn group(found: &mut GroundContacts, reduces: bool, size: f64) -> Result<()> {
+    let GroundContacts { contacts, points: listed, room } = found;
+    let Room { touches, points, grouping: Grouping { is_taken, own, ids }, .. } = room;
+    let first_contact = contacts.len();
+    for Touch { manifold, first_point, .. } in &mut *touches {
         let own = &points[*first_point..][..manifold.point_count as usize];
         (manifold.lower, manifold.upper) = least_gap(own);
     }
-    touches.sort_by(|a, b| a.manifold.lower.total_cmp(&b.manifold.lower).then(a.triangle.cmp(&b.triangle)));
-    let mut is_taken = collected(touches.iter().map(|_| false))?;
-    let (mut own, mut ids) = (Vec::new(), Vec::new());
+    touches.sort_unstable_by(|a, b| a.manifold.lower.total_cmp(&b.manifold.lower).then(a.triangle.cmp(&b.triangle)));
+    is_taken.clear();
+    extend(is_taken, touches.iter().map(|_| false))?;
     for leader in 0..touches.len() {
         if is_taken[leader] {
             continue;
@@ -42,7 +34,7 @@ pub(super) fn group(
         let normal = Vector::from(manifold.normal);
         own.clear();
         ids.clear();
-        for (other, is_taken) in touches.iter().zip(&mut is_taken).skip(leader) {
+        for (other, is_taken) in touches.iter().zip(&mut *is_taken).skip(leader) {
             if *is_taken || (Vector::from(other.manifold.normal) - normal).norm() > TILT {
                 continue;
             }
@@ -51,23 +43,23 @@ pub(super) fn group(
                 manifold.outcome = Outcome::Intersecting;
             }
             for point in &points[other.first_point..][..other.manifold.point_count as usize] {
-                push(&mut ids, (point.id, own.len()))?;
-                push(&mut own, widened(point))?;
+                push(ids, (point.id, own.len()))?;
+                push(own, widened(point))?;
             }
         }
-        leave_one_of_each(&mut own, &mut ids);
-        (manifold.lower, manifold.upper) = least_gap(&own);
+        leave_one_of_each(own, ids);
+        (manifold.lower, manifold.upper) = least_gap(own);
         manifold.found_count = own.len() as u32;
-        let first_point = found.points.len();
+        let first_point = listed.len();
         if reduces {
-            four_of_points(&own, &manifold.normal, size).try_for_each(|at| push(&mut found.points, own[at]))?;
+            four_of_points(own, &manifold.normal, size).try_for_each(|at| push(listed, own[at]))?;
         } else {
-            own.iter().try_for_each(|point| push(&mut found.points, *point))?;
+            extend(listed, own.iter().copied())?;
         }
-        manifold.point_count = (found.points.len() - first_point) as u32;
-        push(&mut found.contacts, GroundContact { triangle, manifold, first_point })?;
+        manifold.point_count = (listed.len() - first_point) as u32;
+        push(contacts, GroundContact { triangle, manifold, first_point })?;
     }
-    found.contacts.sort_by_key(|contact| contact.triangle);
+    contacts[first_contact..].sort_unstable_by_key(|contact| contact.triangle);
     Ok(())
 }
 

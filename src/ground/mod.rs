@@ -9,12 +9,16 @@ mod surface;
 mod reach;
 mod normals;
 mod distance;
+mod room;
 mod answer;
 mod grouping;
+mod lowest;
+mod corner;
 mod contacts;
 
 use crate::base::math::Pose;
 pub use answer::{GroundContact, GroundContacts};
+pub(crate) use contacts::add_contacts;
 pub use contacts::ground_contacts;
 pub use distance::{GroundDistance, ground_distance};
 pub use surface::{Ground, HeightGrid};

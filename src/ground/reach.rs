@@ -15,6 +15,18 @@ pub(super) const LEAST_STRETCH: f64 = 0.98;
 /// Of an entry of R⁻¹, of products with it and of sums of a few of these, relative to the lengths that go in, with a margin of 4.
 const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
 
+impl PlacedGround<'_> {
+    /// A box in the world around the whole ground, a little larger than it need be: its least and its greatest corner.
+    pub(crate) fn world_box(&self) -> [Vector; 2] {
+        let Bounds { lower, upper } = *self.ground.tree().bounds();
+        let (middle, half) = (0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower);
+        let at = self.pose.transform(&middle);
+        let size = self.pose.translation().lp_norm(1) + 2.0 * (middle.lp_norm(1) + half.lp_norm(1));
+        let half = (self.pose.rotation().abs() * half).add_scalar(ROUNDING * size);
+        [at - half, at + half]
+    }
+}
+
 /// A body beside a ground.
 pub(super) struct Reach {
     /// The ground's rotation, its inverse, and where its origin is.

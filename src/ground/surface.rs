@@ -1,6 +1,6 @@
 //! The triangles of a ground: their corners, normals and neighbours, and the tree that finds those near a body.
 
-use super::tree::Tree;
+use super::tree::{Bounds, Tree};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::Vector;
 use crate::base::memory::{collected, filled, with_capacity};
@@ -129,8 +129,7 @@ impl Ground {
         find_twins(&vertices, &mut records)?;
         let boxes = records.iter().map(|record| {
             let [a, b, c] = record.corners.map(|v| vertices[v as usize]);
-            (record.normal != Vector::zeros())
-                .then(|| [f64::min, f64::max].map(|pick| a.zip_map(&b, pick).zip_map(&c, pick)))
+            (record.normal != Vector::zeros()).then(|| Bounds::of(&[a, b, c]))
         });
         let Some(tree) = Tree::new(boxes)? else {
             return Err(Error::Mesh(format!("none of the {} triangles of the ground has an area", records.len())));

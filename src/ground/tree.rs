@@ -18,6 +18,12 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
+    /// Of a triangle.
+    pub fn of([a, b, c]: &[Vector; 3]) -> Bounds {
+        let [lower, upper] = [f64::min, f64::max].map(|pick| a.zip_map(b, pick).zip_map(c, pick));
+        Bounds { lower, upper }
+    }
+
     fn union(&self, other: &Bounds) -> Bounds {
         Bounds { lower: self.lower.zip_map(&other.lower, f64::min), upper: self.upper.zip_map(&other.upper, f64::max) }
     }
@@ -61,15 +67,15 @@ pub(super) trait Visit {
 }
 
 impl Tree {
-    /// Of triangles with the corners of their boxes; those without are left out. `None` if all are.
+    /// Of triangles with their boxes; those without are left out. `None` if all are.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(boxes: impl Iterator<Item = Option<[Vector; 2]>>) -> Result<Option<Tree>> {
+    pub fn new(boxes: impl Iterator<Item = Option<Bounds>>) -> Result<Option<Tree>> {
         let mut items = Vec::new();
-        for (triangle, corners) in (0..).zip(boxes) {
-            if let Some([lower, upper]) = corners {
-                push(&mut items, (triangle, Bounds { lower, upper }))?;
+        for (triangle, bounds) in (0..).zip(boxes) {
+            if let Some(bounds) = bounds {
+                push(&mut items, (triangle, bounds))?;
             }
         }
         if items.is_empty() {
@@ -78,6 +84,11 @@ impl Tree {
         let mut nodes = with_capacity(items.len().next_power_of_two())?;
         grow(&mut nodes, &mut items, 0)?;
         Ok(Some(Tree { nodes: copied(&nodes)?, triangles: collected(items.iter().map(|(triangle, _)| *triangle))? }))
+    }
+
+    /// The box of all triangles.
+    pub fn bounds(&self) -> &Bounds {
+        &self.nodes[0].bounds
     }
 
     /// Memory held beside the struct, in bytes.

@@ -8,7 +8,7 @@ use super::radii::{Radii, moved};
 use super::signed_distance::SignedDistance;
 use super::swept::sign;
 use crate::base::error::{Error, Result};
-use crate::base::math::{ROTATION_LIMIT, Vector, clamp};
+use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::simd::environment::with_default;
 use crate::solve::exact;
 use crate::solve::state::FeatureId;
@@ -27,7 +27,7 @@ pub struct HalfSpace {
 impl HalfSpace {
     /// # Errors
     /// [`Error::Argument`].
-    pub(super) fn check(&self) -> Result<()> {
+    pub(crate) fn check(&self) -> Result<()> {
         if !self.normal.iter().all(|x| x.is_finite()) || self.normal == [0.0; 3] {
             return Err(Error::Argument(format!(
                 "the normal of the half-space is {:?}, it must be finite and not 0",
@@ -38,6 +38,24 @@ impl HalfSpace {
             return Err(Error::Argument(format!("the offset of the half-space is {}, it must be finite", self.offset)));
         }
         Ok(())
+    }
+}
+
+/// Lengths below this are taken for nothing.
+const TINY: f64 = 1e-150;
+
+impl HalfSpace {
+    /// What is in a box is at least so far above the plane; 0 or less says nothing, and neither does a NaN. Along the normal in
+    /// the unit of its largest component the least of the box is off by 8u of the size of all terms.
+    pub(crate) fn gap_of_box(&self, lower: [f64; 3], upper: [f64; 3]) -> f64 {
+        let scale = self.normal.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
+        let (normal, offset) = (self.normal.map(|x| x / scale), self.offset / scale);
+        let (mut height, mut size) = (-offset, offset.abs());
+        for k in 0..3 {
+            let least = normal[k] * if normal[k] > 0.0 { lower[k] } else { upper[k] };
+            (height, size) = (height + least, size + least.abs());
+        }
+        (height - 8.0 * UNIT_ROUNDOFF * size) / Vector::from(normal).norm() * (1.0 - 8.0 * UNIT_ROUNDOFF) - TINY
     }
 }
 

@@ -34,6 +34,7 @@ pub use search::query::{
 pub use search::statistics::SceneStatistics;
 pub use sets::casts::SceneCastAnswer;
 pub use sets::first_hit::{FirstHit, PoseOrder};
+pub use sets::grounds::{GroupFilter, SceneGroundContact, SceneGroundContacts};
 pub use sets::members::ObjectSet;
 pub use sets::nearest::LeastDistance;
 pub use sets::rays::{RayHits, SceneRayHit};

@@ -3,12 +3,14 @@
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
+use crate::ground::PlacedGround;
 use crate::motion::{CastConfig, Motion};
-use crate::pair::{self, PairAnswer, PairConfig, PairQuestion, Query};
+use crate::pair::{self, HalfSpace, ManifoldConfig, PairAnswer, PairConfig, PairQuestion, Query};
 use crate::ray::Ray;
 use crate::scene::door::Scene;
 use crate::scene::sets::casts::{self, SceneCastAnswer};
 use crate::scene::sets::first_hit::{self, FirstHit, PoseOrder};
+use crate::scene::sets::grounds::{self, Floor, GroupFilter, SceneGroundContacts};
 use crate::scene::sets::members::{self, Boxes, ObjectSet};
 use crate::scene::sets::nearest::{self, Against, LeastDistance};
 use crate::scene::sets::others::Others;
@@ -162,6 +164,61 @@ impl Scene {
                 .map_err(|error| error.about(&format!("edge {k} of {edges}")))?;
         }
         Ok(())
+    }
+
+    /// Where objects, all or those of a set, meet a ground that is in no scene, or are up to `config.margin` apart from it: piece
+    /// by piece what [`ground_contacts`](crate::ground::ground_contacts) says, with the default rotation limit for objects; that
+    /// of `config` is for the ground.
+    ///
+    /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do not
+    /// count. Fixed objects are left out, unless the set says where they are. The set's `among` is not looked at.
+    ///
+    /// # Errors
+    /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless a set with poses has one for each object;
+    /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted; as of
+    /// [`ground_contacts`](crate::ground::ground_contacts), and [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn ground_contacts<'a>(
+        &self,
+        set: Option<&ObjectSet>,
+        ground: PlacedGround,
+        config: &ManifoldConfig,
+        filter: GroupFilter,
+        scratch: &'a mut SetScratch,
+    ) -> Result<SceneGroundContacts<'a>> {
+        self.floor_contacts(set, Floor::Ground(ground), config, filter, scratch)
+    }
+
+    /// The same of a half-space: a contact for each piece that is within the margin, as
+    /// [`half_space_manifold`](crate::pair::half_space_manifold) says.
+    ///
+    /// # Errors
+    /// As [`Scene::ground_contacts`] and [`half_space_manifold`](crate::pair::half_space_manifold).
+    pub fn half_space_contacts<'a>(
+        &self,
+        set: Option<&ObjectSet>,
+        half_space: &HalfSpace,
+        config: &ManifoldConfig,
+        filter: GroupFilter,
+        scratch: &'a mut SetScratch,
+    ) -> Result<SceneGroundContacts<'a>> {
+        self.floor_contacts(set, Floor::HalfSpace(half_space), config, filter, scratch)
+    }
+
+    fn floor_contacts<'a>(
+        &self,
+        set: Option<&ObjectSet>,
+        floor: Floor,
+        config: &ManifoldConfig,
+        filter: GroupFilter,
+        scratch: &'a mut SetScratch,
+    ) -> Result<SceneGroundContacts<'a>> {
+        with_default(|| {
+            let SetScratch { members, open, found: rows, ground, contacts, .. } = scratch;
+            let question = grounds::Question { others: self.others(&NOBODY), set, floor, config, filter };
+            grounds::find(question, &mut grounds::Room { members, open, rows, ground, contacts })?;
+            Ok(SceneGroundContacts { contacts: &contacts[..], points: &ground.points })
+        })
     }
 
     /// [`pair::batch()`] with the scene's workers; nothing of the scene is asked or changed.

@@ -17,7 +17,7 @@ fn contacts(body: &Shape, pose: &Pose, ground: &Ground, margin: f64, reduces: bo
 }
 
 /// A sphere of radius 0.5 (a point, swept), a cube and a round hull.
-fn bodies(random: &mut Random) -> [Shape; 3] {
+pub fn bodies(random: &mut Random) -> [Shape; 3] {
     let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: 0.5, ..ShapeOptions::default() };
     let round: Vec<Vector> = (0..60).map(|_| random.direction() * 0.5).collect();
     [Shape::from_points(&[Vector::zeros()], &options).unwrap(), cuboid([0.5, 0.5, 0.25]), hull(&round)]

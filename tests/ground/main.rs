@@ -4,6 +4,7 @@ mod attack;
 mod contacts;
 mod distances;
 mod input;
+mod nearest;
 
 use swiftprox::ground::{Ground, HeightGrid};
 use swiftprox::math::Vector;

@@ -21,6 +21,7 @@ use swiftprox::ffi::pair_batch::CPairQuestion;
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
+use swiftprox::ffi::scene_ground::CSceneGroundAnswer;
 use swiftprox::ffi::shape::{CFace, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
@@ -33,8 +34,8 @@ use swiftprox::pair::{
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
 use swiftprox::scene::{
-    Contact, FirstHit, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer, SceneRayHit,
-    SceneStatistics,
+    Contact, FirstHit, GroupFilter, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer,
+    SceneGroundContact, SceneRayHit, SceneStatistics,
 };
 
 const HEADERS: [&str; 2] =
@@ -171,6 +172,9 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
         swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
         swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_group_filter = GroupFilter { groups, mask },
+        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
+        swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
         swiftprox_pair_event = PairEvent {
             object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
             objects_state, result, first_point, point_count

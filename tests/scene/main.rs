@@ -5,6 +5,7 @@ mod casts;
 mod contacts;
 mod counts;
 mod events;
+mod grounds;
 mod listener;
 mod motions;
 mod placed;

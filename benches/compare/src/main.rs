@@ -10,6 +10,7 @@ mod crowd;
 mod depth;
 mod distance;
 mod figures;
+mod ground;
 mod marches;
 mod method;
 mod options;
@@ -54,6 +55,8 @@ fn main() -> ExitCode {
             build_time::run(&options)
         } else if options.resting {
             resting::run(&options)
+        } else if options.grounds {
+            ground::run(&options)
         } else if options.depth {
             depth::run(&options)
         } else {

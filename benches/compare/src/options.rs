@@ -39,6 +39,8 @@ usage: compare [options]
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
                     swiftprox-manifold, coal-1e-10, mujoco-1e-6, jolt-1e-6, bullet-1e-4, libccd-mpr-1e-4,
                     parry-hc
+  --grounds         time contacts of 1,000 bodies at rest and sliding on a ground of 20,000 triangles instead; --count is rounded up to
+                    thousands, --methods of swiftprox, parry, parry-fixed
   --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
                     rays; --count is the number of motions a scene, a quarter of that of rays
   --build           time the building of shapes instead
@@ -66,6 +68,7 @@ pub struct Options {
     pub passes: usize,
     pub workload: Option<PathBuf>,
     pub resting: bool,
+    pub grounds: bool,
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
@@ -101,6 +104,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         passes: 9,
         workload: None,
         resting: false,
+        grounds: false,
         build: false,
         crowd: None,
         casts: None,
@@ -139,6 +143,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--workload" => options.workload = Some(value()?.into()),
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
             "--resting" => options.resting = true,
+            "--grounds" => options.grounds = true,
             "--casts" => {
                 options.casts = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }

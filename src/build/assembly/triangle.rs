@@ -19,7 +19,10 @@ pub fn refill_triangle(polyhedron: &mut Polyhedron, corners: &[Vector; 3], norma
     polyhedron.centre = centre;
     polyhedron.simple = centre == Vector::zeros() && (SMALLEST..=LARGEST).contains(&polyhedron.radius);
     polyhedron.mass = mass_of(&positions).about(&centre);
-    let slacks = normals.map(|normal| width(&normal, &positions, &positions));
+    let [front, back] = normals;
+    let slack = width(front, &positions, &positions);
+    // Turned round it is as wide.
+    let slacks = [slack, if *back == -front { slack } else { width(back, &positions, &positions) }];
     move_edges(polyhedron, &positions, normals, &slacks);
     move_faces(polyhedron, &positions, normals, &slacks);
     move_vertices(polyhedron, &positions);

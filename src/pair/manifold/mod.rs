@@ -19,6 +19,7 @@ mod four;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::config::PairConfig;
@@ -114,6 +115,24 @@ impl Sink<'_> {
             self.push(fill);
         }
     }
+}
+
+/// Has points added to a list that grows with them.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory), beside what `find` says.
+pub(crate) fn add_points<A>(points: &mut Vec<ManifoldPoint>, find: impl FnOnce(&mut Sink) -> A) -> Result<A> {
+    let mut written = Ok(());
+    let mut write = |_: usize, fill: Fill| {
+        if written.is_ok() {
+            written = push(points, ManifoldPoint::default());
+        }
+        if let (Ok(()), Some(point)) = (&written, points.last_mut()) {
+            fill(point);
+        }
+    };
+    let found = find(&mut Sink { capacity: usize::MAX, written: 0, write: &mut write });
+    written.map(|()| found)
 }
 
 /// As [`manifold_with_distance`], to where the caller says.

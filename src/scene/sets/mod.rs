@@ -6,4 +6,5 @@ pub(crate) mod nearest;
 pub(crate) mod first_hit;
 pub(crate) mod rays;
 pub(crate) mod casts;
+pub(crate) mod grounds;
 pub(crate) mod scratch;

@@ -1,8 +1,10 @@
 //! What a question about a set works in.
 
+use crate::ground::GroundContacts;
 use crate::scene::near::tree::Branch;
 use crate::scene::sets::caches::Caches;
 use crate::scene::sets::casts::{Approach, Mover, SweptBox};
+use crate::scene::sets::grounds::SceneGroundContact;
 use crate::scene::sets::members::Member;
 use crate::scene::sets::nearest::Candidates;
 use crate::scene::sets::rays::{Nearing, SceneRayHit};
@@ -26,4 +28,7 @@ pub struct SetScratch {
     pub(crate) movers: Vec<Mover>,
     pub(crate) boxes: Vec<SweptBox>,
     pub(crate) approaches: Vec<Approach>,
+    /// Where the last piece meets a ground, and the points of all pieces.
+    pub(crate) ground: GroundContacts,
+    pub(crate) contacts: Vec<SceneGroundContact>,
 }

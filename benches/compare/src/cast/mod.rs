@@ -6,7 +6,7 @@
 #[cfg(any(fcl, bullet64))]
 mod native;
 mod ours;
-mod parry;
+pub mod parry;
 mod peers;
 mod rays;
 mod scenes;

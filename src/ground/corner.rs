@@ -1,0 +1,122 @@
+//! The corner of a triangle that reaches farthest behind a face of the body. The face, and the box in the body's frame, tell
+//! triangles that are out of reach; where all other faces are farther from the corner, it is the nearest point, or the deepest.
+
+use super::PlacedGround;
+use super::lowest::{Lowest, Margin, local_point};
+use super::tree::Bounds;
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::pair::{Feature, FeatureKind, Placed, SignedDistance, label};
+use crate::polyhedron::{NONE, Polyhedron};
+use crate::shape::Triangle;
+use crate::solve::state::FeatureId;
+
+/// Rotations of which no entry of RᵀR − I exceeds this are taken for rigid, and their transpose for the inverse.
+const RIGID: f64 = 16.0 * U;
+
+/// What a face of the body says of a triangle.
+pub(super) enum Behind {
+    /// The triangle is farther from the body than the margin.
+    Beyond,
+    Nearest(SignedDistance),
+    Open,
+}
+
+/// Looks at the body's own box, and at the face most parallel to a triangle of those at the lowest vertex, for poses that are
+/// accepted.
+///
+/// Of a face with the plane n·x = o and the slack σ, all of the body has n·x ≤ o + σ, and all of the face |n·x − o| ≤ σ. So the
+/// signed distance is at least that of the triangle from the plane, less σ. A point with n·x < o − σ for all faces is not on the
+/// surface; the set of these is convex, and inside if the centre, which is inside, is one of them. Such a point is as deep as the
+/// least of o − n·x − σ.
+pub(super) fn behind_face(
+    body: Placed,
+    ground: PlacedGround,
+    triangle: &Triangle,
+    lowest: &Lowest,
+    margin: Margin,
+) -> Behind {
+    let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
+    if pose.rotation_defect() > RIGID {
+        return Behind::Open;
+    }
+    // The bound of `Lowest` holds twice over for points in the body's frame: the transpose is off by three times the defect.
+    let error = 2.0 * lowest.error;
+    let world = triangle.corners.map(|corner| ground.pose.transform(&corner));
+    let corners = world.map(|corner| pose.rotate_back(&(corner - pose.translation())) - polyhedron.centre);
+    if margin.is_beyond(gap_of_own_box(body, &Bounds::of(&corners)) - error) {
+        return Behind::Beyond;
+    }
+    let is_solid = polyhedron.dimension == 3 && body.shape.extent().inner_radius > 0.0;
+    let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)).filter(|_| is_solid)
+    else {
+        return Behind::Open;
+    };
+    let plane = &polyhedron.faces[face as usize];
+    let heights = corners.map(|corner| plane.planes.value(0, &corner));
+    let least = (1..3).fold(0, |least, k| if heights[k] < heights[least] { k } else { least });
+    let lower = heights[least] - plane.slack - error;
+    if margin.is_beyond(lower) {
+        return Behind::Beyond;
+    }
+    let is_deep = heights[least] + plane.slack + error < 0.0;
+    // Of bodies that are apart, a point a little behind the foot on the face.
+    let inner = if is_deep { 0.0 } else { 2.0 * (plane.slack + error) };
+    let way = if is_deep { 0.0 } else { heights[least] + inner };
+    let point = corners[least] - plane.normal * way;
+    let Some(depth) = depth_of(polyhedron, &point, error) else { return Behind::Open };
+    let upper = if is_deep { -depth } else { way + error };
+    // Another face is nearer.
+    if is_deep && upper > heights[least] + plane.slack + error {
+        return Behind::Open;
+    }
+    // The sum with +0 turns −0 into 0.
+    let normal = (-pose.rotate(&plane.normal)).add_scalar(0.0);
+    let Some(distance) = margin.distance([lower, upper], heights[least]) else { return Behind::Open };
+    let world1 = world[least] + normal * distance.distance;
+    Behind::Nearest(SignedDistance {
+        local1: local_point(pose, &world1).into(),
+        local2: triangle.corners[least].into(),
+        world1: world1.into(),
+        world2: world[least].into(),
+        normal: normal.into(),
+        feature1: label(polyhedron, FeatureId::Face(face), &point),
+        feature2: Feature { kind: FeatureKind::Vertex, ids: [triangle.labels[least], 0] },
+        ..distance
+    })
+}
+
+/// How far a box in the centred frame of a body is from the body's own box along one of its axes, or less than 0.
+fn gap_of_own_box(body: Placed, bounds: &Bounds) -> f64 {
+    let (middle, half) = body.shape.extent().box_about_centre();
+    let aside = (bounds.lower - middle).sup(&(middle - bounds.upper)) - half;
+    aside.max()
+}
+
+/// Of the faces at a vertex the one most parallel to a direction. `None` of a vertex without edges.
+fn most_parallel(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
+    let edges = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|edge| *edge != NONE);
+    let mut best = (None, f64::NEG_INFINITY);
+    for edge in edges {
+        // Around the vertex each face comes with one edge as its left one.
+        let edge = &polyhedron.edges[edge as usize];
+        let face = if edge.tail() == vertex { edge.left() } else { edge.right() };
+        let parallel = polyhedron.faces[face as usize].normal.dot(towards);
+        if parallel > best.1 {
+            best = (Some(face), parallel);
+        }
+    }
+    best.0
+}
+
+/// How deep a point in centred coordinates is in a solid body, at least; `None` unless it and the centre are certainly inside.
+fn depth_of(polyhedron: &Polyhedron, point: &Vector, error: f64) -> Option<f64> {
+    let mut least = f64::INFINITY;
+    for face in &polyhedron.faces {
+        let depth = -face.planes.value(0, point) - face.slack - error;
+        if !(depth > 0.0 && face.planes.offset[0] + face.slack < 0.0) {
+            return None;
+        }
+        least = least.min(depth);
+    }
+    Some(least)
+}

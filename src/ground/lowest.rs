@@ -1,0 +1,119 @@
+//! The lowest vertex of a body over the plane of a triangle. It tells most triangles that are out of reach; where it is over the
+//! triangle and not below, it is the nearest point.
+
+use super::PlacedGround;
+use super::reach::Reach;
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::pair::{Feature, FeatureKind, Outcome, Placed, Radii, SignedDistance};
+use crate::shape::Triangle;
+use crate::solve::certificate::of_vertex;
+
+/// The vertex of the polyhedron that is lowest, up to an excess that counts in `lower`.
+pub(super) struct Lowest {
+    pub vertex: u32,
+    /// Where it is.
+    world: Vector,
+    /// The triangle's normal in the world.
+    pub up: Vector,
+    /// Its height over the first corner of the triangle; all of the polyhedron is at least `lower` over the triangle.
+    height: f64,
+    pub lower: f64,
+    /// How far heights and feet may be off.
+    pub error: f64,
+}
+
+impl Lowest {
+    /// Of a body and a triangle of a ground, for poses that are accepted; the climb begins at `start`.
+    ///
+    /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound. A point that is placed is
+    /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
+    /// direction to 4u of it, the length of the direction to 4u, and the direction inside the body to 7u of twice its radius: all
+    /// in all less than 64u of those lengths.
+    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, reach: &Reach, start: u32) -> Lowest {
+        let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
+        let up = reach.world_normal(&triangle.normal);
+        let downwards = pose.rotate_back(&-up);
+        let (vertex, _) = polyhedron.support(&downwards, start);
+        let world = pose.transform(&polyhedron.local_position(vertex));
+        let corners = triangle.corners.map(|corner| ground.pose.transform(&corner));
+        let above_first = |point: &Vector| up.dot(&(point - corners[0]));
+        let highest = above_first(&corners[1]).max(above_first(&corners[2])).max(0.0);
+        let lengths = triangle.corners.iter().map(|corner| corner.lp_norm(1)).sum::<f64>();
+        let size = pose.translation().lp_norm(1)
+            + ground.pose.translation().lp_norm(1)
+            + 2.0 * (polyhedron.centre.lp_norm(1) + 2.0 * polyhedron.radius + lengths);
+        let (height, error) = (above_first(&world), 64.0 * U * size);
+        let lower = height - highest - of_vertex(polyhedron, vertex, &downwards) - error;
+        Lowest { vertex, world, up, height, lower, error }
+    }
+
+    /// The signed distance of body and triangle where it is certain that the vertex is nearest: it is over the triangle, and the
+    /// polyhedron above it.
+    pub fn contact(&self, body: Placed, triangle: &Triangle, reach: &Reach, margin: Margin) -> Option<SignedDistance> {
+        let foot = self.world - self.up * self.height;
+        let local2 = reach.point(&foot);
+        if !(self.lower > 0.0 && is_inside(triangle, &local2, 4.0 * self.error)) {
+            return None;
+        }
+        let distance = margin.distance([self.lower, self.height + self.error], self.height)?;
+        let lowest = self.world - self.up * margin.radius;
+        let label = body.shape.polyhedron().vertex_labels[self.vertex as usize];
+        Some(SignedDistance {
+            local1: local_point(body.pose, &lowest).into(),
+            local2: local2.into(),
+            world1: lowest.into(),
+            world2: foot.into(),
+            normal: self.up.into(),
+            feature1: Feature { kind: FeatureKind::Vertex, ids: [label, 0] },
+            feature2: Feature { kind: FeatureKind::Face, ids: [triangle.label, 0] },
+            ..distance
+        })
+    }
+
+    /// Whether the vertex is below the triangle's plane, and its foot on it in the triangle.
+    pub fn is_through(&self, triangle: &Triangle, reach: &Reach) -> bool {
+        self.height < 0.0 && is_inside(triangle, &reach.point(&(self.world - self.up * self.height)), 0.0)
+    }
+}
+
+/// How near a body has to be that has a swept radius.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Margin {
+    pub radius: f64,
+    pub margin: f64,
+}
+
+impl Margin {
+    /// Whether a polyhedron that is at least so far away belongs to a body beyond the margin.
+    pub fn is_beyond(&self, lower: f64) -> bool {
+        Radii::of_one(self.radius).off([lower, lower])[0] > self.margin
+    }
+
+    /// Outcome, interval and estimate of the body for those of its polyhedron, without points; `None` where rounding hides which
+    /// sign the distance has, or whether it is more than the margin.
+    pub fn distance(&self, of_polyhedron: [f64; 2], estimate: f64) -> Option<SignedDistance> {
+        let [lower, upper] = Radii::of_one(self.radius).off(of_polyhedron);
+        let is_open = |limit: f64| lower <= limit && upper > limit;
+        if is_open(0.0) || is_open(self.margin) {
+            return None;
+        }
+        let outcome = if lower > 0.0 { Outcome::Separated } else { Outcome::Intersecting };
+        let distance = clamp(estimate - self.radius, lower, upper);
+        Some(SignedDistance { outcome, distance, lower, upper, ..SignedDistance::default() })
+    }
+}
+
+/// A point of the world in the frame of a body, also of one that is not quite rigid.
+pub(super) fn local_point(pose: &Pose, world: &Vector) -> Vector {
+    let from = world - pose.translation();
+    pose.rotation().try_inverse().map_or_else(|| pose.rotate_back(&from), |back| back * from)
+}
+
+/// Whether a point of the plane of a triangle is in it, and so far from its sides.
+fn is_inside(triangle: &Triangle, point: &Vector, distance: f64) -> bool {
+    (0..3).all(|k| {
+        let [tail, head] = [triangle.corners[k], triangle.corners[(k + 1) % 3]];
+        let inward = triangle.normal.cross(&(head - tail));
+        inward.dot(&(point - tail)) >= distance * inward.norm()
+    })
+}
