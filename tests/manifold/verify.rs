@@ -233,3 +233,31 @@ fn a_point_on_the_far_side_is_refused() {
     let refused = verify_manifold(case.bodies(), &case.cache, &case.config, &manifold, &points).unwrap_err();
     assert!(refused.message().contains("on no face that looks towards the other"), "{refused}");
 }
+
+/// Segments through hulls, so long that squares of lengths overflow. Cause: weights of points on edges
+/// were quotients of such squares, NaN, and what was right was refused. Found by fuzzing.
+#[test]
+fn what_is_said_of_bodies_whose_squares_overflow_holds() {
+    let mut random = Random::new(0x302);
+    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+    let shape = |corners: &[Vector]| Shape::from_points(corners, &options).unwrap();
+    for size in [1e100, 1e160, 1e280, 1e302] {
+        for _ in 0..20 {
+            let end = random.direction() * size;
+            let small: Vec<Vector> = (0..8).map(|_| random.vector() * 40.0).collect();
+            let plate: Vec<Vector> = (0..3).map(|_| random.vector() * size).collect();
+            for other in [shape(&small), shape(&plate)] {
+                let poses = [Pose::IDENTITY, Pose::new(&Matrix::identity(), &random.vector())];
+                let case = Case::new([other, shape(&[end, -end])], poses, ALL);
+                let said = case.verify();
+                // Rounding is told to be too much for doubles, or the answer holds.
+                assert!(
+                    matches!(said, Ok(()) | Err(Error::Argument(_))),
+                    "{said:?} {:?} {:?}",
+                    case.manifold,
+                    case.points
+                );
+            }
+        }
+    }
+}

@@ -145,6 +145,12 @@ impl<'a> Bounds<'a> {
     }
 }
 
+/// Vectors over the largest of their coordinates: no product of four of them is beyond the range of doubles.
+fn in_range<const N: usize>(vectors: [Vector; N]) -> [Vector; N] {
+    let largest = vectors.iter().map(Vector::amax).fold(0.0, f64::max);
+    if largest > 0.0 { vectors.map(|v| v / largest) } else { vectors }
+}
+
 /// R·p.
 fn rotate(pose: &Pose, p: &WideVector) -> WideVector {
     pose.rows.map(|[x, y, z, _]| wide_dot(&widen(&Vector::new(x, y, z)), p))
@@ -173,15 +179,15 @@ impl PointInside {
     /// About the point of a segment that is nearest to `point`.
     pub fn on_segment(polyhedron: &Polyhedron, [tail, head]: [u32; 2], point: &Vector) -> PointInside {
         let [from, to] = [tail, head].map(|v| polyhedron.vertices[v as usize].position);
-        let along = to - from;
-        let weight = clamp((point - from).dot(&along) / divisor(along.norm_squared()), 0.0, 1.0);
+        let [along, aside] = in_range([to - from, point - from]);
+        let weight = clamp(aside.dot(&along) / divisor(along.norm_squared()), 0.0, 1.0);
         PointInside { vertices: [tail, head, tail], weights: [weight, 0.0] }
     }
 
     /// About where `point` is over a triangle, if it is.
     pub fn on_triangle(polyhedron: &Polyhedron, corners: [u32; 3], point: &Vector) -> PointInside {
         let [a, b, c] = corners.map(|v| polyhedron.vertices[v as usize].position);
-        let (u, v, r) = (b - a, c - a, point - a);
+        let [u, v, r] = in_range([b - a, c - a, point - a]);
         let (uu, uv, vv, ur, vr) = (u.dot(&u), u.dot(&v), v.dot(&v), u.dot(&r), v.dot(&r));
         let determinant = divisor(uu * vv - uv * uv);
         let weight = |numerator: f64| clamp(numerator / determinant, 0.0, 1.0);
@@ -195,7 +201,9 @@ impl PointInside {
 
     /// About how far it is from a point.
     pub fn distance(&self, polyhedron: &Polyhedron, point: &Vector) -> f64 {
-        length(&(narrow(&self.position(polyhedron, 1.0)) - point))
+        // Products in double-double split their factors, which takes 27 bits of the range.
+        let unit = power_of_two(if polyhedron.radius > 1.0 { -64 } else { 0 });
+        length(&(narrow(&self.position(polyhedron, unit)) - point * unit)) / unit
     }
 
     /// In the polyhedron's frame, times a power of two.
