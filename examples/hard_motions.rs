@@ -3,7 +3,8 @@
 //!
 //!   cargo run --release --example hard_motions -- [--count N] [--seed N] [--samples N]
 //!
-//! `--count 800000` takes some twenty minutes of one core. Motions of one seed are the same everywhere, so several seeds can share the work.
+//! `--count 800000` takes some twenty minutes of one core. Motions of one seed are the same everywhere, so several seeds can share
+//! the work.
 
 use std::process::ExitCode;
 

@@ -1,6 +1,6 @@
-//! Notes the compiler, and compiles the shims of valgrind and of those peers in C and C++ that are there: what pkg-config finds (Debian:
-//! libfcl-dev, libccd-dev, libbullet-dev), of the environment of Python that `PEERS_PYTHON` names coal and mujoco, and the Jolt
-//! that is built in the folder `PEERS_JOLT`. The comparison leaves out what is not there.
+//! Notes the compiler, and compiles the shims of valgrind and of those peers in C and C++ that are there: what pkg-config finds
+//! (Debian: libfcl-dev, libccd-dev, libbullet-dev), of the environment of Python that `PEERS_PYTHON` names coal and mujoco, and the
+//! Jolt that is built in the folder `PEERS_JOLT`. The comparison leaves out what is not there.
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

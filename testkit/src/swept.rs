@@ -18,7 +18,8 @@ pub struct Length {
 }
 
 impl Length {
-    /// How far bodies are apart whose polytopes have this distance. Where those intersect the bodies are at least as deep as it says.
+    /// How far bodies are apart whose polytopes have this distance. Where those intersect the bodies are at least as deep as it
+    /// says.
     pub fn between(polytopes: &Truth, radii: [f64; 2]) -> Length {
         let square = polytopes.squared_distance.clone();
         Length { is_negative: false, square, radii: rational(radii[0]) + rational(radii[1]) }

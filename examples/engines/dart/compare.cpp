@@ -1,5 +1,5 @@
-// Scenes in DART with its collision detector by Bullet and with swiftprox, in one run, taking turns. (By FCL, the default, the drums
-// have so many contacts that a step takes seconds.)
+// Scenes in DART with its collision detector by Bullet and with swiftprox, in one run, taking turns. (By FCL, the default, the
+// drums have so many contacts that a step takes seconds.)
 //
 //   dart_compare [--quick]    --quick: two simulated seconds, not ten
 //
