@@ -1,7 +1,8 @@
 // Jolt Physics' queries of its ConvexHullShape, which are of single precision, without convex radius: distances and verdicts by its
 // GJK, depths by its EPA, as its own collision of convex shapes calls them. That begins each time along the line of the centres,
-// and so do depths here: begun along the last axis they are no quicker, and those of bodies with parallel faces are off by up to 2e-3.
-// Distances and verdicts begin along the last axis. Its hulls have at most 256 vertices, and their support looks at all of them.
+// and so do depths here: begun along the last axis they are no quicker, and those of bodies with parallel faces are off by up to
+// 2e-3. Distances and verdicts begin along the last axis. Its hulls have at most 256 vertices, and their support looks at all of
+// them.
 
 #include <Jolt/Jolt.h>
 
