@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that sentences and tables of README.md and docs/choosing.md that have numbers say what the CSV files of benches/results say.
+"""Checks that sentences and tables of README.md, docs/choosing.md and docs/contacts.md that have numbers say what the CSV files of benches/results say.
 Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
@@ -9,7 +9,7 @@ from rows import geometric_mean, machine, read
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-SPEED, BUILD, CROWDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv"
+SPEED, BUILD, CROWDS, GROUNDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv", "grounds.csv"
 
 
 def rows_of(name):
@@ -83,6 +83,27 @@ def speed_table():
     return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
 
 
+PEERS = {"parry": "parry", "parry-fixed": "parry, inner edges mended"}
+
+
+def ground_table():
+    """Times of a body, how many times as long peers take, and how many of their normals are steep."""
+    scenes = {}
+    for row in rows_of(GROUNDS):
+        scenes.setdefault((row["surface"], row["body"], row["motion"]), {})[row["method"]] = row
+    lines = ["| ground | body | motion | swiftprox, µs | " + " | ".join(f"{name}, µs (times)" for name in PEERS.values()) +
+             " | steep normals: swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|---|" + "--:|" * 6]
+    for scene, of in scenes.items():
+        def times(method):
+            ns = float(of[method]["best_ns"])
+            return f"{ns / 1000:.1f}" + ("" if method == "swiftprox" else f" ({ns / float(of['swiftprox']['best_ns']):.1f})")
+
+        methods = ["swiftprox", *PEERS]
+        steep = [f"{int(of[method]['ghosts']):,} of {int(of[method]['normals']):,}" for method in methods]
+        lines.append("| " + " | ".join([*scene, *map(times, methods), *steep]) + " |")
+    return "\n".join(lines)
+
+
 def commits():
     """Tables and meshes are of the same commit as queries."""
     if commit_of(BUILD) != commit_of(SPEED):
@@ -101,6 +122,7 @@ def check(page, said):
 def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
     check("README.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
+    check("docs/contacts.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}"))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 
