@@ -8,7 +8,7 @@ use swiftprox::pair::{FeatureKind, Manifold, ManifoldCache, ManifoldConfig, Mani
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::models::{prism, random_hull};
 use testkit::random::Random;
-use testkit::shapes::{at, cuboid};
+use testkit::shapes::{at, cuboid, hull};
 
 /// A manifold, and all that it is of.
 struct Case {
@@ -260,4 +260,42 @@ fn what_is_said_of_bodies_whose_squares_overflow_holds() {
             }
         }
     }
+}
+
+/// A needle of 10¹⁶ times its thickness: of its faces two are left after merging, and both look away from +x. Cause: a point had to be
+/// on a face that looks towards the other body, where there is none. Found by fuzzing.
+#[test]
+fn points_on_a_needle_hold_whose_faces_all_look_away() {
+    let far = 4.683743612465316e17;
+    let corners =
+        [[0.0, -1.0, 31.0], [29.0, 0.0, -2.75], [-32.0; 3], [8.0, -32.0, -32.0], [0.0, 0.0, -32.0], [1.625, far, far]]
+            .map(Vector::from);
+    let needle =
+        Shape::from_points(&corners, &ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() }).unwrap();
+    assert!(needle.polyhedron().faces.iter().all(|face| face.normal.x < -0.1));
+    let stretched = Matrix::from_diagonal(&Vector::new(1.00390625, 1.0, 1.0));
+    let pose = Pose::new(&stretched, &Vector::repeat(-32.0));
+    let case = Case::new([needle, cuboid([32.0; 3])], [pose, pose], ALL);
+    assert_eq!((case.manifold.outcome, case.verify()), (Outcome::Intersecting, Ok(())), "{:?}", case.points);
+}
+
+/// A small body in a vast one, of which it is said that the depth is anything up to the vast one's size, and that its point is in the
+/// middle of that: less than could be said, and true. Cause: the point is far behind the surface, as its gap's width says, and was
+/// refused. Found by fuzzing.
+#[test]
+fn a_point_as_far_behind_the_surface_as_its_gap_is_wide_holds() {
+    let size = 1e101;
+    let vast = hull(&[Vector::x(), Vector::y(), Vector::z()].map(|axis| [axis * size, -axis * size]).concat());
+    let poses = [Vector::new(16.0, 0.0, -32.0), Vector::repeat(16.0)].map(|at| Pose::new(&Matrix::identity(), &at));
+    let mut case = Case::new([cuboid([1.0; 3]), vast], poses, ALL);
+    assert_eq!((case.manifold.outcome, case.verify()), (Outcome::Intersecting, Ok(())));
+    let [lower, upper] = [-size, -0.0];
+    (case.manifold.lower, case.manifold.upper) = (lower, upper);
+    case.points.truncate(1);
+    (case.manifold.reference, case.manifold.point_count, case.manifold.found_count) = (0, 1, 1);
+    let point = &mut case.points[0];
+    (point.world2, point.gap_lower, point.gap_upper) = (point.world1, lower, upper);
+    point.local2 = (Vector::from(point.world1) - poses[1].translation()).into();
+    assert_eq!(case.verify(), Ok(()), "{:?}", case.points);
+    assert!(case.refuses(|_, points| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0)));
 }

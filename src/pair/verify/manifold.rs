@@ -33,7 +33,7 @@ const AWAY: f64 = -0.1;
 /// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
 /// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
 /// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
-/// | points on the bodies | no farther than b off the surface, on a face that looks at the other body; one point in both frames |
+/// | points on the bodies | no farther than b out of them, or than b and the gap's width behind a face that looks at the other body; one point in both frames |
 /// | their features | they are there; a point is no farther than b from its vertex or edge |
 /// | a gap | that of the two points along the normal is in it, up to the allowance a; at most the margin |
 /// | both points | in line along the normal up to b |
@@ -42,8 +42,6 @@ const AWAY: f64 = -0.1;
 ///
 /// a is the allowance of [`verify`](super::verify). b is a, 2⁻²⁵ of the size of the pair (both radii and the distance of the
 /// centres), and eight times what contact faces are thick at most. That a face is complete is not checked.
-///
-/// Points that hold may be refused of slivers: bodies of 10¹⁷ times their thickness, whose faces are told apart by rounding alone.
 ///
 /// # Errors
 /// As of [`verify_depth`](super::verify_depth); [`Error::Argument`] for fewer points than the manifold has.
@@ -168,7 +166,7 @@ impl<'a> Check<'a> {
         for (witness, towards) in witnesses.iter().zip([-normal, normal]) {
             witness.check_point(self.near, &[])?;
             self.check_feature(witness)?;
-            self.check_facing(witness, &towards)?;
+            self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }
         let apart = difference_of(self.polyhedra, poses, &witnesses);
         let along = normal.dot(&apart);
@@ -196,17 +194,19 @@ impl<'a> Check<'a> {
         Err(unverified(format!("witness point {} lies {off:e} off {:?}", witness.object, witness.feature)))
     }
 
-    /// A point is on a face that does not look away from the other body. Of a body without interior all is surface.
-    fn check_facing(&self, witness: &Witness, towards: &Vector) -> Result<()> {
+    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows: a wide
+    /// gap says that the point is not known to be where the bodies face each other. Of a body without interior all is surface.
+    fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
         if polyhedron.dimension < 3 {
             return Ok(());
         }
         let towards = witness.pose.rotate_back(towards);
         let mut facing = polyhedron.faces.iter().filter(|face| face.normal.dot(&towards) >= AWAY).peekable();
-        // Of a needle that is as thin as its faces are merged within, all that is left may look away.
+        // A needle so thin that faces around it are merged may have none that looks there; its faces say nothing then.
         let is_told = facing.peek().is_some();
-        if !is_told || facing.any(|face| face.planes.value(0, &point) >= -self.near - face.slack) {
+        let behind = self.near + width;
+        if !is_told || facing.any(|face| face.planes.value(0, &point) >= -behind - face.slack) {
             return Ok(());
         }
         Err(unverified(format!("witness point {} is on no face that looks towards the other", witness.object)))
