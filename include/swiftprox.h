@@ -262,7 +262,7 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
 } swiftprox_input;
 
 /** What a face of the hull of a patch is called on which none of the caller's lies: UINT32_MAX. */
-#define SWIFTPROX_NO_FACE 4294967295
+#define SWIFTPROX_NO_FACE UINT32_MAX
 
 /**
  * Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given

@@ -2,7 +2,7 @@
 //! both surfaces, on the sides that face each other, and its gap is that of its two places.
 
 use super::apart::{verify_disjoint, witnesses};
-use super::checks::{between_origins, length, unverified};
+use super::checks::{between_origins, length, too_large, unverified};
 use super::depth::prove_depth;
 use super::numbers::{Numbers, check_numbers};
 use super::witness::{Witness, difference_of};
@@ -96,7 +96,9 @@ fn check_contact(
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let Manifold { outcome, lower, upper, normal, .. } = *manifold;
     let is_sound = match outcome {
-        Outcome::Intersecting => lower > f64::NEG_INFINITY && lower <= upper && upper <= 0.0,
+        // Deeper than the largest double.
+        Outcome::Intersecting if lower == f64::NEG_INFINITY => return Err(too_large()),
+        Outcome::Intersecting => lower <= upper && upper <= 0.0,
         Outcome::Separated => {
             0.0 <= lower && lower <= config.margin && lower <= upper && (upper < f64::INFINITY || lower == f64::MAX)
         }
@@ -194,8 +196,9 @@ impl<'a> Check<'a> {
         Err(unverified(format!("witness point {} lies {off:e} off {:?}", witness.object, witness.feature)))
     }
 
-    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows: a wide
-    /// gap says that the point is not known to be where the bodies face each other. Of a body without interior all is surface.
+    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows:
+    /// a wide gap says that the point is not known to be where the bodies face each other. Of a body without interior all is
+    /// surface.
     fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
         if polyhedron.dimension < 3 {
