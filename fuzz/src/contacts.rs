@@ -132,8 +132,8 @@ fn description(bodies: [Placed; 2]) -> String {
     bodies.map(of).join(" and ")
 }
 
-/// Whether either body is larger than what a manifold takes for one place, 2⁻²⁷ of the pair's size: on a smaller one rounding says
-/// which face a point is on.
+/// Whether either body is larger than one place, 2⁻²⁷ of the pair's size. A smaller one has the witness points of the distance or
+/// depth: which of its features is named depends on where their search began.
 fn have_places(bodies: [Placed; 2]) -> bool {
     let radii = bodies.map(|body| body.shape.polyhedron().radius);
     let centres = bodies.map(|body| body.pose.transform(&body.shape.polyhedron().centre));

@@ -300,23 +300,33 @@ fn a_point_as_far_behind_the_surface_as_its_gap_is_wide_holds() {
     (point.world2, point.gap_lower, point.gap_upper) = (point.world1, lower, upper);
     point.local2 = (Vector::from(point.world1) - poses[1].translation()).into();
     assert_eq!(case.verify(), Ok(()), "{:?}", case.points);
-    let narrow = |points: &mut [ManifoldPoint]| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0);
-    assert!(case.refuses(|_, points| narrow(points)));
-    // The same out of the body, which the small one was found to be.
-    let out = |points: &mut [ManifoldPoint]| {
-        let point = &mut points[0];
-        for coordinates in [&mut point.local1, &mut point.local2, &mut point.world1, &mut point.world2] {
-            coordinates[0] += 0.25 * size;
+    assert!(case.refuses(|_, points| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0)));
+}
+
+/// Small bodies on plates 10⁹ to 10¹² as long, smaller than what is one place of the pair. Cause: their corners were clipped all
+/// the same, and a point was 8,191 out of a body of radius 1. Found by fuzzing.
+#[test]
+fn bodies_smaller_than_one_place_touch_in_one() {
+    let mut random = Random::new(0x17);
+    for k in 0..600 {
+        let long = 10_f64.powf(random.uniform(9.0, 12.0));
+        let plate = hull(
+            &[[-long, -20.0, 21.0], [1.0, -20.0, 15.0], [-32.0, -20.0, -32.0], [12.0, -20.0, -32.0]].map(Vector::from),
+        );
+        let thickness = if k % 2 == 0 { 3e-8 } else { 1.0 };
+        let small: Vec<Vector> =
+            (0..20).map(|_| random.direction().component_mul(&Vector::new(1.0, 1.0, thickness))).collect();
+        let place =
+            Vector::new(random.uniform(-30.0, 30.0), -20.0 + random.uniform(-1.0, 1.0), random.uniform(-30.0, 0.0));
+        let mut shear = Matrix::identity();
+        shear[(2, 1)] = 0.001_953_125;
+        let case = Case::new([plate, hull(&small)], [Pose::IDENTITY, Pose::new(&shear, &place)], ALL);
+        if case.manifold.outcome == Outcome::Beyond {
+            continue;
         }
-    };
-    let mut moved = case.points.clone();
-    out(&mut moved);
-    let checked = verify_manifold(case.bodies(), &case.cache, &case.config, &case.manifold, &moved);
-    assert_eq!(checked, Ok(()), "{moved:?}");
-    assert!(case.refuses(|_, points| {
-        out(points);
-        narrow(points);
-    }));
+        assert_eq!((case.manifold.reference, case.manifold.found_count), (0, 1));
+        assert_eq!(case.verify(), Ok(()), "{:?} {:?}", case.manifold, case.points);
+    }
 }
 
 /// Cubes that overlap by more than the largest double: no interval ends there, and checks say that doubles do not reach so far.

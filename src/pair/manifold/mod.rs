@@ -323,6 +323,10 @@ fn clip(
     ];
     let noise = outlines[0].thickness() + outlines[1].thickness();
     let precision = Precision { rounding, coincident: noise.max(COINCIDENT * size), reference: patches.reference };
+    // All corners of so small a body are one place: which are over the other's patch, rounding would say. A point has no others.
+    if polyhedra.iter().any(|body| body.radius > 0.0 && body.radius <= precision.coincident) {
+        return 0;
+    }
     let origin = poses[1].transform(&polyhedra[1].centre);
     let witness_spots = [contact.world1, contact.world2].map(|p| axes.spot(&(Vector::from(p) - origin)));
     let view = View { outlines: &outlines, poses, precision, margin: config.margin, contact, witness_spots };
