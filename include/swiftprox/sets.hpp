@@ -153,20 +153,32 @@ inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_ground
 {
     return {answer.points + contact.contact.first_point, contact.contact.manifold.point_count};
 }
+namespace detail
+{
+/** Of a set, or of all objects: `ask` is given both in C, and where the answer goes. */
+template <class Ask>
+Result<swiftprox_scene_ground_answer> floor_contacts(const ObjectSet *set, const ManifoldConfig &config, Ask ask)
+{
+    if (set && set->is_uneven()) {
+        return uneven<swiftprox_scene_ground_answer>();
+    }
+    const swiftprox_manifold_config c = config.to_c();
+    const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
+    return asked<swiftprox_scene_ground_answer>(
+        [&](swiftprox_scene_ground_answer *answer) { return ask(set ? &of : nullptr, &c, answer); });
+}
+} // namespace detail
+
 /** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
 inline Result<swiftprox_scene_ground_answer> try_ground_contacts(const SceneView &scene, PlacedGround ground, SetScratch &scratch,
                                                                  const ManifoldConfig &config = {},
                                                                  const ObjectSet *set = nullptr,
                                                                  const swiftprox_group_filter *filter = nullptr)
 {
-    if (set && set->is_uneven()) {
-        return detail::uneven<swiftprox_scene_ground_answer>();
-    }
-    const swiftprox_manifold_config c = config.to_c();
-    const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
-    return detail::asked<swiftprox_scene_ground_answer>([&](swiftprox_scene_ground_answer *answer) {
-        return swiftprox_scene_ground_contacts(scene.get(), set ? &of : nullptr, ground.ground.get(), ground.pose.data(), &c,
-                                               filter, scratch.get(), answer);
+    return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                   swiftprox_scene_ground_answer *answer) {
+        return swiftprox_scene_ground_contacts(scene.get(), of, ground.ground.get(), ground.pose.data(), c, filter,
+                                               scratch.get(), answer);
     });
 }
 /** A contact for each piece. */
@@ -175,14 +187,9 @@ inline Result<swiftprox_scene_ground_answer> try_half_space_contacts(const Scene
                                                                      const ObjectSet *set = nullptr,
                                                                      const swiftprox_group_filter *filter = nullptr)
 {
-    if (set && set->is_uneven()) {
-        return detail::uneven<swiftprox_scene_ground_answer>();
-    }
-    const swiftprox_manifold_config c = config.to_c();
-    const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
-    return detail::asked<swiftprox_scene_ground_answer>([&](swiftprox_scene_ground_answer *answer) {
-        return swiftprox_scene_half_space_contacts(scene.get(), set ? &of : nullptr, &half_space, &c, filter, scratch.get(),
-                                                   answer);
+    return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                   swiftprox_scene_ground_answer *answer) {
+        return swiftprox_scene_half_space_contacts(scene.get(), of, &half_space, c, filter, scratch.get(), answer);
     });
 }
 

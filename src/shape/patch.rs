@@ -10,7 +10,7 @@ use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::Polyhedron;
 
 /// What a face of the hull of a patch is called on which none of the caller's lies: UINT32_MAX.
-pub const NO_FACE: u32 = 0xffff_ffff;
+pub const NO_FACE: u32 = u32::MAX;
 
 /// The hull of a patch, every vertex of which is `used`: the caller's index of each. A face without a polygon is [`NO_FACE`].
 ///

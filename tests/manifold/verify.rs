@@ -3,8 +3,11 @@
 use super::{ALL, FOUR, query, stacked};
 use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::verify::verify_manifold;
-use swiftprox::pair::{FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, Placed};
+use swiftprox::pair::verify::{verify_depth, verify_manifold};
+use swiftprox::pair::{
+    DepthAnswer, DepthCache, DepthConfig, FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
+    Placed, depth,
+};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::models::{prism, random_hull};
 use testkit::random::Random;
@@ -262,8 +265,8 @@ fn what_is_said_of_bodies_whose_squares_overflow_holds() {
     }
 }
 
-/// A needle of 10¹⁶ times its thickness: of its faces two are left after merging, and both look away from +x. Cause: a point had to be
-/// on a face that looks towards the other body, where there is none. Found by fuzzing.
+/// A needle of 10¹⁶ times its thickness: of its faces two are left after merging, and both look away from +x. Cause: a point had
+/// to be on a face that looks towards the other body, where there is none. Found by fuzzing.
 #[test]
 fn points_on_a_needle_hold_whose_faces_all_look_away() {
     let far = 4.683743612465316e17;
@@ -279,9 +282,9 @@ fn points_on_a_needle_hold_whose_faces_all_look_away() {
     assert_eq!((case.manifold.outcome, case.verify()), (Outcome::Intersecting, Ok(())), "{:?}", case.points);
 }
 
-/// A small body in a vast one, of which it is said that the depth is anything up to the vast one's size, and that its point is in the
-/// middle of that: less than could be said, and true. Cause: the point is far behind the surface, as its gap's width says, and was
-/// refused. Found by fuzzing.
+/// A small body in a vast one, of which it is said that the depth is anything up to the vast one's size, and that its point is in
+/// the middle of that: less than could be said, and true. Cause: the point is far behind the surface, as its gap's width says, and
+/// was refused. Found by fuzzing.
 #[test]
 fn a_point_as_far_behind_the_surface_as_its_gap_is_wide_holds() {
     let size = 1e101;
@@ -297,5 +300,37 @@ fn a_point_as_far_behind_the_surface_as_its_gap_is_wide_holds() {
     (point.world2, point.gap_lower, point.gap_upper) = (point.world1, lower, upper);
     point.local2 = (Vector::from(point.world1) - poses[1].translation()).into();
     assert_eq!(case.verify(), Ok(()), "{:?}", case.points);
-    assert!(case.refuses(|_, points| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0)));
+    let narrow = |points: &mut [ManifoldPoint]| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0);
+    assert!(case.refuses(|_, points| narrow(points)));
+    // The same out of the body, which the small one was found to be.
+    let out = |points: &mut [ManifoldPoint]| {
+        let point = &mut points[0];
+        for coordinates in [&mut point.local1, &mut point.local2, &mut point.world1, &mut point.world2] {
+            coordinates[0] += 0.25 * size;
+        }
+    };
+    let mut moved = case.points.clone();
+    out(&mut moved);
+    let checked = verify_manifold(case.bodies(), &case.cache, &case.config, &case.manifold, &moved);
+    assert_eq!(checked, Ok(()), "{moved:?}");
+    assert!(case.refuses(|_, points| {
+        out(points);
+        narrow(points);
+    }));
+}
+
+/// Cubes that overlap by more than the largest double: no interval ends there, and checks say that doubles do not reach so far.
+/// Cause: the manifold's was called wrong. Found by fuzzing.
+#[test]
+fn a_depth_beyond_the_largest_double_is_told_to_be_too_large() {
+    let vast = || cuboid([1.5e308; 3]);
+    let case = Case::new([vast(), vast()], [Pose::IDENTITY; 2], ALL);
+    assert_eq!((case.manifold.outcome, case.manifold.lower), (Outcome::Intersecting, f64::NEG_INFINITY));
+    let told = case.verify();
+    assert!(matches!(&told, Err(Error::Argument(text)) if text.contains("too large")), "{told:?}");
+    let mut cache = DepthCache::default();
+    let mut answer = DepthAnswer::default();
+    depth(case.bodies(), &mut cache, &DepthConfig::default(), &mut answer).unwrap();
+    assert_eq!(answer.upper, f64::INFINITY);
+    assert_eq!(verify_depth(case.bodies(), &cache, &answer), told);
 }

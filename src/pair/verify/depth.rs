@@ -43,7 +43,7 @@ use std::cmp::Ordering;
 /// proved, and the answer may hold.
 ///
 /// # Errors
-/// As of [`super::verify`].
+/// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.
 pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let radii = Radii::of(&bodies);
@@ -85,6 +85,17 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii
     check_normal(polyhedra, poses, &normal, &between, radii.lower - allowed)
 }
 
+fn check_interval(answer: &DepthAnswer) -> Result<()> {
+    let DepthAnswer { lower, depth, upper, .. } = *answer;
+    if upper == f64::INFINITY {
+        return Err(too_large());
+    }
+    if 0.0 <= lower && lower <= depth && depth <= upper {
+        return Ok(());
+    }
+    Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")))
+}
+
 fn check_overlapping(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -93,9 +104,7 @@ fn check_overlapping(
     answer: &DepthAnswer,
 ) -> Result<()> {
     let DepthAnswer { lower, depth, upper, .. } = *answer;
-    if !(0.0 <= lower && lower <= depth && depth <= upper && upper < f64::INFINITY) {
-        return Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")));
-    }
+    check_interval(answer)?;
     let normal = Vector::from(answer.normal);
     let allowed = prove_overlap(polyhedra, poses, cache, radii, &normal, [lower, upper])?;
     let witnesses = witnesses(polyhedra, poses, radii, answer);
@@ -183,9 +192,7 @@ fn check_swept(
     answer: &DepthAnswer,
 ) -> Result<()> {
     let DepthAnswer { lower, depth, upper, normal, feature1, feature2, .. } = *answer;
-    if !(0.0 <= lower && lower <= depth && depth <= upper && upper < f64::INFINITY) {
-        return Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")));
-    }
+    check_interval(answer)?;
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
     let points = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
     if truth.is_zero() {
