@@ -36,6 +36,7 @@ usage: compare [options]
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
+  --motions LIST    with --crowd: of all, brisk, 5%, rest, teleport (all)
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
                     swiftprox-manifold, coal-1e-10, mujoco-1e-6, jolt-1e-6, bullet-1e-4, libccd-mpr-1e-4,
                     parry-hc
@@ -72,6 +73,8 @@ pub struct Options {
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
+    /// Of a crowd; empty: all.
+    pub motions: Vec<String>,
     /// Beginnings of names; empty: all.
     pub casts: Option<Vec<String>>,
     pub answers: Option<[String; 4]>,
@@ -107,6 +110,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         grounds: false,
         build: false,
         crowd: None,
+        motions: Vec::new(),
         casts: None,
         answers: None,
         depths: None,
@@ -142,6 +146,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--passes" => options.passes = number(&value()?)?.max(1),
             "--workload" => options.workload = Some(value()?.into()),
             "--crowd" => options.crowd = Some(list(&value()?).map(number).collect::<Result<_, _>>()?),
+            "--motions" => options.motions = list(&value()?).map(str::to_string).collect(),
             "--resting" => options.resting = true,
             "--grounds" => options.grounds = true,
             "--casts" => {

@@ -227,11 +227,13 @@ impl Search {
             None => false,
         };
         findings.begin(gives_again.then_some(&mut self.before));
-        if request.details.is_some() {
+        let (pairs, finds_contacts) = (list.pairs.len(), request.details.is_some());
+        if finds_contacts {
             list.contacts.make_room(list.caches.len())?;
         }
         let pass = Pass::new(request, proxies, gives_again.then_some(&self.before));
-        let stopped = if searched.workers.share(list.pairs.len()) && !request.early_exit {
+        let looks = if gives_again { self.before.looks(pairs, finds_contacts) } else { pairs };
+        let stopped = if searched.workers.share(looks) && !request.early_exit {
             run_in_parts(searched.workers, &mut self.parts, &pass, list, kind, findings)?;
             false
         } else {
@@ -239,7 +241,7 @@ impl Search {
             pass.run(pairs, &mut marks[kind], &mut Own { caches, contacts: Some(contacts) }, findings)?
         };
         if gives_again {
-            findings.join(&mut self.before)?;
+            findings.join(&mut self.before, finds_contacts)?;
         }
         if !stopped {
             // A request is large: one that is there is not written again, unless what it says of budgets may differ.
@@ -247,7 +249,7 @@ impl Search {
                 *asked = Some(*request);
             }
             *last_pass = Some(searched.world.passes);
-            if request.details.is_some() {
+            if finds_contacts {
                 list.forget_depths(kind);
             }
         }

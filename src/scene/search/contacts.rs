@@ -1,12 +1,13 @@
 //! How deep listed pairs are in each other and where they meet: what a query of contacts says beside its answers.
 
 use crate::base::error::{Result, check_range};
-use crate::base::memory::{extend, push, reserve};
+use crate::base::memory::with_capacity;
 use crate::pair::{
     self, DepthCache, DepthConfig, DepthEnding, Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome,
     PairAnswer, Placed, Reference, Sink, manifold_of,
 };
 use crate::scene::search::query::{Contact, ContactDetail, SceneContacts, SceneQuery};
+use crate::scene::search::slots::{Run, Slots, Source};
 
 /// What is asked of each listed pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -48,7 +49,7 @@ impl Details {
         cache: Option<&mut DepthCache>,
         found: &mut Contacts,
     ) -> Result<()> {
-        let mut contact = Contact { first_point: found.points.len(), ..Contact::default() };
+        let mut contact = Contact { first_point: found.points.count(), ..Contact::default() };
         if let Some(cache) = cache {
             // Nothing is left to refuse: shapes are sound once made, poses and options have been checked.
             pair::depth(bodies, cache, &self.depth, &mut contact.depth)?;
@@ -58,15 +59,15 @@ impl Details {
             let known = if is_deep { Known::Deep(&contact.depth) } else { Known::Apart(answer) };
             contact.manifold = found.points_of(bodies, known, reference, config)?;
         }
-        push(&mut found.list, contact)
+        found.list.push(contact)
     }
 }
 
 /// Contacts of results, in their order, and all their points.
 #[derive(Debug, Default)]
 pub(crate) struct Contacts {
-    list: Vec<Contact>,
-    points: Vec<ManifoldPoint>,
+    list: Slots<Contact>,
+    points: Slots<ManifoldPoint>,
 }
 
 impl Contacts {
@@ -75,12 +76,8 @@ impl Contacts {
         self.points.clear();
     }
 
-    pub fn are_there(&self) -> bool {
-        !self.list.is_empty()
-    }
-
     pub fn view(&self) -> SceneContacts<'_> {
-        SceneContacts { contacts: &self.list, points: &self.points }
+        SceneContacts { contacts: self.list.as_slice(), points: self.points.as_slice() }
     }
 
     fn points_of(
@@ -93,10 +90,7 @@ impl Contacts {
         let mut written = Ok(());
         let mut write = |_: usize, fill: Fill| {
             if written.is_ok() {
-                written = push(&mut self.points, ManifoldPoint::default());
-            }
-            if let (Ok(()), Some(point)) = (&written, self.points.last_mut()) {
-                fill(point);
+                written = self.points.push_with(|point| fill(point));
             }
         };
         let mut sink = Sink { capacity: usize::MAX, written: 0, write: &mut write };
@@ -104,40 +98,144 @@ impl Contacts {
         written.map(|()| manifold)
     }
 
-    /// Adds one of those of before.
-    pub fn again(&mut self, before: &Contacts, at: usize) -> Result<()> {
-        self.append(&before.list[at..=at], &before.points)
-    }
-
-    /// Adds those of another part behind.
-    pub fn append_all(&mut self, part: &Contacts) -> Result<()> {
-        self.append(&part.list, &part.points)
-    }
-
-    /// Adds contacts, whose points are some of those given.
-    fn append(&mut self, list: &[Contact], points: &[ManifoldPoint]) -> Result<()> {
-        reserve(&mut self.list, list.len())?;
-        for contact in list {
-            let first_point = self.points.len();
-            let own = &points[contact.first_point..][..contact.manifold.point_count as usize];
-            extend(&mut self.points, own.iter().copied())?;
-            self.list.push(Contact { first_point, ..*contact });
+    /// Puts new contacts between these that are listed again, as their results are.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn join(&mut self, new: &Contacts, runs: &[Run]) -> Result<()> {
+        let mut runs_of_points = with_capacity(runs.len())?;
+        runs_of_points.extend(runs.iter().map(|run| match run.source {
+            Source::Before => self.points_of_run(run),
+            Source::New => new.points_of_run(run),
+        }));
+        self.list.join(&new.list, runs)?;
+        self.points.join(&new.points, &runs_of_points)?;
+        let (mut place, mut first_point) = (0, 0);
+        for (run, points) in runs.iter().zip(&runs_of_points) {
+            if points.first != first_point {
+                for contact in &mut self.list.as_mut_slice()[place..place + run.count] {
+                    contact.first_point = contact.first_point - points.first + first_point;
+                }
+            }
+            (place, first_point) = (place + run.count, first_point + points.count);
         }
         Ok(())
     }
 
+    /// The points of some contacts.
+    fn points_of_run(&self, run: &Run) -> Run {
+        let contacts = &self.list.as_slice()[run.rows()];
+        let [first, .., last] = contacts else {
+            let count = contacts.first().map_or(0, |only| only.manifold.point_count as usize);
+            return Run { first: contacts.first().map_or(0, |only| only.first_point), count, ..*run };
+        };
+        let end = last.first_point + last.manifold.point_count as usize;
+        Run { first: first.first_point, count: end - first.first_point, ..*run }
+    }
+
+    /// Where contacts and points of all parts go that are still to be copied.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn rooms<'a>(
+        &'a mut self,
+        parts: impl Iterator<Item = &'a Contacts> + Clone,
+    ) -> Result<impl Iterator<Item = Room<'a>>> {
+        let lists = self.list.rooms(parts.clone().map(|part| part.list.count()))?;
+        let mut first_point = self.points.count();
+        let rooms = self.points.rooms(parts.map(|part| part.points.count()))?;
+        Ok(lists.zip(rooms).map(move |(list, points)| {
+            let room = Room { first_point, list, points };
+            first_point += room.points.len();
+            room
+        }))
+    }
+
     /// Of a query that stopped there is but the last.
     pub fn keep_last(&mut self) {
-        let before = self.list.len().saturating_sub(1);
-        self.list.drain(..before);
-        if let Some(last) = self.list.first_mut() {
-            self.points.drain(..last.first_point);
-            last.first_point = 0;
-        }
+        let Some(last) = self.list.as_slice().last() else { return };
+        self.points.keep_last(last.manifold.point_count as usize);
+        self.list.keep_last(1);
+        self.list.as_mut_slice()[0].first_point = 0;
     }
 
     /// How the last depth ended.
     pub fn last_ending(&self) -> Option<DepthEnding> {
-        self.list.last().map(|contact| contact.depth.ending)
+        self.list.as_slice().last().map(|contact| contact.depth.ending)
+    }
+}
+
+/// Room for the contacts of a part among those of all.
+pub(crate) struct Room<'a> {
+    /// So many points come before.
+    first_point: usize,
+    list: &'a mut [Contact],
+    points: &'a mut [ManifoldPoint],
+}
+
+impl Room<'_> {
+    pub fn fill(&mut self, part: &Contacts) {
+        self.points.copy_from_slice(part.points.as_slice());
+        for (room, contact) in self.list.iter_mut().zip(part.list.as_slice()) {
+            *room = Contact { first_point: self.first_point + contact.first_point, ..*contact };
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use swiftprox::random::Random;
+
+    /// Contacts of before and new ones, some without points, in one part or two: each keeps its points, which stand without gaps.
+    #[test]
+    fn contacts_are_joined_with_their_points() {
+        let mut random = Random::new(0xc0a7);
+        let (mut before, mut numbers) = (Contacts::default(), 0..);
+        let mut expected: Vec<Vec<f64>> = Vec::new();
+        for _ in 0..if cfg!(miri) { 10 } else { 300 } {
+            let (mut parts, mut runs, mut listed) =
+                ([Contacts::default(), Contacts::default()], Vec::new(), Vec::new());
+            let (split, go) = (random.below(30), random.below(4));
+            let mut new = 0;
+            for place in 0..=expected.len().max(20) {
+                if random.below(3) == 0 && place < 25 {
+                    let own: Vec<f64> = numbers.by_ref().take(random.below(4)).map(f64::from).collect();
+                    add(&mut parts[usize::from(place > split)], &own);
+                    listed.push(own);
+                    runs.push(Run { source: Source::New, first: new, count: 1 });
+                    new += 1;
+                }
+                if place < expected.len() && random.below(5) > go {
+                    listed.push(expected[place].clone());
+                    runs.push(Run { source: Source::Before, first: place, count: 1 });
+                }
+            }
+            let mut found = Contacts::default();
+            for (mut room, part) in found.rooms(parts.iter()).unwrap().zip(&parts) {
+                room.fill(part);
+            }
+            before.join(&found, &runs).unwrap();
+            expected = listed;
+            let SceneContacts { contacts, points } = before.view();
+            assert_eq!(points.len(), expected.iter().map(Vec::len).sum::<usize>());
+            let mut first_point = 0;
+            for (contact, own) in contacts.iter().zip(&expected) {
+                assert_eq!((contact.first_point, contact.manifold.point_count as usize), (first_point, own.len()));
+                let gaps = points[first_point..][..own.len()].iter().map(|point| point.gap_lower);
+                assert!(gaps.eq(own.iter().copied()));
+                first_point += own.len();
+            }
+            assert_eq!(contacts.len(), expected.len());
+        }
+    }
+
+    fn add(contacts: &mut Contacts, gaps: &[f64]) {
+        let manifold = Manifold { point_count: gaps.len() as u32, ..Manifold::default() };
+        let first_point = contacts.points.count();
+        contacts.list.push(Contact { first_point, manifold, ..Contact::default() }).unwrap();
+        for &gap_lower in gaps {
+            contacts.points.push(ManifoldPoint { gap_lower, ..ManifoldPoint::default() }).unwrap();
+        }
     }
 }

@@ -4,10 +4,11 @@
 //! by as many places as others have come or gone before them; the new ones are put between them at the end.
 
 use crate::base::error::Result;
-use crate::base::memory::{extend, push, reserve};
+use crate::base::memory::{extend, push};
 use crate::scene::near::near_pairs::{Mark, NearPair};
-use crate::scene::search::contacts::Contacts;
+use crate::scene::search::contacts::{self, Contacts};
 use crate::scene::search::query::PairResult;
+use crate::scene::search::slots::{Run, Slots, Source};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::testing::Testing;
@@ -16,14 +17,26 @@ use crate::scene::world::testing::Testing;
 /// pairs of two that have not moved are few.
 const MANY_MOVED: usize = 2;
 
+/// So many pairs of which neither piece has moved take as long as one that is looked at, …
+const UNMOVED_A_LOOK: usize = 16;
+
+/// … and a look that finds contacts as long as so many others.
+const LOOKS_A_CONTACT: usize = 8;
+
+/// So many looks of a pass that gives answers again are worth sharing as much as one of a pass that gives none: to put new results
+/// between those of before, and to find out what has moved, is left to the caller's thread.
+const LOOKS_OF_AGAIN: usize = 4;
+
 /// What a pass found, when another has begun.
 #[derive(Debug, Default)]
 pub(crate) struct Before {
     /// Its results, with what is left of earlier ones behind, while a pass gives them again.
-    results: Vec<PairResult>,
-    pub contacts: Contacts,
-    /// Which pieces have moved since.
+    results: Slots<PairResult>,
+    contacts: Contacts,
+    /// Which pieces have moved since, …
     has_moved: Vec<bool>,
+    /// … and how many.
+    moved: usize,
 }
 
 impl Before {
@@ -34,8 +47,15 @@ impl Before {
     pub fn find_moved(&mut self, proxies: &Proxies, pass: u64) -> Result<bool> {
         self.has_moved.clear();
         extend(&mut self.has_moved, proxies.motions.iter().map(|motion| motion.moved >= pass))?;
-        let count = self.has_moved.iter().filter(|&&has_moved| has_moved).count();
-        Ok(count * MANY_MOVED < self.has_moved.len())
+        self.moved = self.has_moved.iter().filter(|&&has_moved| has_moved).count();
+        Ok(self.moved * MANY_MOVED < self.has_moved.len())
+    }
+
+    /// To share a pass over `pairs` that gives answers again is worth as much as to share one that looks at so many.
+    pub fn looks(&self, pairs: usize, finds_contacts: bool) -> usize {
+        let of_moved = pairs * 2 * self.moved / self.has_moved.len().max(1);
+        let of_moved = if finds_contacts { of_moved * LOOKS_A_CONTACT } else { of_moved };
+        (of_moved + pairs / UNMOVED_A_LOOK) / LOOKS_OF_AGAIN
     }
 
     /// Whether neither piece has moved since the pass before answered the pair.
@@ -49,30 +69,15 @@ impl Before {
 /// What came of a part of the pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
-    /// New results, kept from pass to pass, with what is left of earlier ones behind.
-    pub slots: Vec<PairResult>,
-    pub written: usize,
+    /// New results, …
+    pub slots: Slots<PairResult>,
+    /// … and of each its contact, where they are asked for.
+    pub contacts: Contacts,
     /// In their order all that is listed, new or not.
     runs: Vec<Run>,
     pub listed: usize,
-    /// Of each result, where they are asked for.
-    pub contacts: Contacts,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
-}
-
-/// Results next to each other.
-#[derive(Debug, Clone, Copy)]
-struct Run {
-    source: Source,
-    first: usize,
-    count: usize,
-}
-
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Source {
-    Before,
-    New,
 }
 
 impl Findings {
@@ -81,16 +86,15 @@ impl Findings {
     pub fn begin(&mut self, before: Option<&mut Before>) {
         if let Some(before) = before {
             std::mem::swap(&mut self.slots, &mut before.results);
-            if self.contacts.are_there() {
-                std::mem::swap(&mut self.contacts, &mut before.contacts);
-            }
+            std::mem::swap(&mut self.contacts, &mut before.contacts);
         }
         self.clear();
     }
 
     /// Nothing is found.
     pub fn clear(&mut self) {
-        (self.written, self.listed) = (0, 0);
+        self.slots.clear();
+        self.listed = 0;
         self.runs.clear();
         self.contacts.clear();
         self.statistics = SceneStatistics::default();
@@ -99,35 +103,20 @@ impl Findings {
 
     /// Those of the pass, in the scene's order.
     pub fn results(&self) -> &[PairResult] {
-        &self.slots[..self.written]
+        self.slots.as_slice()
     }
 
-    /// Puts new results between those of before that are listed again. These move within their array, each once at most.
+    /// Puts new results between those of before that are listed again, and so their contacts, if these are asked for.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn join(&mut self, before: &mut Before) -> Result<()> {
-        let joined = &mut before.results;
-        make_room(joined, self.listed)?;
-        // What goes to earlier places goes before anything is put behind it, what goes to later ones the other way round: then
-        // nothing is overwritten that has still to go.
-        let mut place = 0;
-        for &Run { source, first, count } in &self.runs {
-            if source == Source::Before && first > place {
-                joined.copy_within(first..first + count, place);
-            }
-            place += count;
+    pub fn join(&mut self, before: &mut Before, has_contacts: bool) -> Result<()> {
+        before.results.join(&self.slots, &self.runs)?;
+        if has_contacts {
+            before.contacts.join(&self.contacts, &self.runs)?;
         }
-        for &Run { source, first, count } in self.runs.iter().rev() {
-            place -= count;
-            match source {
-                Source::New => joined[place..place + count].copy_from_slice(&self.slots[first..first + count]),
-                Source::Before if first < place => joined.copy_within(first..first + count, place),
-                Source::Before => {}
-            }
-        }
-        std::mem::swap(&mut self.slots, joined);
-        self.written = self.listed;
+        std::mem::swap(&mut self.slots, &mut before.results);
+        std::mem::swap(&mut self.contacts, &mut before.contacts);
         Ok(())
     }
 
@@ -140,8 +129,8 @@ impl Findings {
     /// The new one that has just been written is listed next.
     #[inline(always)]
     pub fn list_new(&mut self) -> Result<()> {
-        self.written += 1;
-        self.list(Source::New, self.written - 1)
+        self.slots.advance();
+        self.list(Source::New, self.slots.count() - 1)
     }
 
     #[inline(always)]
@@ -156,34 +145,31 @@ impl Findings {
         }
     }
 
-    /// Adds those of another part behind, except the results, which go to its [room](Findings::rooms); gives how many are listed
-    /// before them.
+    /// Adds those of another part behind, before whose own `written` are new; results and contacts are still to be copied to their
+    /// [rooms](Findings::rooms). Gives how many are listed before them.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn append(&mut self, part: &Findings) -> Result<u32> {
-        let (written, listed) = (self.written, self.listed);
+    pub fn append(&mut self, part: &Findings, written: usize) -> Result<u32> {
+        let listed = self.listed;
         extend(&mut self.runs, part.runs.iter().map(|run| run.behind(written)))?;
-        self.written += part.written;
         self.listed += part.listed;
-        self.contacts.append_all(&part.contacts)?;
         self.intersecting |= part.intersecting;
         self.statistics.add(&part.statistics);
         Ok(listed as u32)
     }
 
-    /// Where the results of all parts go that have been added, so many of each.
+    /// Where the results and contacts of all parts go that have been added.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn rooms(&mut self, written: impl Iterator<Item = usize>) -> Result<impl Iterator<Item = &mut [PairResult]>> {
-        make_room(&mut self.slots, self.written)?;
-        let mut rest = &mut self.slots[..];
-        Ok(written.map(move |count| {
-            let (room, behind) = std::mem::take(&mut rest).split_at_mut(count);
-            rest = behind;
-            room
-        }))
+    pub fn rooms<'a>(
+        &'a mut self,
+        parts: impl Iterator<Item = &'a Findings> + Clone,
+    ) -> Result<impl Iterator<Item = Room<'a>>> {
+        let results = self.slots.rooms(parts.clone().map(|part| part.slots.count()))?;
+        let contacts = self.contacts.rooms(parts.map(|part| &part.contacts))?;
+        Ok(results.zip(contacts).map(|(results, contacts)| Room { results, contacts }))
     }
 
     /// Sum of `upper − lower` over the results.
@@ -192,22 +178,17 @@ impl Findings {
     }
 }
 
-impl Run {
-    /// The same when so many new results come before its own.
-    fn behind(self, count: usize) -> Run {
-        match self.source {
-            Source::New => Run { first: self.first + count, ..self },
-            Source::Before => self,
-        }
-    }
+/// Room for what a part has found among what all have.
+pub(crate) struct Room<'a> {
+    results: &'a mut [PairResult],
+    contacts: contacts::Room<'a>,
 }
 
-/// At least so many results, that what is written over has not to be made first.
-pub(crate) fn make_room(slots: &mut Vec<PairResult>, count: usize) -> Result<()> {
-    let missing = count.saturating_sub(slots.len());
-    reserve(slots, missing)?;
-    slots.resize(slots.len() + missing, PairResult::default());
-    Ok(())
+impl Room<'_> {
+    pub fn fill(&mut self, part: &Findings) {
+        self.results.copy_from_slice(part.results());
+        self.contacts.fill(&part.contacts);
+    }
 }
 
 #[cfg(test)]
@@ -235,8 +216,8 @@ mod tests {
                 let part = &mut parts[usize::from(place > split)];
                 for _ in 0..if place < 25 { random.below(3) * random.below(come + 1) } else { 0 } {
                     expected.extend(numbers.next());
-                    make_room(&mut part.slots, part.written + 1).unwrap();
-                    part.slots[part.written] = result(expected[expected.len() - 1]);
+                    part.slots.make_room(1).unwrap();
+                    *part.slots.next() = result(expected[expected.len() - 1]);
                     part.list_new().unwrap();
                 }
                 if place < old.len() && random.below(5) > go {
@@ -244,13 +225,15 @@ mod tests {
                     part.list_again(place).unwrap();
                 }
             }
+            let mut written = 0;
             for part in &parts {
-                findings.append(part).unwrap();
+                findings.append(part, written).unwrap();
+                written += part.slots.count();
             }
-            for (room, part) in findings.rooms(parts.iter().map(|part| part.written)).unwrap().zip(&parts) {
-                room.copy_from_slice(part.results());
+            for (mut room, part) in findings.rooms(parts.iter()).unwrap().zip(&parts) {
+                room.fill(part);
             }
-            findings.join(&mut before).unwrap();
+            findings.join(&mut before, false).unwrap();
             assert_eq!(findings.results().iter().map(|result| result.user_data1).collect::<Vec<_>>(), expected);
         }
     }

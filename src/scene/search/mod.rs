@@ -6,10 +6,11 @@
 //! | share | an error budget is dealt out to pairs that levels may answer | `shares.rs` |
 //! | look | what rows of numbers settle of each pair | `narrow_phase.rs` |
 //! | decide | the pair layer answers for what is left | `narrow_phase.rs`, `contacts.rs` |
-//! | list | answers are put in order, new ones between those given again | `findings.rs` |
+//! | list | answers are put in order, new ones between those given again | `findings.rs`, `slots.rs` |
 
 pub(crate) mod query;
 pub(crate) mod statistics;
+mod slots;
 mod contacts;
 pub(crate) mod request;
 mod findings;

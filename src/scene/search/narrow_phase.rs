@@ -20,7 +20,7 @@ use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairC
 use crate::scene::near::contact_memory::ContactMemory;
 use crate::scene::near::near_pairs::{Mark, NearPair, UNLISTED};
 use crate::scene::search::contacts::Details;
-use crate::scene::search::findings::{Before, Findings, make_room};
+use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::query::PairResult;
 use crate::scene::search::request::{Request, Solver};
 use crate::scene::search::statistics::{SceneStatistics, Settled, level_of};
@@ -173,7 +173,7 @@ impl<'a> Pass<'a> {
         let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
         for (pairs, marks) in pairs.chunks_mut(BLOCK).zip(marks.chunks_mut(BLOCK)) {
             self.look_at_all(pairs, marks, &mut left, &mut findings.statistics);
-            make_room(&mut findings.slots, findings.written + left.count)?;
+            findings.slots.make_room(left.count)?;
             let mut next = 0;
             while let Some((at, look)) = left.get(next) {
                 if let Some((ahead, look)) = left.get(next + TEST_AHEAD) {
@@ -195,7 +195,7 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
-        make_room(&mut findings.slots, findings.written + pairs.len())?;
+        findings.slots.make_room(pairs.len())?;
         for (pair, mark) in pairs.iter_mut().zip(marks) {
             let look = self.look_again(pair, mark, &mut findings.statistics);
             if self.follow(look, pair, mark, caches, findings)? {
@@ -314,9 +314,6 @@ impl<'a> Pass<'a> {
     #[inline(always)]
     fn list_again(&self, mark: &mut Mark, findings: &mut Findings) -> Result<bool> {
         let at = mark.result as usize;
-        if let (Some(_), Some(before)) = (self.request.details, self.before) {
-            findings.contacts.again(&before.contacts, at)?;
-        }
         mark.result = findings.listed as u32;
         findings.list_again(at)?;
         findings.statistics.count_unmoved(1, mark.level);
@@ -334,7 +331,7 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
-        let answer = &mut findings.slots[findings.written].answer;
+        let answer = &mut findings.slots.next().answer;
         if let Look::Intersects = look {
             *answer = INSCRIBED;
         } else {
@@ -362,13 +359,12 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
-        let at = findings.written;
-        let answer = &findings.slots[at].answer;
+        let answer = &findings.slots.next().answer;
         (mark.intersects, mark.level) = (answer.outcome == Outcome::Intersecting, level_of(answer));
         if let Some(details) = &self.request.details {
             self.find_details(details, pair, mark, caches, findings)?;
         }
-        self.sign(pair, &mut findings.slots[at]);
+        self.sign(pair, findings.slots.next());
         mark.result = findings.listed as u32;
         findings.list_new()?;
         findings.intersecting |= mark.intersects;
@@ -404,8 +400,8 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<()> {
-        let Findings { slots, written, contacts, .. } = findings;
-        let answer = &slots[*written].answer;
+        let Findings { slots, contacts, .. } = findings;
+        let answer = &slots.next().answer;
         let bodies =
             pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));
         caches.change_contact(pair.cache, mark.intersects, |reference, cache| {

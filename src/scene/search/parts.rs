@@ -110,16 +110,17 @@ pub(crate) fn run_in_parts(
         pass.run(pairs, marks, &mut Together { caches, contacts, written }, findings)
     };
     let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
-    let mut firsts = with_capacity(count)?;
+    let (mut firsts, mut new) = (with_capacity(count)?, 0);
     for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
         result?;
-        firsts.push(findings.append(found)?);
+        firsts.push(findings.append(found, new)?);
+        new += found.slots.count();
         written.put(contacts)?;
     }
-    let rooms = findings.rooms(kept.iter().map(|part| part.findings.written))?;
+    let rooms = findings.rooms(kept.iter().map(|part| &part.findings))?;
     let parts = marks.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
-    workers.map(parts, |(((marks, first), room), part)| {
-        room.copy_from_slice(part.findings.results());
+    workers.map(parts, |(((marks, first), mut room), part)| {
+        room.fill(&part.findings);
         marks.iter_mut().for_each(|mark| mark.shift_result(first));
     })?;
     Ok(())

@@ -81,7 +81,7 @@ pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
         // Few steps of many bodies are as much work as many of few; in too few nothing would settle.
         let steps = (options.count * 1_000 / count.max(1)).clamp(8 * BLOCK, options.count.max(8 * BLOCK));
         for (word, bodies) in [("fat 102", Bodies::Alike("fat")), ("mixed 8-1002", Bodies::Mixed)] {
-            for motion in MOTIONS {
+            for motion in MOTIONS.into_iter().filter(|motion| is_asked(motion.name(), &options.motions)) {
                 for question in [Question::Intersection, Question::Distance, Question::Contact] {
                     let mut world = World::new(bodies, motion, count)?;
                     let mut methods = methods(&world, question, options)?;
@@ -104,8 +104,13 @@ pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
     }
 }
 
+/// Of an empty list all are.
+fn is_asked(name: &str, names: &[String]) -> bool {
+    names.is_empty() || names.iter().any(|asked| asked == name)
+}
+
 fn methods(world: &World, question: Question, options: &Options) -> Result<Vec<Box<dyn Crowd>>, String> {
-    let is_wanted = |name: &str| options.methods.is_empty() || options.methods.iter().any(|wanted| wanted == name);
+    let is_wanted = |name: &str| is_asked(name, &options.methods);
     let mut all: Vec<Box<dyn Crowd>> = Vec::new();
     let ours = |workers| ours::Ours::new(world, question, workers).map(|ours| Box::new(ours) as Box<dyn Crowd>);
     if is_wanted(ours::name(1)) {

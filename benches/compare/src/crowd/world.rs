@@ -21,6 +21,9 @@ pub enum Bodies {
 pub enum Motion {
     /// All by up to 2 % of the radius and 1°.
     All,
+    /// All by normal deviates of 2 % of the radius along each axis, and by 2°, closer together: little of what one step says is
+    /// good for the next.
+    Brisk,
     /// The same, but only one body in 20, others in each step.
     Some,
     /// None, after the first step: a pile of layers that touch.
@@ -29,12 +32,13 @@ pub enum Motion {
     Teleport,
 }
 
-pub const MOTIONS: [Motion; 4] = [Motion::All, Motion::Some, Motion::Rest, Motion::Teleport];
+pub const MOTIONS: [Motion; 5] = [Motion::All, Motion::Brisk, Motion::Some, Motion::Rest, Motion::Teleport];
 
 impl Motion {
     pub fn name(self) -> &'static str {
         match self {
             Motion::All => "all",
+            Motion::Brisk => "brisk",
             Motion::Some => "5%",
             Motion::Rest => "rest",
             Motion::Teleport => "teleport",
@@ -50,6 +54,14 @@ pub struct Step {
 
 /// Bodies of radius 1 and less to so many cubes of side 1: about 1.7 pairs of boxes a body overlap.
 const DENSITY: f64 = 0.053;
+
+/// The same where they move briskly.
+const BRISK_DENSITY: f64 = 0.065;
+
+/// How far they move along an axis in a step.
+const WAY: f64 = 0.02;
+
+const DEGREE: f64 = TAU / 360.0;
 
 pub struct World {
     pub meshes: Vec<PolygonMesh>,
@@ -74,8 +86,9 @@ impl World {
         let mut random = Random::new(0x5ce7e + count as u64);
         let meshes = meshes(bodies).map_err(|e| e.to_string())?;
         let mesh_of = (0..count).map(|_| random.below(meshes.len()) as u32).collect();
-        let side = (count as f64 / DENSITY).cbrt();
-        let bodies = (0..count).map(|_| Body::new(side, &mut random)).collect();
+        let density = if motion == Motion::Brisk { BRISK_DENSITY } else { DENSITY };
+        let side = (count as f64 / density).cbrt();
+        let bodies = (0..count).map(|_| Body::new(side, motion, &mut random)).collect();
         let mut world = World { meshes, mesh_of, motion, side, bodies, random, steps: 0 };
         if motion == Motion::Rest {
             world.pile_up();
@@ -104,13 +117,13 @@ impl World {
         let mut moved = Vec::new();
         for (i, body) in (0..).zip(&mut self.bodies) {
             let moves = match self.motion {
-                Motion::All | Motion::Teleport => true,
+                Motion::All | Motion::Brisk | Motion::Teleport => true,
                 Motion::Some => self.random.below(20) == 0,
                 Motion::Rest => false,
             };
             if moves {
                 if self.motion == Motion::Teleport {
-                    *body = Body::new(self.side, &mut self.random);
+                    *body = Body::new(self.side, self.motion, &mut self.random);
                 } else {
                     body.go_on(self.side);
                 }
@@ -124,11 +137,14 @@ impl World {
 }
 
 impl Body {
-    fn new(side: f64, random: &mut Random) -> Body {
+    fn new(side: f64, motion: Motion, random: &mut Random) -> Body {
         let at = Vector::from_fn(|_, _| random.uniform(0.0, side));
         let axis = random.direction();
-        let spin = rotation(&axis, random.uniform(0.0, TAU / 360.0));
-        Body { at, turn: random.rotation(), velocity: random.vector() * 0.02, spin }
+        let is_brisk = motion == Motion::Brisk;
+        let spin = rotation(&axis, if is_brisk { 2.0 * DEGREE } else { random.uniform(0.0, DEGREE) });
+        let turn = random.rotation();
+        let velocity = if is_brisk { Vector::from_fn(|_, _| normal_deviate(random)) } else { random.vector() };
+        Body { at, turn, velocity: velocity * WAY, spin }
     }
 
     /// Bounces off the walls.
@@ -147,6 +163,12 @@ impl Body {
     fn pose(&self) -> [f64; 12] {
         std::array::from_fn(|k| if k % 4 == 3 { self.at[k / 4] } else { self.turn[(k / 4, k % 4)] })
     }
+}
+
+/// By Box and Muller.
+fn normal_deviate(random: &mut Random) -> f64 {
+    let radius = (-2.0 * random.uniform(f64::MIN_POSITIVE, 1.0).ln()).sqrt();
+    radius * random.uniform(0.0, TAU).cos()
 }
 
 fn meshes(bodies: Bodies) -> swiftprox::error::Result<Vec<PolygonMesh>> {
