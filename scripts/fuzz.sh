@@ -5,8 +5,8 @@
 #   fuzz.sh --as-test [TARGET ...]
 #
 # As a test it runs up to a thousand inputs of one seed, the same every time; and a machine that cannot have what it takes, crates or
-# a C++ compiler, says so, and that is no failure. What fails
-# is kept in fuzz/artifacts, with the command that repeats it; what is new on the way in the build folder.
+# a C++ compiler, says so, and that is no failure. What fails is kept in fuzz/artifacts, with the command that repeats it; what is
+# new on the way in the build folder.
 set -euo pipefail
 cd "$(dirname "$0")/../fuzz"
 as_test=false

@@ -2,7 +2,9 @@
 # What is checked without running anything: formatting, clippy, the width of comments, the pages' tables against their CSV files.
 set -e
 cd "${0%/*}/.."
-cargo fmt --all --check
+for manifest in Cargo.toml benches/compare/Cargo.toml fuzz/Cargo.toml; do
+    cargo fmt --all --check --manifest-path "$manifest"
+done
 cargo clippy --locked --profile checked --workspace --all-targets -- -D warnings
 if LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' \
     --exclude-dir=target --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$'; then

@@ -63,7 +63,8 @@ fn check_writing(mesh: &PolygonMesh) {
 /// What a policy admits the laxer ones admit, and they make the same of it.
 fn check_shape(mesh: &PolygonMesh) {
     let make = |input| Shape::from_mesh(mesh, &ShapeOptions { input, ..ShapeOptions::default() });
-    let policies = [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull, InputPolicy::NearlyConvex, InputPolicy::Patch];
+    let policies =
+        [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::Hull, InputPolicy::NearlyConvex, InputPolicy::Patch];
     let [strict, flat, hull, nearly_convex, patch] = policies.map(make);
     let hull = hull.expect("every mesh has a hull");
     for shape in [&strict, &flat] {
@@ -76,7 +77,9 @@ fn check_shape(mesh: &PolygonMesh) {
     match (&flat, &nearly_convex) {
         (Ok(flat), Ok(nearly_convex)) => assert!(flat == nearly_convex),
         // Labels are those of faces that the hull alone is not given.
-        (Err(_), Ok(nearly_convex)) => assert_eq!(nearly_convex.polyhedron().triangles.len(), hull.polyhedron().triangles.len()),
+        (Err(_), Ok(nearly_convex)) => {
+            assert_eq!(nearly_convex.polyhedron().triangles.len(), hull.polyhedron().triangles.len())
+        }
         (Ok(_), Err(error)) => panic!("{error}"),
         (Err(_), Err(error)) => assert!(matches!(error, Error::Mesh(_)), "{error:?}"),
     }
@@ -92,7 +95,8 @@ fn check_pieces(mesh: &PolygonMesh) {
         Ok(pieces) => {
             let exact = ExactPoints::new(&mesh.vertices).expect("memory");
             for piece in (0..pieces.piece_count()).map(|k| pieces.piece(k)) {
-                let is_above = |corners: &[u32; 3]| piece.iter().flatten().any(|v| exact.orientation(*corners, *v) > 0.0);
+                let is_above =
+                    |corners: &[u32; 3]| piece.iter().flatten().any(|v| exact.orientation(*corners, *v) > 0.0);
                 assert!(!piece.is_empty() && !piece.iter().any(is_above), "{piece:?}");
             }
         }

@@ -114,8 +114,8 @@ fn check_manifold(
     // damage may have chosen between faces that are as parallel.
     let (second, points2, after) = ask(after);
     let (third, points3, _) = ask(after);
-    if (third.normal, third.reference) == (second.normal, second.reference) {
-        assert_eq!(ids(&points3), ids(&points2), "{second:?} {third:?}");
+    if (third.normal, third.reference) == (second.normal, second.reference) && have_places(bodies) {
+        assert_eq!(ids(&points3), ids(&points2), "{second:?} {points2:?} {points3:?} {}", description(bodies));
     }
     if measured {
         measure(bodies, &found, &points);
@@ -130,6 +130,15 @@ fn description(bodies: [Placed; 2]) -> String {
         format!("{vertices:?} at {:?}", body.pose)
     };
     bodies.map(of).join(" and ")
+}
+
+/// Whether either body is larger than what a manifold takes for one place, 2⁻²⁷ of the pair's size: on a smaller one rounding says
+/// which face a point is on.
+fn have_places(bodies: [Placed; 2]) -> bool {
+    let radii = bodies.map(|body| body.shape.polyhedron().radius);
+    let centres = bodies.map(|body| body.pose.transform(&body.shape.polyhedron().centre));
+    let size = radii[0] + radii[1] + (centres[1] - centres[0]).norm();
+    radii[0].min(radii[1]) > size * 2.0_f64.powi(-27)
 }
 
 fn ids(points: &[ManifoldPoint]) -> Vec<u64> {

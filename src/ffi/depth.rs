@@ -414,11 +414,11 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
 ///
 /// Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
 /// swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
-/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b from its
-/// surface, on a face that looks towards the other object, and the same in both frames. The object has its feature; it is no
-/// farther than b from that if it is a vertex or an edge. Its gap is that of the two places along the normal, up to the allowance
-/// of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are, if none was
-/// left out.
+/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b and the width of
+/// its gap from the surface, on a face that looks towards the other object, and the same in both frames. The object has its
+/// feature; the place is no farther than that from a vertex or an edge. Its gap is that of the two places along the normal, up to
+/// the allowance of swiftprox_pair_verify; sideways they are no more than b off. One of the points is as deep as the objects are,
+/// if none was left out.
 ///
 /// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
 /// are thick at most. That a face is complete is not checked.

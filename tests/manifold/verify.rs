@@ -300,7 +300,23 @@ fn a_point_as_far_behind_the_surface_as_its_gap_is_wide_holds() {
     (point.world2, point.gap_lower, point.gap_upper) = (point.world1, lower, upper);
     point.local2 = (Vector::from(point.world1) - poses[1].translation()).into();
     assert_eq!(case.verify(), Ok(()), "{:?}", case.points);
-    assert!(case.refuses(|_, points| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0)));
+    let narrow = |points: &mut [ManifoldPoint]| (points[0].gap_lower, points[0].gap_upper) = (-1.0, 1.0);
+    assert!(case.refuses(|_, points| narrow(points)));
+    // The same out of the body, which the small one was found to be.
+    let out = |points: &mut [ManifoldPoint]| {
+        let point = &mut points[0];
+        for coordinates in [&mut point.local1, &mut point.local2, &mut point.world1, &mut point.world2] {
+            coordinates[0] += 0.25 * size;
+        }
+    };
+    let mut moved = case.points.clone();
+    out(&mut moved);
+    let checked = verify_manifold(case.bodies(), &case.cache, &case.config, &case.manifold, &moved);
+    assert_eq!(checked, Ok(()), "{moved:?}");
+    assert!(case.refuses(|_, points| {
+        out(points);
+        narrow(points);
+    }));
 }
 
 /// Cubes that overlap by more than the largest double: no interval ends there, and checks say that doubles do not reach so far.

@@ -72,8 +72,6 @@ class Algorithm final : public btCollisionAlgorithm
             for (int k = 0; k < before_count; ++k) {
                 if (before[k].m_index0 == point.m_index0 && before[k].m_index1 == point.m_index1) {
                     point.m_appliedImpulse = before[k].m_appliedImpulse;
-                    point.m_appliedImpulseLateral1 = before[k].m_appliedImpulseLateral1;
-                    point.m_appliedImpulseLateral2 = before[k].m_appliedImpulseLateral2;
                     point.m_lifeTime = before[k].m_lifeTime + 1;
                 }
             }

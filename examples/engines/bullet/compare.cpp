@@ -40,6 +40,10 @@ struct World {
         }
         world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), &broad_phase, &solver, configuration.get());
         world->setGravity(btVector3(0, 0, btScalar(-9.81)));
+        // With Bullet's defaults, one direction of friction and 10 iterations, stacks creep, and an arch and a card house fall, with
+        // either collider.
+        world->getSolverInfo().m_solverMode |= SOLVER_USE_2_FRICTION_DIRECTIONS;
+        world->getSolverInfo().m_numIterations = 20;
     }
     ~World()
     {

@@ -344,11 +344,8 @@ impl Program {
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
         let query = u.int_in_range(0..=2)?;
-        let run = [
-            swiftprox_scene_query_intersection,
-            swiftprox_scene_query_distance,
-            swiftprox_scene_query_contact,
-        ][query];
+        let run =
+            [swiftprox_scene_query_intersection, swiftprox_scene_query_distance, swiftprox_scene_query_contact][query];
         let block = Block::new(size_of::<CSceneAnswer>());
         let target = or_null(u, block.at::<CSceneAnswer>())?;
         let handle = or_null(u, scene.handle)?;

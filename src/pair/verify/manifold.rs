@@ -33,8 +33,8 @@ const AWAY: f64 = -0.1;
 /// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
 /// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
 /// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
-/// | points on the bodies | no farther than b out of them, or than b and the gap's width behind a face that looks at the other body; one point in both frames |
-/// | their features | they are there; a point is no farther than b from its vertex or edge |
+/// | points on the bodies | no farther than b and the gap's width out of them, or behind a face that looks at the other body; one point in both frames |
+/// | their features | they are there; a point is no farther than b and the gap's width from its vertex or edge |
 /// | a gap | that of the two points along the normal is in it, up to the allowance a; at most the margin |
 /// | both points | in line along the normal up to b |
 /// | all points | one is as deep as the bodies are, up to b, if none was left out |
@@ -165,10 +165,12 @@ impl<'a> Check<'a> {
         };
         let poses = self.bodies.map(|body| body.pose);
         let witnesses = witnesses(self.polyhedra, poses, &self.radii, &said);
+        // A wide gap says that the points are known no better.
+        let near = self.near + (gap_upper - gap_lower);
         for (witness, towards) in witnesses.iter().zip([-normal, normal]) {
-            witness.check_point(self.near, &[])?;
-            self.check_feature(witness)?;
-            self.check_facing(witness, &towards, gap_upper - gap_lower)?;
+            witness.check_point(near, &[])?;
+            self.check_feature(witness, near)?;
+            self.check_facing(witness, &towards, near)?;
         }
         let apart = difference_of(self.polyhedra, poses, &witnesses);
         let along = normal.dot(&apart);
@@ -186,20 +188,19 @@ impl<'a> Check<'a> {
     }
 
     /// A point is near its vertex or edge; the face of a point is there, which may be one of several that are one to a manifold.
-    fn check_feature(&self, witness: &Witness) -> Result<()> {
+    fn check_feature(&self, witness: &Witness, near: f64) -> Result<()> {
         let none = || unverified(format!("object {} has no {:?}", witness.object, witness.feature));
         let inside = witness.point_inside().ok_or_else(none)?;
         let off = inside.distance(witness.polyhedron, &witness.centred());
-        if witness.feature.kind == FeatureKind::Face || off <= self.near {
+        if witness.feature.kind == FeatureKind::Face || off <= near {
             return Ok(());
         }
         Err(unverified(format!("witness point {} lies {off:e} off {:?}", witness.object, witness.feature)))
     }
 
-    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows:
-    /// a wide gap says that the point is not known to be where the bodies face each other. Of a body without interior all is
+    /// A point is on a face that does not look away from the other body, or so near behind one. Of a body without interior all is
     /// surface.
-    fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
+    fn check_facing(&self, witness: &Witness, towards: &Vector, near: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
         if polyhedron.dimension < 3 {
             return Ok(());
@@ -208,8 +209,7 @@ impl<'a> Check<'a> {
         let mut facing = polyhedron.faces.iter().filter(|face| face.normal.dot(&towards) >= AWAY).peekable();
         // A needle so thin that faces around it are merged may have none that looks there; its faces say nothing then.
         let is_told = facing.peek().is_some();
-        let behind = self.near + width;
-        if !is_told || facing.any(|face| face.planes.value(0, &point) >= -behind - face.slack) {
+        if !is_told || facing.any(|face| face.planes.value(0, &point) >= -near - face.slack) {
             return Ok(());
         }
         Err(unverified(format!("witness point {} is on no face that looks towards the other", witness.object)))
