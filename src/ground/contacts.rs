@@ -130,7 +130,7 @@ impl Visit for Meeting<'_> {
 }
 
 impl Meeting<'_> {
-    /// The signed distance of the body and a triangle, which is laid out; `None` beyond the margin.
+    /// The signed distance of the body and a triangle, which is shown; `None` beyond the margin.
     fn nearest(&mut self, own: &Triangle) -> Result<Option<SignedDistance>> {
         let lowest = Lowest::new(self.body, self.ground, own, &self.reach, self.lowest);
         self.lowest = lowest.vertex;
@@ -146,11 +146,12 @@ impl Meeting<'_> {
                 Behind::Open => None,
             };
         }
-        // Laying it out takes longer than all that.
-        let bodies = [self.body, self.shape.of(own).at(self.ground.pose)];
+        self.shape.show(own);
         if contact.is_some() {
             return Ok(contact);
         }
+        // That takes longer than all before.
+        let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
         if lowest.is_through(own, &self.reach) {
             let config = DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() };
             let mut deep = DepthAnswer::default();
@@ -168,7 +169,7 @@ impl Meeting<'_> {
 impl Meeting<'_> {
     /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
     fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
-        let bodies = [self.body, self.shape.shape().at(self.ground.pose)];
+        let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
         // What is not over the triangle is none of the points that faces have in common, however deep it is.
         let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
@@ -190,7 +191,7 @@ impl Meeting<'_> {
     fn keep_missed(&mut self) -> Result<()> {
         let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
         if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
-            self.shape.of(&self.ground.ground.triangle(triangle));
+            self.shape.show(&self.ground.ground.triangle(triangle));
             self.touch(triangle, &contact, true)?;
         }
         Ok(())
@@ -235,4 +236,51 @@ fn is_over(corners: &[Vector; 3], normal: &Vector, point: &Vector) -> bool {
         let rounding = 64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + tail.lp_norm(1));
         inward.dot(&(point - tail)) >= -rounding * inward.norm()
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Pose;
+    use crate::random::Random;
+    use crate::shape::{Shape, ShapeOptions, TriangleShape};
+
+    /// A manifold reads nothing of a triangle but what [`TriangleShape::show`] moves: the rest is that of another triangle.
+    #[test]
+    fn a_manifold_needs_no_more_of_a_triangle_than_is_shown() {
+        let mut random = Random::new(0x5ee);
+        let corners: [Vector; 8] =
+            std::array::from_fn(|k| Vector::new(k as f64 % 2.0, (k / 2) as f64 % 2.0, (k / 4) as f64));
+        let cube = Shape::from_points(&corners, &ShapeOptions::default()).unwrap();
+        let mut shape = TriangleShape::new().unwrap();
+        let (config, mut most) = (ManifoldConfig { margin: 1.0, ..ManifoldConfig::default() }, 0);
+        for _ in 0..300 {
+            let corners: [Vector; 3] = std::array::from_fn(|_| random.vector() * 2.0);
+            let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();
+            let own = Triangle { corners, normal, labels: [4, 5, 6], label: 7 };
+            let poses = [Pose::new(&random.rotation(), &(random.vector() * 0.5)), Pose::IDENTITY];
+            let contact = SignedDistance {
+                outcome: Outcome::Intersecting,
+                lower: -1.0,
+                upper: -1.0,
+                local1: [0.0; 3],
+                local2: corners[0].into(),
+                world1: poses[0].translation().into(),
+                world2: corners[0].into(),
+                normal: normal.into(),
+                ..SignedDistance::default()
+            };
+            let points_of = |triangle: &Shape| {
+                let bodies = [cube.at(&poses[0]), triangle.at(&poses[1])];
+                let mut points = Vec::new();
+                let found = add_points(&mut points, |sink| manifold_along(bodies, &contact, &config, sink)).unwrap();
+                (found, points)
+            };
+            shape.show(&own);
+            let shown = points_of(shape.shown());
+            assert_eq!(shown, points_of(shape.complete()));
+            most = most.max(shown.1.len());
+        }
+        assert!(most > 3, "{most}");
+    }
 }

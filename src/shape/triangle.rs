@@ -3,7 +3,7 @@
 use super::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::build::assembly::refill_triangle;
+use crate::build::assembly::{move_inner, move_outline};
 use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::polyhedron::Polyhedron;
 
@@ -47,27 +47,39 @@ impl TriangleShape {
         Ok(TriangleShape { shape, corner_of, front })
     }
 
-    /// The triangle that it is.
-    pub fn shape(&self) -> &Shape {
-        &self.shape
+    /// The shape of a triangle that is not on a line, whose coordinates are within the range that
+    /// [`move_outline`](crate::build::assembly::move_outline) says.
+    pub fn of(&mut self, triangle: &Triangle) -> &Shape {
+        self.show(triangle);
+        self.complete()
     }
 
-    /// The shape of a triangle that is not on a line, whose coordinates are within the range that
-    /// [`refill_triangle`] says.
-    pub fn of(&mut self, triangle: &Triangle) -> &Shape {
+    /// Makes it a triangle, as [`of`](TriangleShape::of) takes it, of which only a [manifold](TriangleShape::shown) may be asked.
+    pub fn show(&mut self, triangle: &Triangle) {
         let polyhedron = &mut self.shape.polyhedron;
         let corners = self.corner_of.map(|corner| triangle.corners[corner]);
         let mut normals = [-triangle.normal; 2];
         normals[self.front] = triangle.normal;
-        refill_triangle(polyhedron, &corners, &normals);
+        move_outline(polyhedron, &corners, &normals);
         let labels = self.corner_of.map(|corner| triangle.labels[corner]);
         polyhedron.vertex_labels.copy_from_slice(&labels);
-        polyhedron
-            .edges
-            .iter_mut()
-            .for_each(|edge| edge.labels = [edge.tail(), edge.head()].map(|v| labels[v as usize]));
+        for edge in &mut polyhedron.edges {
+            edge.labels = [edge.tail(), edge.head()].map(|v| labels[v as usize]);
+        }
         polyhedron.face_labels.fill(triangle.label);
-        polyhedron.faces.iter_mut().for_each(|face| face.label = triangle.label);
+        for face in &mut polyhedron.faces {
+            face.label = triangle.label;
+        }
+    }
+
+    /// The shape of the triangle that was [shown](TriangleShape::show), for all queries.
+    pub fn complete(&mut self) -> &Shape {
+        move_inner(&mut self.shape.polyhedron);
+        &self.shape
+    }
+
+    /// The triangle that was shown, for its manifolds.
+    pub fn shown(&self) -> &Shape {
         &self.shape
     }
 }

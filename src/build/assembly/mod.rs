@@ -25,7 +25,7 @@ use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{ContactFaces, LARGEST, NONE, Polyhedron, SMALLEST};
 use layout::{MergedHull, neighbours_of};
 use scale::{factor_to_middle_scale, scale_back};
-pub use triangle::refill_triangle;
+pub use triangle::{move_inner, move_outline};
 
 /// The polyhedron of the exact convex hull of `points`. `polygons`, over the same points, gives the faces' labels; they lie on the
 /// hull up to a tolerance ([`crate::build::check`]). The result depends on the arguments alone: same input, same arrays.

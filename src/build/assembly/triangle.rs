@@ -4,12 +4,12 @@ use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::build::assembly::centre_of;
 use crate::build::assembly::layout::{edge_between, plane_normal, set_plane, slack_of_leaning};
 use crate::build::slack::rise_over;
-use crate::polyhedron::{Bevel, LARGEST, MassProperties, PlaneBlock, Polyhedron, SMALLEST};
+use crate::polyhedron::{Bevel, LARGEST, MassProperties, Polyhedron, SMALLEST};
 
-/// Moves the three vertices of a triangle that [`build`](super::build) made: vertex v to `corners[v]`. `normals` are the unit
-/// normals of its two faces there, right to a few u. Labels stay. The corners are not on a line, no coordinate is beyond
-/// [`LARGEST`], and the triangle, centred, is not within [`SMALLEST`].
-pub fn refill_triangle(polyhedron: &mut Polyhedron, corners: &[Vector; 3], normals: &[Vector; 2]) {
+/// Moves the three vertices of a triangle that [`build`](super::build) made, vertex v to `corners[v]`, and of all else what a
+/// manifold reads: the normals and slacks of its two faces. `normals` are theirs, of unit length, right to a few u. Labels stay. The
+/// corners are not on a line, no coordinate is beyond [`LARGEST`], and the triangle, centred, is not within [`SMALLEST`].
+pub fn move_outline(polyhedron: &mut Polyhedron, corners: &[Vector; 3], normals: &[Vector; 2]) {
     let centre = centre_of(corners);
     // The sum with +0 turns −0 into 0.
     let positions = corners.map(|p| (p - centre).add_scalar(0.0));
@@ -17,15 +17,29 @@ pub fn refill_triangle(polyhedron: &mut Polyhedron, corners: &[Vector; 3], norma
     // The norm is right to 3u.
     polyhedron.radius = longest * (1.0 + 8.0 * UNIT_ROUNDOFF);
     polyhedron.centre = centre;
-    polyhedron.simple = centre == Vector::zeros() && (SMALLEST..=LARGEST).contains(&polyhedron.radius);
-    polyhedron.mass = mass_of(&positions).about(&centre);
     let [front, back] = normals;
     let slack = width(front, &positions, &positions);
     // Turned round it is as wide.
     let slacks = [slack, if *back == -front { slack } else { width(back, &positions, &positions) }];
-    move_edges(polyhedron, &positions, normals, &slacks);
-    move_faces(polyhedron, &positions, normals, &slacks);
-    move_vertices(polyhedron, &positions);
+    for ((face, normal), slack) in polyhedron.faces.iter_mut().zip(normals).zip(slacks) {
+        (face.normal, face.slack) = (*normal, slack);
+    }
+    for (vertex, position) in polyhedron.vertices.iter_mut().zip(positions) {
+        vertex.position = position;
+    }
+}
+
+/// Moves what [`move_outline`] leaves where it was, which takes far longer.
+pub fn move_inner(polyhedron: &mut Polyhedron) {
+    let positions = [0, 1, 2].map(|v: usize| polyhedron.vertices[v].position);
+    let normals = [0, 1].map(|f: usize| polyhedron.faces[f].normal);
+    let slacks = [0, 1].map(|f: usize| polyhedron.faces[f].slack);
+    let centre = polyhedron.centre;
+    polyhedron.simple = centre == Vector::zeros() && (SMALLEST..=LARGEST).contains(&polyhedron.radius);
+    polyhedron.mass = mass_of(&positions).about(&centre);
+    move_edges(polyhedron, &positions, &normals, &slacks);
+    move_planes(polyhedron, &positions);
+    move_neighbours(polyhedron, &positions);
 }
 
 fn mass_of(positions: &[Vector; 3]) -> MassProperties {
@@ -57,24 +71,21 @@ fn move_edges(polyhedron: &mut Polyhedron, positions: &[Vector; 3], normals: &[V
     }
 }
 
-fn move_faces(polyhedron: &mut Polyhedron, positions: &[Vector; 3], normals: &[Vector; 2], slacks: &[f64; 2]) {
+fn move_planes(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
     let Polyhedron { faces, edges, .. } = polyhedron;
     for (f, face) in (0..).zip(faces) {
-        let normal = normals[f as usize];
-        let heights = positions.map(|p| normal.dot(&p));
+        let heights = positions.map(|p| face.normal.dot(&p));
         let [low, high] = [f64::min, f64::max].map(|pick| pick(pick(heights[0], heights[1]), heights[2]));
-        let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [0.0; 4] };
-        set_plane(&mut planes, 0, &normal, -0.5 * (low + high));
+        set_plane(&mut face.planes, 0, &face.normal, -0.5 * (low + high));
         for (side, edge) in face.first_sides.into_iter().enumerate() {
             let edge = &edges[edge as usize];
             let lane = if edge.left() == f { 2 } else { 3 };
-            set_plane(&mut planes, 1 + side, &-plane_normal(&edge.planes, lane), -edge.planes.offset[lane]);
+            set_plane(&mut face.planes, 1 + side, &-plane_normal(&edge.planes, lane), -edge.planes.offset[lane]);
         }
-        (face.planes, face.normal, face.slack) = (planes, normal, slacks[f as usize]);
     }
 }
 
-fn move_vertices(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
+fn move_neighbours(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
     let Polyhedron { vertices, edges, vertex_blocks, .. } = polyhedron;
     // The last one is repeated.
     for (lane, position) in [0, 1, 2, 2].map(|v: usize| &positions[v]).into_iter().enumerate() {
@@ -83,7 +94,6 @@ fn move_vertices(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
         });
     }
     for (v, vertex) in (0..).zip(vertices) {
-        vertex.position = positions[v as usize];
         let block = &mut vertex.neighbours;
         for lane in 0..block.head.len() {
             let edge = &edges[block.edge[lane] as usize];
@@ -118,9 +128,11 @@ mod tests {
             }
             let mut moved = built.copy().unwrap();
             let elsewhere = std::array::from_fn(|_| random.vector());
-            refill_triangle(&mut moved, &elsewhere, &[random.direction(), random.direction()]);
+            move_outline(&mut moved, &elsewhere, &[random.direction(), random.direction()]);
+            move_inner(&mut moved);
             let own: [Vector; 3] = std::array::from_fn(|v| built.vertices[v].position + built.centre);
-            refill_triangle(&mut moved, &own, &[built.faces[0].normal, built.faces[1].normal]);
+            move_outline(&mut moved, &own, &[built.faces[0].normal, built.faces[1].normal]);
+            move_inner(&mut moved);
             let slack = 64.0 * UNIT_ROUNDOFF * built.radius;
             for (one, other) in built.edges.iter().zip(&mut moved.edges) {
                 assert!(one.slack <= slack && other.slack <= slack, "{} {}", one.slack, other.slack);
