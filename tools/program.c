@@ -92,7 +92,8 @@ static bool read_amount(const char *word, double *value)
     return true;
 }
 
-/* Whether the file can be written, which leaves it as it is. On false errno says why not. */
+/* Whether the file can be written, which leaves it as it is. On false errno says why not. Ranks of one job ask at the same time, so
+ * another may have removed what this one made. */
 static bool can_be_written(const char *path)
 {
     FILE *file = fopen(path, "r+b"); /* waits for nobody at the other end of a pipe */
@@ -104,7 +105,7 @@ static bool can_be_written(const char *path)
         return false;
     }
     fclose(file);
-    return !is_new || remove(path) == 0;
+    return !is_new || remove(path) == 0 || errno == ENOENT;
 }
 
 /* Takes the value; false after a message. */
