@@ -126,7 +126,7 @@ impl Kernel for DepthQuery<'_> {
         if let Some(facet) = facet_of(&found)
             && match self.pyramids {
                 Pyramids::Unused => false,
-                Pyramids::AtRest => facet.rests(before, frame.size),
+                Pyramids::AtRest => facet.rests(before, frame.size) && self.cache.raises(),
                 Pyramids::Always => true,
             }
         {
