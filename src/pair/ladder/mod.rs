@@ -35,13 +35,15 @@ use query::{Attempt, PairQuery};
 pub(super) fn ask(
     query: Query,
     glances: Glances,
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     found: &mut PairAnswer,
 ) -> Result<()> {
-    let mut pair = PairQuery::new(query, &bodies, cache, config, found)?;
-    if !environment::is_default() {
+    // Before there is a query in memory: to the compiler the instruction that asks may change all that is.
+    let is_default = environment::is_default();
+    let mut pair = PairQuery::new(query, bodies, cache, config, found)?;
+    if !is_default {
         return with_default(move || answer(&mut pair, glances));
     }
     answer(&mut pair, glances)
