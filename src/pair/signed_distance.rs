@@ -108,7 +108,7 @@ pub(super) fn of_polyhedra(
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
+    ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut cache.distance, config, &mut apart)?;
     if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, config, answer)?) {
         *answer = SignedDistance::from(&apart);
     }
