@@ -121,7 +121,7 @@ pub fn depth(
     if let Some(radii) = Radii::of(&bodies) {
         return swept::depth(bodies, &radii, cache, config, answer);
     }
-    of_polyhedra(bodies, cache, config, answer)
+    of_polyhedra(&bodies, cache, config, answer)
 }
 
 /// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as
@@ -140,5 +140,5 @@ pub fn signed_distance(
     if let Some(radii) = Radii::of(&bodies) {
         return swept::signed_distance(bodies, &radii, cache, config, answer);
     }
-    signed_distance::of_polyhedra(bodies, cache, config, answer)
+    signed_distance::of_polyhedra(&bodies, cache, config, answer)
 }

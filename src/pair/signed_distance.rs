@@ -95,7 +95,7 @@ impl From<&DepthAnswer> for SignedDistance {
 /// # Errors
 /// As of [`signed_distance`](crate::pair::signed_distance).
 pub(super) fn of_polyhedra(
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
     answer: &mut SignedDistance,
@@ -108,7 +108,7 @@ pub(super) fn of_polyhedra(
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut cache.distance, config, &mut apart)?;
+    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
     if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, config, answer)?) {
         *answer = SignedDistance::from(&apart);
     }
@@ -117,7 +117,7 @@ pub(super) fn of_polyhedra(
 
 /// Whether objects overlap, with the answer if they do.
 fn overlaps(
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
     answer: &mut SignedDistance,

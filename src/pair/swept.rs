@@ -119,7 +119,7 @@ pub(super) fn depth(
     answer: &mut DepthAnswer,
 ) -> Result<()> {
     let mut found = DepthAnswer::default();
-    depth::of_polyhedra(bodies, cache, config, &mut found)?;
+    depth::of_polyhedra(&bodies, cache, config, &mut found)?;
     let (mut of_polyhedra, mut ending) = (SignedDistance::from(&found), found.ending);
     if found.outcome != Outcome::Intersecting {
         let within = PairConfig {
@@ -173,7 +173,7 @@ pub(super) fn signed_distance(
     config.check(Query::Distance)?;
     let mut found = SignedDistance::default();
     let grown = PairConfig { distance_tolerance: radii.with(config.distance_tolerance), ..*config };
-    of_polyhedra(bodies, cache, &grown, &mut found)?;
+    of_polyhedra(&bodies, cache, &grown, &mut found)?;
     *answer = with_default(|| of_bodies(bodies, radii, config.distance_tolerance, &found));
     Ok(())
 }

@@ -33,7 +33,7 @@ use search::{DepthQuery, FoundPolytope, Search};
 /// # Errors
 /// As of [`crate::pair::depth`].
 pub(super) fn of_polyhedra(
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut DepthCache,
     config: &DepthConfig,
     answer: &mut DepthAnswer,
@@ -42,13 +42,14 @@ pub(super) fn of_polyhedra(
 }
 
 fn answer_query(
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut DepthCache,
     config: &DepthConfig,
     answer: &mut DepthAnswer,
 ) -> Result<()> {
     config.check()?;
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let [first, second] = bodies;
+    let (polyhedra, poses) = ([first.shape.polyhedron(), second.shape.polyhedron()], [first.pose, second.pose]);
     let pyramids = Pyramids::AtRest;
     let mut found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids });
     if found.is_none() {
