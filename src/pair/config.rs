@@ -132,17 +132,28 @@ impl PairConfig {
     ///
     /// # Errors
     /// [`Error::Argument`], naming the first such member.
-    #[inline(always)]
     pub(crate) fn check(&self, query: Query) -> Result<()> {
-        if !((self.distance_tolerance >= 0.0) & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)) {
-            check_range("distance_tolerance", self.distance_tolerance, 0.0..=f64::INFINITY)?;
-            check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
-        }
+        if self.is_in_range(query) { Ok(()) } else { Err(self.first_fault()) }
+    }
+
+    /// Whether every member that the query looks at is in its range.
+    #[inline(always)]
+    pub(super) fn is_in_range(&self, query: Query) -> bool {
         let is_accurate = (self.absolute_error >= 0.0) & (self.relative_error >= 0.0) & (self.step_budget > 0);
-        if (query == Query::Approximate) & !is_accurate {
-            check_accuracy(self.absolute_error, self.relative_error, self.step_budget)?;
-        }
-        Ok(())
+        (self.distance_tolerance >= 0.0)
+            & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)
+            & (is_accurate | (query != Query::Approximate))
+    }
+
+    /// Which member is the first out of its range. The errors come last: only approximate queries look at them.
+    #[cold]
+    #[inline(never)]
+    pub(super) fn first_fault(&self) -> Error {
+        check_range("distance_tolerance", self.distance_tolerance, 0.0..=f64::INFINITY)
+            .and_then(|()| check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT))
+            .and_then(|()| check_accuracy(self.absolute_error, self.relative_error, self.step_budget))
+            .err()
+            .unwrap_or_else(|| Error::Bug("a configuration is refused of which all is in range".into()))
     }
 }
 

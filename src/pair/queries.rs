@@ -29,7 +29,7 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Distance, Glances::Asked, bodies, cache, config, answer)
+    query_with(Query::Distance, Glances::Asked, &bodies, cache, config, answer)
 }
 
 /// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
@@ -43,7 +43,7 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Intersection, Glances::Asked, bodies, cache, config, answer)
+    query_with(Query::Intersection, Glances::Asked, &bodies, cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which
@@ -52,7 +52,7 @@ pub fn intersection(
 /// # Errors
 /// As [`distance`].
 pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer) -> Result<()> {
-    query_with(Query::Contact, Glances::Asked, bodies, cache, config, answer)
+    query_with(Query::Contact, Glances::Asked, &bodies, cache, config, answer)
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the interval holds the true distance, and the query stops as
@@ -72,7 +72,7 @@ pub fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Approximate, Glances::Asked, bodies, cache, config, answer)
+    query_with(Query::Approximate, Glances::Asked, &bodies, cache, config, answer)
 }
 
 /// As [`intersection`], by marching as Ehmann & Lin had it: neither bounding spheres nor the last separating axis are asked. For
@@ -87,20 +87,20 @@ pub fn intersection_by_marching(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Intersection, Glances::LeftOut, bodies, cache, config, answer)
+    query_with(Query::Intersection, Glances::LeftOut, &bodies, cache, config, answer)
 }
 
 #[inline(always)]
 fn query_with(
     query: Query,
     glances: Glances,
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if let Some(radii) = Radii::of(&bodies) {
-        return swept::query(query, bodies, &radii, cache, config, answer);
+    if let Some(radii) = Radii::of(bodies) {
+        return swept::query(query, *bodies, &radii, cache, config, answer);
     }
     ladder::ask(query, glances, bodies, cache, config, answer)
 }

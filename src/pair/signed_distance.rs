@@ -101,11 +101,14 @@ pub(super) fn of_polyhedra(
     answer: &mut SignedDistance,
 ) -> Result<()> {
     // What the objects were the last time is asked first.
-    if cache.depth.expects_overlap() && overlaps(bodies, cache, config, answer)? {
-        return Ok(());
+    if cache.depth.expects_overlap() {
+        if overlaps(bodies, cache, config, answer)? {
+            return Ok(());
+        }
+        cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
+    ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut cache.distance, config, &mut apart)?;
     if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, config, answer)?) {
         *answer = SignedDistance::from(&apart);
     }

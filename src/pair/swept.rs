@@ -36,9 +36,9 @@ pub(super) fn query(
     let of_polyhedra = PairConfig { distance_tolerance: radii.with(enough), ..*config };
     // Whether polyhedra are nearer than the radii no verdict tells.
     let asked = if query == Query::Intersection { Query::Distance } else { query };
-    ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, &mut found)?;
+    ladder::ask(asked, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
     if query == Query::Approximate && is_too_wide(&found, radii, config) {
-        ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, &mut found)?;
+        ladder::ask(Query::Distance, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
     }
     *answer = with_default(|| less(query, bodies, radii, enough, &found));
     if is_verdict && answer.outcome == Outcome::Beyond {
@@ -128,7 +128,7 @@ pub(super) fn depth(
             ..PairConfig::default()
         };
         let mut apart = PairAnswer::default();
-        ladder::ask(Query::Distance, Glances::Asked, bodies, &mut PairCache::default(), &within, &mut apart)?;
+        ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut PairCache::default(), &within, &mut apart)?;
         (of_polyhedra, ending) = ((&apart).into(), DepthEnding::Narrow);
     }
     let signed = with_default(|| of_bodies(bodies, radii, 0.0, &of_polyhedra));

@@ -16,6 +16,7 @@
 //! | R3: the common case stands in line before the loop that serves the others | a loop keeps so much in registers that the common case pays for it |
 //! | R4: what is as often so as otherwise is computed or looked up, not branched on | the processor guesses such a branch wrong half of the time |
 //! | R5: what a step returns fits in registers: no enum around a state | an enum with a payload is handed on in memory |
+//! | R6: what is known stays known by value | behind a kernel, and behind the instruction that asks for the environment, the compiler takes what is in memory for anything |
 //!
 //! The only `unsafe` outside the C interface, with that of [`environment`], the floating-point environment.
 

@@ -23,7 +23,7 @@ const MOST_TRIANGLES: usize = 108;
 pub struct DepthCache {
     /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
     /// to. Where a facet is kept, which is where there are no triangles, the first is its kind, the third says whether the
-    /// objects overlapped, and the others are 0.
+    /// objects overlapped, in its lowest bit, and in how many searches to come no pyramid is raised, in the others.
     counts: [u8; 4],
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
@@ -37,6 +37,9 @@ pub struct DepthCache {
 
 /// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
 pub const PYRAMIDS: usize = 2;
+
+/// Searches in which no pyramid is raised after one that came to nothing, as of bodies that touch along edges of both.
+const WAITS: u8 = 15;
 
 /// A pyramid, and which features held the witness points when it proved a depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -163,7 +166,8 @@ impl DepthCache {
             Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
             Facet::Edges(edges) => (EDGES, edges),
         };
-        (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
+        let waits = if self.facet().is_some() { (self.counts[2] >> 1).saturating_sub(1) } else { 0 };
+        (self.counts, self.pairs[0]) = ([kind, 0, waits << 1 | u8::from(overlap), 0], pair);
         (self.pairs[1], self.pairs[2]) = ([x, y], [z, 0]);
     }
 
@@ -173,6 +177,20 @@ impl DepthCache {
         self.facet()?;
         let ([x, y], [z, _]) = (self.pairs[1], self.pairs[2]);
         Some([number(self.direction), number([x, y, z])])
+    }
+
+    /// Whether a pyramid is to be raised: none came to nothing in the last searches.
+    #[inline(always)]
+    pub fn raises(&self) -> bool {
+        self.facet().is_none() || self.counts[2] >> 1 == 0
+    }
+
+    /// A pyramid came to nothing: of a pair at rest the next will, too.
+    #[inline(always)]
+    pub fn wait_to_raise(&mut self) {
+        if self.facet().is_some() {
+            self.counts[2] = WAITS << 1 | self.counts[2] & 1;
+        }
     }
 
     /// Whether a polytope is kept, be it of these bodies or not.
@@ -277,7 +295,15 @@ impl DepthCache {
     /// Whether a polytope is kept, or a facet of objects that overlapped.
     pub fn expects_overlap(&self) -> bool {
         let [_, triangles, overlap, _] = self.counts;
-        triangles > 0 || (overlap == 1 && self.facet().is_some())
+        triangles > 0 || (overlap & 1 == 1 && self.facet().is_some())
+    }
+
+    /// The objects were apart.
+    #[inline(always)]
+    pub fn expect_apart(&mut self) {
+        if self.has_polytope() {
+            self.counts = [0; 4];
+        }
     }
 }
 

@@ -173,6 +173,8 @@ impl<L: Lanes> Work for Raise<'_, L> {
             && pyramid.prove(frame, &Rounding::of(frame)).is_ok()
         {
             cache.keep_pyramid(&pyramid);
+        } else {
+            cache.wait_to_raise();
         }
     }
 }

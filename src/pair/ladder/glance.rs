@@ -26,8 +26,8 @@ impl PairQuery<'_> {
 
     /// Whether the axis of the last verdict, or one that it leads to, separates the bodies.
     #[inline(always)]
-    pub(super) fn last_axis_separates(&mut self) -> bool {
-        self.query == Query::Intersection
+    pub(super) fn last_axis_separates(&mut self, query: Query) -> bool {
+        query == Query::Intersection
             && self.cache.axis(self.polyhedra()).is_some()
             && simd::dispatch(&mut Separation { pair: self })
     }

@@ -94,26 +94,26 @@ fn least_error_of_levels(shapes: [&Shape; 2], levels: Levels) -> f64 {
 impl<'a> PairQuery<'a> {
     /// Whether the query is to go through levels, may gain by them, or has a step budget. That is decided here, once.
     #[inline(always)]
-    pub(super) fn may_ask_levels(&self) -> bool {
+    pub(super) fn may_ask_levels(&self, query: Query) -> bool {
         match self.config.levels {
             Levels::All => true,
-            Levels::None => self.has_budget(),
-            Levels::Automatic => self.has_budget() | self.is_large(),
+            Levels::None => self.has_budget(query),
+            Levels::Automatic => self.has_budget(query) | self.is_large(query),
         }
     }
 
     /// Whether its steps are counted.
     #[inline(always)]
-    pub(super) fn has_budget(&self) -> bool {
-        (self.query == Query::Approximate) & (self.config.step_budget != u32::MAX)
+    pub(super) fn has_budget(&self, query: Query) -> bool {
+        (query == Query::Approximate) & (self.config.step_budget != u32::MAX)
     }
 
     /// Whether the bodies are so large that levels may save time. Those that intersected the last time mostly still do, which
     /// their cached enclosure proves, and levels cannot. (Of round bodies of 100,002 vertices that saves from four fifths at 0.1°
     /// to nineteen twentieths of the time at 1° and 10°.)
     #[inline(always)]
-    fn is_large(&self) -> bool {
-        let Some(least) = least_vertices(self.query) else { return false };
+    fn is_large(&self, query: Query) -> bool {
+        let Some(least) = least_vertices(query) else { return false };
         let [body1, body2] = self.polyhedra();
         (body1.vertices.len() + body2.vertices.len() >= least) && !(self.cache.holds_enclosure() & self.asks_cache())
     }
@@ -142,7 +142,7 @@ impl<'a> PairQuery<'a> {
 
     /// Whether automatic levels are to be gone through. They are made if they are missing.
     fn automatic_levels_may_answer(&self) -> Result<bool> {
-        if !self.is_large() {
+        if !self.is_large(self.query) {
             return Ok(false);
         }
         let error = if self.query == Query::Approximate { self.surely_most_error() } else { f64::INFINITY };

@@ -45,7 +45,7 @@ impl<'a> PairQuery<'a> {
     #[inline(never)]
     pub(super) fn search_levels(&mut self) -> Result<Searched<'a>> {
         let has_levels = self.levels_may_answer()?;
-        if !(has_levels || self.has_budget()) {
+        if !(has_levels || self.has_budget(self.query)) {
             return Ok(Searched::Bodies);
         }
         self.forget()?;

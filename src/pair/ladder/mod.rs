@@ -35,31 +35,41 @@ use query::{Attempt, PairQuery};
 pub(super) fn ask(
     query: Query,
     glances: Glances,
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     found: &mut PairAnswer,
 ) -> Result<()> {
-    let mut pair = PairQuery::new(query, &bodies, cache, config, found)?;
-    if !environment::is_default() {
-        return with_default(move || answer(&mut pair, glances));
+    // Not by `?`, which looks again whether the error in memory is one, and keeps what it needs if not in registers (R3).
+    if !config.is_in_range(query) {
+        return Err(config.first_fault());
     }
-    answer(&mut pair, glances)
+    // Before there is a query in memory (R6).
+    let is_default = environment::is_default();
+    let mut pair = PairQuery { query, bodies, cache, config, answer: found };
+    if is_default { answer(query, &mut pair, glances) } else { answer_in_default(&mut pair, glances) }
 }
 
-/// From the first rung.
+/// In the default environment of floating point, as the program has set another.
+#[cold]
+#[inline(never)]
+fn answer_in_default(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+    with_default(|| answer(pair.query, pair, glances))
+}
+
+/// From the first rung. The query is also handed on by value (R6).
 #[inline(always)]
-fn answer(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
-    if pair.may_ask_support_maps() {
+    if pair.may_ask_support_maps(query) {
         return answer_by_support_maps(pair, glances);
     }
-    if pair.may_ask_levels() {
+    if pair.may_ask_levels(query) {
         return answer_by_levels(pair, glances);
     }
-    answer_by_bodies(pair, glances)
+    answer_by_bodies(query, pair, glances)
 }
 
 /// Maps of support functions, unless the pair does better by marching at the moment; else as without them.
@@ -69,10 +79,10 @@ fn answer_by_support_maps(pair: &mut PairQuery, glances: Glances) -> Result<()> 
     if looks_up && pair.support_maps_answer()? {
         return Ok(());
     }
-    if pair.may_ask_levels() {
+    if pair.may_ask_levels(pair.query) {
         answer_by_levels(pair, glances)?
     } else {
-        answer_by_bodies(pair, glances)?
+        answer_by_bodies(pair.query, pair, glances)?
     }
     pair.cache.note_marching(pair.answer.statistics.marching_steps, looks_up);
     Ok(())
@@ -86,7 +96,7 @@ fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
     }
     match pair.search_levels()? {
         Searched::Answered => Ok(()),
-        Searched::Bodies => answer_by_bodies(pair, glances),
+        Searched::Bodies => answer_by_bodies(pair.query, pair, glances),
         Searched::Marched(search, attempt) => {
             answer_on(pair, attempt)?;
             search.remember(pair);
@@ -97,10 +107,10 @@ fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
 
 /// The bodies themselves.
 #[inline(always)]
-fn answer_by_bodies(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
     let mut attempt = Attempt::Untried;
     if pair.is_simple() & pair.asks_cache() {
-        if glances == Glances::Asked && pair.last_axis_separates() {
+        if glances == Glances::Asked && pair.last_axis_separates(query) {
             return Ok(());
         }
         if pair.holds_enclosure() {

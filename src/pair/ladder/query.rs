@@ -21,10 +21,10 @@ pub(in crate::pair) enum Glances {
     LeftOut,
 }
 
-/// One query. What is asked for is read here and in [`level_choice`](super::level_choice) alone.
+/// One query, its configuration checked. What is asked for is read here and in [`level_choice`](super::level_choice) alone.
 pub(in crate::pair) struct PairQuery<'a> {
     pub query: Query,
-    /// Where the caller has them: a copy would load at once what has just been stored pointer by pointer, and wait for it (10 ns).
+    /// Where the caller has them: a copy would load at once what has just been stored pointer by pointer, and wait for it (R1).
     pub bodies: &'a [Placed<'a>; 2],
     pub cache: &'a mut PairCache,
     pub config: &'a PairConfig,
@@ -32,22 +32,6 @@ pub(in crate::pair) struct PairQuery<'a> {
 }
 
 impl<'a> PairQuery<'a> {
-    /// A query whose configuration is checked, here and nowhere else.
-    ///
-    /// # Errors
-    /// Of [`PairConfig::check`].
-    #[inline(always)]
-    pub fn new(
-        query: Query,
-        bodies: &'a [Placed<'a>; 2],
-        cache: &'a mut PairCache,
-        config: &'a PairConfig,
-        answer: &'a mut PairAnswer,
-    ) -> Result<PairQuery<'a>> {
-        config.check(query)?;
-        Ok(PairQuery { query, bodies, cache, config, answer })
-    }
-
     #[inline(always)]
     pub fn polyhedra(&self) -> [&'a Polyhedron; 2] {
         [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()]

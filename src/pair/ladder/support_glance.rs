@@ -27,11 +27,11 @@ pub(super) fn least_error(shapes: [&Shape; 2]) -> f64 {
 impl<'a> PairQuery<'a> {
     /// Whether look-ups of the support functions may answer it: that takes bodies of many vertices and an error that leaves room.
     #[inline(always)]
-    pub(super) fn may_ask_support_maps(&self) -> bool {
-        (self.query == Query::Approximate)
+    pub(super) fn may_ask_support_maps(&self, query: Query) -> bool {
+        (query == Query::Approximate)
             && (self.config.levels == Levels::Automatic)
                 & (self.config.start == Start::Automatic)
-                & !self.has_budget()
+                & !self.has_budget(query)
                 & self.is_simple()
             && self.surely_most_error() >= least_error(self.shapes())
     }

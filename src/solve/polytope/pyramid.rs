@@ -2,11 +2,13 @@
 //!
 //! A *pyramid* has a base in that facet, of three to eight corners, and an apex deep in the Minkowski difference. Where the side
 //! over an edge of the base would be nearer to the origin than the base is, as at the rim of a plate, the base has a further
-//! triangle across that edge. So around the base and its further triangles runs a *ring* of at most eight corners, and each edge of
-//! the ring has a side up to the apex. It proves a depth just as a large polytope does, see the [module](super):
+//! triangle across that edge, or one in a notch between two such triangles. So around the base and its further triangles runs a
+//! *ring* of at most eight corners, and each edge of the ring has a side up to the apex. It proves a depth just as a large polytope
+//! does, see the [module](super):
 //!
 //! 1. *It is closed*, whatever the indices are: the fan of the base has the base's edges as its boundary, a further triangle over
-//!    an edge of the ring puts two edges in its place, and the sides close the ring. Only the range of the indices is looked at.
+//!    an edge of the ring puts two edges in its place, one in a notch an edge in the place of two, and the sides close the ring.
+//!    Only the range of the indices is looked at.
 //! 2. *The base is far enough*: with the normal m of three of its corners, which may be any vector, all of it is at least min m·v
 //!    from the origin, less the error of a [plane](Rounding::plane); that is the lower end.
 //! 3. *So are the sides and further triangles*: with a triangle's normal N, however rounded, min N·v ≥ |N|·(min m·v) over its
@@ -25,13 +27,14 @@ use crate::polyhedron::Vertex;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
 
-/// Corners of a ring.
+/// Corners of the base and its further triangles.
 pub const MOST_CORNERS: usize = 8;
 
-/// The base has three corners at least, so that so many further ones have room.
-const MOST_FURTHER: usize = MOST_CORNERS - 3;
+/// Further triangles. The base has three corners at least, so that five triangles can bring corners, and as many take one each
+/// from a ring of eight, of which three stay.
+const MOST_FURTHER: u8 = 10;
 
-/// Triangles of a pyramid: 8 − 2 of the base and its further triangles, and 8 sides.
+/// Triangles of a pyramid: a closed surface of so many corners and an apex has no more.
 const MOST_TRIANGLES: usize = 2 * MOST_CORNERS - 2;
 
 /// Which triangles of how many are of the base: a window of four flags begins `fan` flags before the first of the ones.
@@ -53,16 +56,71 @@ const LEAST_SQUARE: f64 = f64::from_bits((1023 - 600) << 52);
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct Pyramid {
-    /// The corners of the ring, those of the base first and in order around it, and the apex behind the last.
+    /// The corners, those of the base first and in order around it, and the apex behind the last.
     pairs: [VertexPair; MOST_CORNERS + 1],
     /// How many corners the base has; less than three where there is no pyramid.
     base: u8,
-    /// How many further ones the ring has.
-    further: u8,
-    /// After which place of the ring each of them comes.
-    places: [u8; MOST_FURTHER],
+    further: Further,
     /// For the caller to mark what it keeps beside the pyramid.
     pub mark: u8,
+}
+
+/// The further triangles of a base, in order: what each does to the ring.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+struct Further {
+    count: u8,
+    /// Four bits each, the first lowest: a place of the ring, and whether the corner there is in a notch that the triangle fills;
+    /// else a new corner comes behind that place.
+    moves: [u8; 5],
+}
+
+/// The bits of [`Further::moves`] that tell of notches.
+const NOTCHES: u64 = 0x88_8888_8888;
+
+/// What one further triangle does to the ring.
+#[derive(Clone, Copy)]
+enum Move {
+    /// A new corner comes behind this place.
+    Corner(usize),
+    /// The corner at this place goes.
+    Notch(usize),
+}
+
+impl Further {
+    fn bits(&self) -> u64 {
+        let [a, b, c, d, e] = self.moves;
+        u64::from_le_bytes([a, b, c, d, e, 0, 0, 0])
+    }
+
+    /// How many bring a corner.
+    fn corners(&self) -> usize {
+        let are_there = (1u64 << (4 * self.count.min(MOST_FURTHER))) - 1;
+        usize::from(self.count) - (self.bits() & NOTCHES & are_there).count_ones() as usize
+    }
+
+    fn moves(&self) -> impl Iterator<Item = Move> {
+        let bits = self.bits();
+        (0..self.count.min(MOST_FURTHER)).map(move |index| {
+            let one = bits >> (4 * index);
+            let place = (one & 7) as usize;
+            if one & 8 == 0 { Move::Corner(place) } else { Move::Notch(place) }
+        })
+    }
+
+    /// Whether there is room.
+    fn push(&mut self, one: Move) -> bool {
+        if self.count >= MOST_FURTHER {
+            return false;
+        }
+        let four = match one {
+            Move::Corner(place) => place as u8,
+            Move::Notch(place) => 8 | place as u8,
+        };
+        self.moves[usize::from(self.count / 2)] |= four << (4 * (self.count % 2));
+        self.count += 1;
+        true
+    }
 }
 
 /// Three corners of a pyramid, by their places among the pairs; the fourth is any.
@@ -119,19 +177,23 @@ impl Pyramid {
 
     /// Adds a triangle from the edge that begins at a place of the ring to a corner; whether there is room.
     pub fn add_across(&mut self, place: usize, corner: VertexPair) -> bool {
-        let (ring, apex) = (self.ring(), self.apex());
-        if ring >= MOST_CORNERS || usize::from(self.further) >= MOST_FURTHER {
+        let (corners, apex) = (self.corners(), self.apex());
+        if corners >= MOST_CORNERS || !self.further.push(Move::Corner(place)) {
             return false;
         }
-        self.pairs[ring] = corner;
-        self.places[usize::from(self.further)] = place as u8;
-        self.further += 1;
+        self.pairs[corners] = corner;
         self.set_apex(apex);
         true
     }
 
+    /// Adds a triangle of the corner at a place of the ring and both beside it, so that it is in the ring no more; whether there is
+    /// room.
+    pub fn fill_notch(&mut self, place: usize) -> bool {
+        self.further.push(Move::Notch(place))
+    }
+
     pub fn set_apex(&mut self, apex: VertexPair) {
-        self.pairs[self.ring()] = apex;
+        self.pairs[self.corners()] = apex;
     }
 
     /// Whether there is one.
@@ -142,30 +204,34 @@ impl Pyramid {
 
     /// Its base and apex, if its base has no further triangles.
     pub fn plain(&self) -> Option<(&[VertexPair], VertexPair)> {
-        (self.further == 0).then(|| (&self.pairs[..usize::from(self.base)], self.apex()))
+        (self.further.count == 0).then(|| (&self.pairs[..usize::from(self.base)], self.apex()))
     }
 
     pub fn apex(&self) -> VertexPair {
-        self.pairs[self.ring()]
+        self.pairs[self.corners()]
     }
 
-    /// How many corners the ring has.
+    /// How many corners the base and its further triangles have.
     #[inline(always)]
-    fn ring(&self) -> usize {
-        usize::from(self.base) + usize::from(self.further)
+    fn corners(&self) -> usize {
+        let base = usize::from(self.base);
+        if self.further.count == 0 { base } else { base + self.further.corners() }
     }
 
     /// Whether there is one, of vertices that the bodies have.
     #[inline(always)]
     pub fn is_of<L: Lanes>(&self, frame: &Frame<L>) -> bool {
-        let ring = self.ring();
-        if !(3..=MOST_CORNERS).contains(&usize::from(self.base)) || ring > MOST_CORNERS {
+        if !(3..=MOST_CORNERS).contains(&usize::from(self.base)) || self.further.count > MOST_FURTHER {
+            return false;
+        }
+        let corners = self.corners();
+        if corners > MOST_CORNERS {
             return false;
         }
         let [polyhedron1, polyhedron2] = frame.polyhedra();
         let (count1, count2) = (polyhedron1.vertices.len(), polyhedron2.vertices.len());
         let mut largest = [0; 2];
-        for pair in &self.pairs[..=ring] {
+        for pair in &self.pairs[..=corners] {
             largest = [largest[0].max(pair[0]), largest[1].max(pair[1])];
         }
         (largest[0] as usize) < count1 && (largest[1] as usize) < count2
@@ -174,26 +240,36 @@ impl Pyramid {
     /// The triangles, counter-clockwise from outside; four at a time can be read.
     #[inline(always)]
     fn surface(&self) -> Surface {
-        if self.further == 0 { PLAIN[usize::from(self.base)] } else { self.surface_with_further() }
+        if self.further.count == 0 { PLAIN[usize::from(self.base)] } else { self.surface_with_further() }
     }
 
     fn surface_with_further(&self) -> Surface {
-        let (base, apex) = (usize::from(self.base), self.ring() as u8);
+        let (base, apex) = (usize::from(self.base), self.corners() as u8);
         let fan = base - 2;
         let mut surface = Surface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 0, fan };
         for corner in 1..=fan as u8 {
             surface.push([0, corner, corner + 1]);
         }
-        let mut order = [0, 1, 2, 3, 4, 5, 6, 7];
-        for further in 0..usize::from(self.further) {
-            let count = base + further;
-            let after = usize::from(self.places[further]) % count;
-            let (corner, following) = (count as u8, order[(after + 1) % count]);
-            surface.push([order[after], corner, following]);
-            order.copy_within(after + 1..count, after + 2);
-            order[after + 1] = corner;
+        let (mut order, mut ring, mut corner) = ([0, 1, 2, 3, 4, 5, 6, 7], base, base as u8);
+        for one in self.further.moves() {
+            match one {
+                Move::Corner(place) => {
+                    let after = place % ring;
+                    surface.push([order[after], corner, order[(after + 1) % ring]]);
+                    order.copy_within(after + 1..ring, after + 2);
+                    order[after + 1] = corner;
+                    (ring, corner) = (ring + 1, corner + 1);
+                }
+                // A ring of three has none.
+                Move::Notch(place) if ring > 3 => {
+                    let at = place % ring;
+                    surface.push([order[(at + ring - 1) % ring], order[(at + 1) % ring], order[at]]);
+                    order.copy_within(at + 1..ring, at);
+                    ring -= 1;
+                }
+                Move::Notch(_) => {}
+            }
         }
-        let ring = self.ring();
         for place in 0..ring {
             let following = if place + 1 == ring { 0 } else { place + 1 };
             surface.push([order[place], apex, order[following]]);
@@ -257,7 +333,7 @@ impl Pyramid {
         }
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
         let mut positions = [[0.0; 4]; MOST_CORNERS + 1];
-        for (position, &[v, w]) in positions.iter_mut().zip(&self.pairs[..=self.ring()]) {
+        for (position, &[v, w]) in positions.iter_mut().zip(&self.pairs[..=self.corners()]) {
             *position = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position).to_array();
         }
         let base = usize::from(self.base);
@@ -272,7 +348,7 @@ impl Pyramid {
         }
         let lower = height - rounding.plane;
         let further;
-        let surface = if self.further == 0 {
+        let surface = if self.further.count == 0 {
             &PLAIN[base]
         } else {
             further = self.surface_with_further();

@@ -12,6 +12,10 @@ use crate::solve::frame::Frame;
 /// What is this much less far, over the size of the pair, ties: above what rounding makes of a facet's heights.
 const TIE: f64 = f64::from_bits((1023 - 43) << 52);
 
+/// What is this much less far is of the same face, if its coordinates were rounded to float or to six digits. A pyramid is proved
+/// in the end, so more does no harm.
+const NEARLY: f64 = f64::from_bits((1023 - 16) << 52);
+
 /// Vertices of a body that tie; of more there is no pyramid.
 const MOST_TIED: usize = 64;
 
@@ -21,8 +25,11 @@ const WIDE: f64 = 2.0;
 /// How far sides are to be from the origin, over the depth: the pyramid is to last for some steps …
 const LASTING: f64 = 1.25;
 
-/// … and how far it suffices them to be, so that no other apex is tried.
+/// … how far it suffices them to be, so that no other apex is tried …
 const AMPLE: f64 = 3.0;
+
+/// … and how far they are where the bodies are nearly as deep in each other along some other direction, at an edge.
+const LASTING_AT_EDGE: f64 = 1.02;
 
 /// How far beside the opposite of the direction further apices are looked for.
 const ASIDE: f64 = 0.7;
@@ -44,9 +51,11 @@ pub fn raise<L: Lanes>(frame: &Frame<L>, direction: &Vector, depth: f64, near: V
         across: [first, direction.cross(&first)],
         depth,
     };
-    let [tied1, tied2] = [0, 1].map(|body| raising.tied(body, near[body]));
+    let [tied1, tied2] = [0, 1].map(|body| raising.tied(body, near[body], TIE));
     let base = raising.base([&tied1?, &tied2?])?;
-    raising.over(&base)
+    let plain = Cap::of(&raising, &base);
+    let mut at_edge = None;
+    raising.over(plain, &mut at_edge).or_else(|| raising.over(raising.widened(plain, near)?, &mut at_edge)).or(at_edge)
 }
 
 /// Vertices of a body that are as far along the direction as any.
@@ -101,10 +110,10 @@ impl<L: Lanes> Raising<'_, L> {
     }
 
     /// The vertices that tie: of few all are looked at, of many those next to each other.
-    fn tied(&self, body: usize, near: u32) -> Option<Tied> {
+    fn tied(&self, body: usize, near: u32, tie: f64) -> Option<Tied> {
         let (polyhedron, towards) = (self.frame.bodies[body].polyhedron, self.own(body, &self.direction));
         let height = |v: u32| polyhedron.vertices[v as usize].position.dot(&towards);
-        let tie = TIE * self.frame.size;
+        let tie = tie * self.frame.size;
         let mut tied = Tied { vertices: [near; MOST_TIED], count: 1 };
         let count = polyhedron.vertices.len();
         if count <= MOST_TIED {
@@ -139,13 +148,32 @@ impl<L: Lanes> Raising<'_, L> {
         let [of_first, of_second] = [0, 1].map(|body| self.extremes(body, tied[body]));
         let pair = |at: usize| [of_first[at], of_second[at]];
         let all = Base::of((0..EIGHT).map(pair));
-        let halves = [0, 1].map(|odd| Base::of((0..EIGHT / 2).map(|at| pair(2 * at + odd))));
-        let room = halves.each_ref().map(|half| self.room(half));
-        let wider = usize::from(room[1] > room[0]);
-        let [even, odd] = halves;
-        let half = if wider == 1 { odd } else { even };
-        let base = if room[wider] >= WIDE * self.depth || half.count == all.count { half } else { all };
-        (base.count >= 3).then_some(base)
+        let (half, room) = self.wider_half(pair);
+        let base = if room >= WIDE * self.depth || half.count == all.count { half } else { all };
+        if base.count >= 3 { Some(base) } else { self.thin_base(tied) }
+    }
+
+    /// A face of three vertices under a vertex, or two edges: a facet so thin that what reaches farthest in eight directions are
+    /// not all of its corners.
+    fn thin_base(&self, [tied1, tied2]: [&Tied; 2]) -> Option<Base> {
+        let ([a, c, e, ..], [b, d, f, ..]) = (tied1.vertices, tied2.vertices);
+        let (pairs, count) = match (tied1.count, tied2.count) {
+            (1, 3) => ([[a, b], [a, d], [a, f], [a, f]], 3),
+            (3, 1) => ([[a, b], [c, b], [e, b], [e, b]], 3),
+            (2, 2) => ([[a, b], [c, b], [c, d], [a, d]], 4),
+            _ => return None,
+        };
+        let [p, q, r] = [0, 1, 2].map(|at| self.position(pairs[at]));
+        let is_counter_clockwise = self.direction.dot(&(q - p).cross(&(r - p))) > 0.0;
+        let pairs = &pairs[..count];
+        Some(if is_counter_clockwise { Base::of(pairs.iter().copied()) } else { Base::of(pairs.iter().rev().copied()) })
+    }
+
+    /// Every second of eight pairs, of these or of those, and how far inside the foot is.
+    fn wider_half(&self, pair: impl Fn(usize) -> VertexPair) -> (Base, f64) {
+        let [even, odd] = [0, 1].map(|odd| Base::of((0..EIGHT / 2).map(|at| pair(2 * at + odd))));
+        let (room_even, room_odd) = (self.room(&even), self.room(&odd));
+        if room_odd > room_even { (odd, room_odd) } else { (even, room_even) }
     }
 
     fn extremes(&self, body: usize, tied: &Tied) -> [u32; EIGHT] {
@@ -182,13 +210,56 @@ impl<L: Lanes> Raising<'_, L> {
         vertex_beyond(self.frame, &self.rounding, &direction.normalize(), from)
     }
 
-    /// The pyramid over a base: with the apex whose nearest side is the farthest, and with further triangles across edges where a
-    /// side is too near all the same.
-    fn over(&self, base: &Base) -> Option<Pyramid> {
+    /// A cap with triangles around its base, out to the rim of a face that is flat only to the noise of its coordinates: there the
+    /// facet of least overlap is small, and one of many that hardly lean. The cap is the upper hull of the base and of corners of
+    /// the rim, which are wrapped from edge to edge (Chand & Kapur 1970).
+    fn widened(&self, mut cap: Cap, near: VertexPair) -> Option<Cap> {
+        let [nearly1, nearly2] = [0, 1].map(|body| self.tied(body, near[body], NEARLY));
+        let [of_first, of_second] = [self.extremes(0, &nearly1?), self.extremes(1, &nearly2?)];
+        let (rim, _) = self.wider_half(|at| [of_first[at], of_second[at]]);
+        let rim = Ring::of(self, &rim);
+        let (mut place, mut done) = (0, 0);
+        while done < cap.ring.count {
+            let is_wider = match self.pivot(&cap.ring, place, &rim) {
+                Some(Pivot::OfRim(at)) => cap.add_across(place, rim.pairs[at], rim.positions[at]),
+                Some(Pivot::BesideFrom) => cap.fill_notch(place),
+                Some(Pivot::BesideTo) => cap.fill_notch((place + 1) % cap.ring.count),
+                None => false,
+            };
+            (place, done) = if is_wider { (0, 0) } else { (place + 1, done + 1) };
+        }
+        Some(cap)
+    }
+
+    /// Among corners of the rim and of the ring, the one that an edge of the ring makes the least leaning triangle with, outside
+    /// the ring; `None` at the rim itself.
+    fn pivot(&self, ring: &Ring, place: usize, rim: &Ring) -> Option<Pivot> {
+        let [from, to] = ring.edge(place);
+        let along = to - from;
+        let outwards = along.cross(&self.direction);
+        let before = (place + ring.count - 1) % ring.count;
+        let after = (place + 2) % ring.count;
+        let beside = [(Pivot::BesideFrom, ring.positions[before]), (Pivot::BesideTo, ring.positions[after])];
+        let of_rim = (0..rim.count).filter(|at| !ring.pairs().contains(&rim.pairs[*at]));
+        let of_rim = of_rim.map(|at| (Pivot::OfRim(at), rim.positions[at]));
+        let mut best: Option<(Pivot, Vector)> = None;
+        for (pivot, position) in beside.into_iter().chain(of_rim) {
+            let beyond = position - from;
+            if !(outwards.dot(&beyond) > self.rounding.plane * along.norm()) {
+                continue;
+            }
+            if best.is_none_or(|(_, across)| across.dot(&beyond) > 0.0) {
+                best = Some((pivot, beyond.cross(&along)));
+            }
+        }
+        best.map(|(pivot, _)| pivot)
+    }
+
+    /// The pyramid over a cap: with the apex whose nearest side is the farthest, and with further triangles across edges where a
+    /// side is too near all the same. What lasts only at an edge is left in `at_edge`.
+    fn over(&self, mut cap: Cap, at_edge: &mut Option<Pyramid>) -> Option<Pyramid> {
         let mut apices = [[0; 2]; APICES];
         let mut apex_count = 0;
-        let mut pyramid = Pyramid::new(base.pairs(), [0; 2]);
-        let mut ring = Ring::of(self, base);
         loop {
             let mut best = Side { distance: f64::NEG_INFINITY, place: 0, apex: [0; 2] };
             for (at, apex) in apices.iter_mut().enumerate() {
@@ -197,21 +268,23 @@ impl<L: Lanes> Raising<'_, L> {
                     *apex = self.support(&(aside - self.direction), None).pair;
                     apex_count += 1;
                 }
-                let side = ring.nearest_side(self.position(*apex), *apex);
+                let side = cap.ring.nearest_side(self.position(*apex), *apex);
                 best = if side.distance > best.distance { side } else { best };
                 if best.distance >= AMPLE * self.depth {
                     break;
                 }
             }
+            cap.pyramid.set_apex(best.apex);
             if best.distance >= LASTING * self.depth {
-                pyramid.set_apex(best.apex);
-                return Some(pyramid);
+                return Some(cap.pyramid);
             }
-            let corner = self.beyond(&ring, best.place)?;
-            if ring.pairs().contains(&corner) || !pyramid.add_across(best.place, corner) {
+            if best.distance >= LASTING_AT_EDGE * self.depth {
+                *at_edge = Some(cap.pyramid);
+            }
+            let corner = self.beyond(&cap.ring, &best)?;
+            if cap.ring.pairs().contains(&corner) || !cap.add_across(best.place, corner, self.position(corner)) {
                 return None;
             }
-            ring.insert(best.place, corner, self.position(corner));
         }
     }
 
@@ -221,24 +294,31 @@ impl<L: Lanes> Raising<'_, L> {
         [*x, *y, -x, -y][at % 4]
     }
 
-    /// A corner of the facet across an edge of the ring, as far as a few rounds of wrapping find it.
-    fn beyond(&self, ring: &Ring, place: usize) -> Option<VertexPair> {
-        let [from, to] = ring.edge(place);
+    /// A corner of the facet across the edge of the ring under a side, as far as a few rounds of wrapping find it.
+    fn beyond(&self, ring: &Ring, side: &Side) -> Option<VertexPair> {
+        let [from, to] = ring.edge(side.place);
         let along = to - from;
+        // First half-way down, then as steep as the side is, which has something beyond it if it is no facet.
+        let steep = (self.position(side.apex) - from).cross(&along);
+        let mut further = Some(steep);
         let mut towards = self.direction + along.cross(&self.direction).normalize();
         let mut found: Option<Support> = None;
         for _ in 0..WRAPPINGS {
             let next = self.support(&towards, found.map(|support| support.pair));
+            let [x, y, z, _] = next.position;
+            let across = (Vector::new(x, y, z) - from).cross(&along);
+            // Towards a corner of the edge itself there is no plane: what was found ties with it, or is still to be found.
+            if !(across.norm() > self.rounding.plane * along.norm()) {
+                match further.take().filter(|_| found.is_none()) {
+                    Some(steep) => towards = steep,
+                    None => break,
+                }
+                continue;
+            }
             if found.is_some_and(|found| found.pair == next.pair) {
                 break;
             }
             found = Some(next);
-            let [x, y, z, _] = next.position;
-            let across = (Vector::new(x, y, z) - from).cross(&along);
-            // Towards a corner of the edge itself there is no plane.
-            if !(across.norm() > self.rounding.plane * along.norm()) {
-                return None;
-            }
             towards = across;
         }
         let found = found?;
@@ -263,7 +343,51 @@ const AROUND: [[f64; 2]; EIGHT] = {
     [[c, s], [d, t], [-s, c], [-t, d], [-c, -s], [-d, -t], [s, -c], [t, -d]]
 };
 
+/// A base and its further triangles, as far as they have come.
+#[derive(Clone, Copy)]
+struct Cap {
+    /// Without an apex.
+    pyramid: Pyramid,
+    ring: Ring,
+}
+
+impl Cap {
+    fn of<L: Lanes>(raising: &Raising<L>, base: &Base) -> Cap {
+        Cap { pyramid: Pyramid::new(base.pairs(), [0; 2]), ring: Ring::of(raising, base) }
+    }
+
+    /// Adds a triangle across the edge that begins at a place; whether there is room.
+    fn add_across(&mut self, place: usize, corner: VertexPair, position: Vector) -> bool {
+        let has_room = self.pyramid.add_across(place, corner);
+        if has_room {
+            self.ring.insert(place, corner, position);
+        }
+        has_room
+    }
+
+    /// Adds a triangle in the notch at a place; whether there is room.
+    fn fill_notch(&mut self, place: usize) -> bool {
+        let has_room = self.ring.count > 3 && self.pyramid.fill_notch(place);
+        if has_room {
+            self.ring.remove(place);
+        }
+        has_room
+    }
+}
+
+/// What an edge of the ring makes a triangle with.
+#[derive(Clone, Copy)]
+enum Pivot {
+    /// A corner of the rim.
+    OfRim(usize),
+    /// The corner of the ring before the edge, so that it ends the notch at its beginning.
+    BesideFrom,
+    /// The corner of the ring after the edge.
+    BesideTo,
+}
+
 /// The ring as far as it has come.
+#[derive(Clone, Copy)]
 struct Ring {
     pairs: [VertexPair; MOST_CORNERS],
     positions: [Vector; MOST_CORNERS],
@@ -299,6 +423,12 @@ impl Ring {
         self.positions.copy_within(place + 1..self.count, place + 2);
         (self.pairs[place + 1], self.positions[place + 1]) = (pair, position);
         self.count += 1;
+    }
+
+    fn remove(&mut self, place: usize) {
+        self.pairs.copy_within(place + 1..self.count, place);
+        self.positions.copy_within(place + 1..self.count, place);
+        self.count -= 1;
     }
 
     fn nearest_side(&self, apex: Vector, pair: VertexPair) -> Side {
