@@ -33,17 +33,20 @@ pub enum Error {
 pub type Result<T> = std::result::Result<T, Error>;
 
 /// Refuses a number of the caller's that is out of range or none, by the name it has in Rust and in C.
+#[inline]
 pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -> Result<()> {
-    if range.contains(&number) {
-        return Ok(());
-    }
+    if range.contains(&number) { Ok(()) } else { Err(out_of_range(name, number, &range)) }
+}
+
+#[cold]
+fn out_of_range(name: &str, number: f64, range: &RangeInclusive<f64>) -> Error {
     let [start, end] = [range.start(), range.end()];
     let limits = match *end {
         f64::INFINITY => format!("at least {start}"),
         f64::MAX => format!("finite and at least {start}"),
         _ => format!("from {start} to {end}"),
     };
-    Err(Error::Argument(format!("{name} is {number:?}, it must be {limits}")))
+    Error::Argument(format!("{name} is {number:?}, it must be {limits}"))
 }
 
 impl Error {

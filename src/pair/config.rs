@@ -161,6 +161,7 @@ impl PairConfig {
 ///
 /// # Errors
 /// [`Error::Argument`], naming the first.
+#[inline]
 pub(crate) fn check_accuracy(absolute_error: f64, relative_error: f64, step_budget: u32) -> Result<()> {
     check_range("absolute_error", absolute_error, 0.0..=f64::INFINITY)?;
     check_range("relative_error", relative_error, 0.0..=f64::INFINITY)?;

@@ -62,6 +62,13 @@ impl<L: Lanes> Body<'_, L> {
         z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
     }
 
+    /// Rᵀ·d, for a vector from memory: number by number, as it may just have been written (R1).
+    #[inline(always)]
+    pub fn rotate_vector_back(&self, d: &Vector) -> L {
+        let [x, y, z] = self.rows;
+        z.mul_add(L::splat(d.z), y.mul_add(L::splat(d.y), x.mul(L::splat(d.x))))
+    }
+
     /// The rows of R; lane 3 is unspecified.
     #[inline(always)]
     pub fn rows(&self) -> [L; 3] {

@@ -67,6 +67,32 @@ pub trait Method {
     }
 }
 
+/// A method that drops all coherence before each query: bodies that meet for the first time. What dropping takes is timed, too.
+pub struct Cold(pub Box<dyn Method>);
+
+impl Method for Cold {
+    fn name(&self) -> &str {
+        self.0.name()
+    }
+
+    fn load(&mut self, poses: &[PosePair]) {
+        self.0.load(poses);
+    }
+
+    fn forget(&mut self) {
+        self.0.forget();
+    }
+
+    fn ask(&mut self, i: usize) {
+        self.0.forget();
+        self.0.ask(i);
+    }
+
+    fn reply(&self) -> Reply {
+        self.0.reply()
+    }
+}
+
 /// One pass, coherence flowing.
 pub fn replies(method: &mut dyn Method, count: usize) -> Vec<Reply> {
     method.forget();

@@ -30,6 +30,8 @@ usage: compare [options]
   --bodies LIST     time distances, verdicts, depths and manifolds of bodies whose names begin so, or all, instead: ellipsoids,
                     boxes, prisms, bodies of revolution, and a box beside each of those; at the steps of that option;
                     --meshes DIR adds the hulls of the OFF files in DIR. Some of the answers are held against the truth in integers
+  --asked LIST      with --bodies: of distance, verdict, depth, manifold (all)
+  --cold            with --bodies: each query as if it were the first; caches are new, peers' guesses and hints dropped
   --instructions OUT
                     with --bodies and --csv, under valgrind --tool=callgrind --instr-atstart=no --callgrind-out-file=OUT: count the
                     instructions of queries instead of timing them
@@ -86,6 +88,9 @@ pub struct Options {
     /// Where callgrind writes: instructions are counted, not times.
     pub instructions: Option<PathBuf>,
     pub meshes: Option<PathBuf>,
+    /// Names of questions about bodies; empty: all.
+    pub asked: Vec<String>,
+    pub cold: bool,
     pub csv: Option<PathBuf>,
     pub help: bool,
 }
@@ -118,6 +123,8 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         bodies: None,
         instructions: None,
         meshes: None,
+        asked: Vec::new(),
+        cold: false,
         csv: None,
         help: false,
     };
@@ -163,6 +170,8 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             }
             "--instructions" => options.instructions = Some(value()?.into()),
             "--meshes" => options.meshes = Some(value()?.into()),
+            "--asked" => options.asked = list(&value()?).map(str::to_string).collect(),
+            "--cold" => options.cold = true,
             "--csv" => options.csv = Some(value()?.into()),
             "--help" => options.help = true,
             _ => return Err(format!("{name}: no such option (see --help)")),

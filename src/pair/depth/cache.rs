@@ -160,7 +160,7 @@ impl DepthCache {
     #[inline(always)]
     pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector, overlap: bool) {
         self.remember(frame, direction);
-        let [x, y, z] = bits(frame.bodies[1].rotate_back(L::from_vector(direction)).to_vector());
+        let [x, y, z] = bits(frame.bodies[1].rotate_vector_back(direction).to_vector());
         let (kind, pair) = match facet {
             Facet::Face(0, face) => (FACE_OF_FIRST, [face, 0]),
             Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
@@ -260,7 +260,7 @@ impl DepthCache {
 
     #[inline(always)]
     fn remember<L: Lanes>(&mut self, frame: &Frame<L>, direction: &Vector) {
-        self.direction = bits(frame.bodies[0].rotate_back(L::from_vector(direction)).to_vector());
+        self.direction = bits(frame.bodies[0].rotate_vector_back(direction).to_vector());
     }
 
     /// Keeps a polytope, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.

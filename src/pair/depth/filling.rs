@@ -12,15 +12,21 @@ use crate::solve::facets::Overlap;
 use crate::solve::polytope::{Ending, Expansion};
 use crate::solve::state::FeatureId;
 
-/// Answers by what the search found, and where that leaves the verdict open by integers.
-pub fn fill(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&Search>) {
+/// Answers by what the search found, `overlap` where all facets did, and where that leaves the verdict open by integers.
+pub fn fill(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    found: Option<&Search>,
+    overlap: &Overlap,
+) {
     if !matches!(found, Some(Search::Answered)) {
         answer.statistics = DepthStatistics::default();
     }
     let found = match found {
         None => return decide(answer, polyhedra, poses, None),
         Some(Search::Apart(direction)) => return fill_separated(answer, DepthEnding::Separated, &-direction),
-        Some(Search::Facets(overlap)) => return fill_facet(answer, polyhedra, poses, overlap),
+        Some(Search::Facets) => return fill_facet(answer, polyhedra, poses, overlap),
         Some(Search::Polytope(found)) => found,
         Some(Search::Answered) => return,
     };
@@ -173,5 +179,6 @@ fn fill_places(
     [answer.local1, answer.local2] = local;
     [answer.world1, answer.world2] = world;
     answer.normal = contact::normalised(normal);
-    [answer.feature1, answer.feature2] = [0, 1].map(|i| contact::label(polyhedra[i], features[i], &points[i]));
+    answer.feature1 = contact::label(polyhedra[0], features[0], &points[0]);
+    answer.feature2 = contact::label(polyhedra[1], features[1], &points[1]);
 }

@@ -18,6 +18,7 @@ use crate::base::simd;
 use crate::base::simd::environment::with_default;
 use crate::pair::placed::Placed;
 use crate::polyhedron::Polyhedron;
+use crate::solve::facets::Overlap;
 use crate::solve::polytope::{Expansion, Pyramid, Witness};
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
@@ -41,6 +42,7 @@ pub(super) fn of_polyhedra(
     with_default(|| answer_query(bodies, cache, config, answer))
 }
 
+/// (The bodies by reference: a copy would wait for what the caller has just written, R1.)
 fn answer_query(
     bodies: &[Placed; 2],
     cache: &mut DepthCache,
@@ -48,15 +50,18 @@ fn answer_query(
     answer: &mut DepthAnswer,
 ) -> Result<()> {
     config.check()?;
-    let [first, second] = bodies;
-    let (polyhedra, poses) = ([first.shape.polyhedron(), second.shape.polyhedron()], [first.pose, second.pose]);
+    let [body1, body2] = bodies;
+    let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
+    let poses = [body1.pose, body2.pose];
     let pyramids = Pyramids::AtRest;
-    let mut found = simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids });
+    let mut overlap = Overlap::NONE;
+    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
+    let mut found = simd::dispatch_to_avx2(query);
     if found.is_none() {
         poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
         found = search_rescaled(polyhedra, poses, config, cache);
     }
-    fill(answer, polyhedra, poses, found.as_ref());
+    fill(answer, polyhedra, poses, found.as_ref(), &overlap);
     Ok(())
 }
 
@@ -68,6 +73,7 @@ pub(super) fn deepest(
     pyramids: Pyramids,
 ) -> (DepthAnswer, Option<(Pyramid, u8)>) {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
+    let mut overlap = Overlap::NONE;
     let mut found = simd::dispatch_to_avx2(&mut DepthQuery {
         polyhedra,
         poses,
@@ -75,6 +81,7 @@ pub(super) fn deepest(
         cache: &mut cache,
         answer: &mut answer,
         pyramids,
+        overlap: &mut overlap,
     });
     let mut raised = None;
     if found.is_some() && cache.has_pyramid() {
@@ -82,7 +89,7 @@ pub(super) fn deepest(
         raised = resting::triangle_of(polyhedra, poses, pyramid).map(|triangle| (*pyramid, triangle));
     }
     found = found.or_else(|| search_rescaled(polyhedra, poses, &config, &mut cache));
-    fill(&mut answer, polyhedra, poses, found.as_ref());
+    fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap);
     (answer, raised)
 }
 
@@ -99,12 +106,11 @@ fn search_rescaled(
     let pair = Rescaled::of(polyhedra, poses)?;
     let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
     let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
-    let mut unused = DepthAnswer::default();
+    let (mut unused, mut overlap) = (DepthAnswer::default(), Overlap::NONE);
     let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
+    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
     // Copies have no fan.
-    let Search::Polytope(found) =
-        simd::dispatch_to_avx2(&mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids })?
-    else {
+    let Search::Polytope(found) = simd::dispatch_to_avx2(query)? else {
         return None;
     };
     let FoundPolytope { expansion, witness, .. } = found;

@@ -21,6 +21,8 @@ pub struct DepthQuery<'a> {
     /// Filled where a pyramid answers.
     pub answer: &'a mut DepthAnswer,
     pub pyramids: Pyramids,
+    /// Filled where all facets answer, or say that the bodies are apart.
+    pub overlap: &'a mut Overlap,
 }
 
 /// When a pyramid is raised for the queries to come.
@@ -72,8 +74,8 @@ const MOST_TRIANGLES: usize = 124;
 pub enum Search {
     /// A pyramid of before: all is said already.
     Answered,
-    /// All facets.
-    Facets(Overlap),
+    /// All facets: the query's overlap.
+    Facets,
     /// Along this direction, from body 1 to body 2, the bodies are apart.
     Apart(Vector),
     /// A polytope.
@@ -123,7 +125,7 @@ impl Kernel for DepthQuery<'_> {
         }
         let before = self.cache.direction(&frame);
         let found = self.search_anew(&frame)?;
-        if let Some(facet) = facet_of(&found)
+        if let Some(facet) = self.facet_of(&found)
             && match self.pyramids {
                 Pyramids::Unused => false,
                 Pyramids::AtRest => facet.rests(before, frame.size) && self.cache.raises(),
@@ -133,21 +135,6 @@ impl Kernel for DepthQuery<'_> {
             resting::raise(&frame, self.cache, facet);
         }
         Some(found)
-    }
-}
-
-/// `None` where the search was not sure of one.
-#[inline(always)]
-fn facet_of(found: &Search) -> Option<LeastFacet> {
-    match found {
-        Search::Facets(Overlap { upper, direction, .. }) => {
-            Some(LeastFacet { upper: *upper, direction: *direction, farthest: [0; 2] })
-        }
-        Search::Polytope(FoundPolytope { expansion, .. }) => {
-            let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
-            (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet { upper, direction, farthest })
-        }
-        Search::Apart(_) | Search::Answered => None,
     }
 }
 
@@ -201,6 +188,22 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
 }
 
 impl<'a> DepthQuery<'a> {
+    /// `None` where the search was not sure of one.
+    #[inline(always)]
+    fn facet_of(&self, found: &Search) -> Option<LeastFacet> {
+        match found {
+            Search::Facets => {
+                let Overlap { upper, direction, .. } = *self.overlap;
+                Some(LeastFacet { upper, direction, farthest: [0; 2] })
+            }
+            Search::Polytope(FoundPolytope { expansion, .. }) => {
+                let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
+                (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet { upper, direction, farthest })
+            }
+            Search::Apart(_) | Search::Answered => None,
+        }
+    }
+
     /// Without what rested before.
     #[inline(always)]
     fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<Search> {
@@ -208,9 +211,11 @@ impl<'a> DepthQuery<'a> {
         if work <= LITTLE_WORK || (work <= MOST_WORK && !self.cache.has_polytope()) {
             let before = self.cache.facet_directions();
             let found = self.search_facets(frame, WIDEST);
-            let is_coherent =
-                matches!(found, Some(Search::Facets(_))) && are_alike(before, self.cache.facet_directions());
-            if found.is_some() && (work <= LITTLE_WORK || !is_coherent) {
+            if work <= LITTLE_WORK && found.is_some() {
+                return found;
+            }
+            let is_coherent = matches!(found, Some(Search::Facets)) && are_alike(before, self.cache.facet_directions());
+            if found.is_some() && !is_coherent {
                 return found;
             }
         }
@@ -236,14 +241,16 @@ impl<'a> DepthQuery<'a> {
     #[inline(always)]
     fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<Search> {
         let fans = self.fans()?;
-        match facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame)) {
-            ByFacets::Separated(direction, facet) => {
-                self.cache.keep_facet(frame, facet, &direction, false);
-                Some(Search::Apart(direction))
+        let outcome = facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame), self.overlap);
+        let Overlap { facet, direction, .. } = &*self.overlap;
+        match outcome {
+            ByFacets::Separated => {
+                self.cache.keep_facet(frame, *facet, direction, false);
+                Some(Search::Apart(*direction))
             }
-            ByFacets::Overlapping(overlap) => {
-                self.cache.keep_facet(frame, overlap.facet, &overlap.direction, true);
-                Some(Search::Facets(overlap))
+            ByFacets::Overlapping => {
+                self.cache.keep_facet(frame, *facet, direction, true);
+                Some(Search::Facets)
             }
             ByFacets::Unclear => None,
         }

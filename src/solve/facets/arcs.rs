@@ -3,7 +3,7 @@
 use super::search::Search;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::Lanes;
-use crate::polyhedron::fan::{Fan, MOST_EDGES};
+use crate::polyhedron::fan::Fan;
 
 /// Of each face of a body the corners w of the other with S(f, w) ≥ T. A face without any lowers T: then its least deep corner is
 /// in the mask.
@@ -28,15 +28,22 @@ pub fn find_masks<L: Lanes, const C: usize, const F: usize>(
     }
 }
 
-/// Arcs that no single corner proves.
-pub struct Survivors {
-    pub count: usize,
-    pub edges: [u8; MOST_EDGES + 1],
+/// Arcs that no single corner proves. A closed surface has fewer edges than three times its corners: there is room for all of them
+/// in as many twelves as the corners are fours.
+pub struct Survivors<const C: usize> {
+    count: usize,
+    edges: [[u8; 12]; C],
 }
 
-impl Survivors {
+impl<const C: usize> Survivors<C> {
     /// No arc.
-    pub const NONE: Survivors = Survivors { count: 0, edges: [0; MOST_EDGES + 1] };
+    pub const NONE: Survivors<C> = Survivors { count: 0, edges: [[0; 12]; C] };
+
+    /// Their edges.
+    #[inline(always)]
+    pub fn edges(&self) -> &[u8] {
+        &self.edges.as_flattened()[..self.count]
+    }
 
     /// Those of a fan. (Without a branch: the processor would guess it wrong, R4.)
     #[inline(always)]
@@ -45,7 +52,7 @@ impl Survivors {
         for (index, edge) in fan.edges.iter().enumerate() {
             let [left, right] = edge.faces;
             let (left, right) = (masks[usize::from(left)], masks[usize::from(right)]);
-            self.edges[self.count] = index as u8;
+            self.edges.as_flattened_mut()[self.count] = index as u8;
             self.count += usize::from(left & right == 0);
         }
     }

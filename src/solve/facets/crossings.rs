@@ -95,10 +95,9 @@ impl Crossings {
     pub fn look_at<L: Lanes, const C: usize, const F: usize>(
         &mut self,
         search: &mut Search<L, C, F>,
-        survivors: &[Survivors; 2],
+        survivors: &[Survivors<C>; 2],
     ) {
-        let [first, second] = survivors;
-        let (first, second) = (&first.edges[..first.count], &second.edges[..second.count]);
+        let (first, second) = (survivors[0].edges(), survivors[1].edges());
         for four in second.chunks(4) {
             let last = four.len() - 1;
             let edges = [four[0], four[1.min(last)], four[2.min(last)], four[3.min(last)]];

@@ -38,13 +38,13 @@ pub use search::Facet;
 use search::{Best, NODE, SUPPORT, Search};
 pub use witness::Witness;
 
-/// What all facets tell.
-#[derive(Debug, Clone, Copy)]
+/// What all facets tell. (What they tell of is written in its place: R1, R5.)
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// Along this direction, from body 1 to body 2, the bodies are apart; a facet that has it for its normal.
-    Separated(Vector, Facet),
+    /// The bodies are apart along the direction, from body 1 to body 2; it is the facet's normal. Nothing else is said.
+    Separated,
     /// They overlap.
-    Overlapping(Overlap),
+    Overlapping,
     /// Rounding hides it.
     Unclear,
 }
@@ -66,6 +66,18 @@ pub struct Overlap {
     pub witness: Witness,
 }
 
+impl Overlap {
+    /// Nothing yet.
+    pub const NONE: Overlap = Overlap {
+        lower: 0.0,
+        upper: 0.0,
+        depth: 0.0,
+        direction: Vector::new(0.0, 0.0, 0.0),
+        facet: Facet::Face(0, 0),
+        witness: Witness::NONE,
+    };
+}
+
 /// The product that tells what looking at all facets takes: planes of one body times corners of the other.
 #[inline(always)]
 pub fn work([fan1, fan2]: [&Fan; 2]) -> usize {
@@ -84,16 +96,22 @@ const LARGE_PLANES: usize = 31;
 /// Looks at all facets, beginning with one that was the nearest, if the bodies still have it. An interval that would be wider than
 /// `widest` is unclear.
 #[inline(always)]
-pub fn search<L: Lanes>(frame: &Frame<L>, fans: [&Fan; 2], known: Option<Facet>, widest: f64) -> Outcome {
+pub fn search<L: Lanes>(
+    frame: &Frame<L>,
+    fans: [&Fan; 2],
+    known: Option<Facet>,
+    widest: f64,
+    found: &mut Overlap,
+) -> Outcome {
     let known = known.filter(|facet| is_there(frame, *facet));
     let points = fans[0].points.len().max(fans[1].points.len());
     let planes = fans[0].planes.len().max(fans[1].planes.len());
     if points <= TINY_POINTS && planes <= TINY_PLANES {
-        L::out_of_line(&mut InRoom::<L, TINY_POINTS, TINY_PLANES> { frame, fans, known, widest })
+        L::out_of_line(&mut InRoom::<L, TINY_POINTS, TINY_PLANES> { frame, fans, known, widest, found })
     } else if points <= SMALL_POINTS && planes <= SMALL_PLANES {
-        L::out_of_line(&mut InRoom::<L, SMALL_POINTS, SMALL_PLANES> { frame, fans, known, widest })
+        L::out_of_line(&mut InRoom::<L, SMALL_POINTS, SMALL_PLANES> { frame, fans, known, widest, found })
     } else {
-        L::out_of_line(&mut InRoom::<L, LARGE_POINTS, LARGE_PLANES> { frame, fans, known, widest })
+        L::out_of_line(&mut InRoom::<L, LARGE_POINTS, LARGE_PLANES> { frame, fans, known, widest, found })
     }
 }
 
@@ -111,6 +129,7 @@ struct InRoom<'a, L, const C: usize, const F: usize> {
     fans: [&'a Fan; 2],
     known: Option<Facet>,
     widest: f64,
+    found: &'a mut Overlap,
 }
 
 impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
@@ -118,7 +137,8 @@ impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
 
     #[inline(always)]
     fn run(&mut self) -> Outcome {
-        let &mut InRoom { frame, fans, known, widest } = self;
+        let InRoom { frame, fans, known, widest, found } = self;
+        let (frame, fans, widest): (&Frame<L>, _, _) = (frame, *fans, *widest);
         let mut search = Search::<L, C, F> {
             frame,
             fans,
@@ -129,13 +149,13 @@ impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
         };
         search.placed[0].place(&frame.bodies[0], fans[0], frame.bodies[0].offset, frame.rigid);
         search.placed[1].place(&frame.bodies[1], fans[1], L::splat(0.0), frame.rigid);
-        search.run(known)
+        search.run(*known, found)
     }
 }
 
 impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
     #[inline(always)]
-    fn run(&mut self, known: Option<Facet>) -> Outcome {
+    fn run(&mut self, known: Option<Facet>, found: &mut Overlap) -> Outcome {
         match known {
             Some(facet) => self.begin_with(facet),
             None => self.begin(),
@@ -143,23 +163,23 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         let mut masks = [[[0; 4]; F]; 2];
         for (body, masks) in masks.iter_mut().enumerate() {
             if self.is_separated() {
-                return self.finish(f64::INFINITY);
+                return self.finish(f64::INFINITY, found);
             }
             arcs::find_masks(self, body, masks);
         }
         if self.is_separated() {
-            return self.finish(f64::INFINITY);
+            return self.finish(f64::INFINITY, found);
         }
         let mut survivors = [Survivors::NONE; 2];
         survivors[0].find(self.fans[0], &masks[0]);
-        if survivors[0].count > 0 {
+        if !survivors[0].edges().is_empty() {
             survivors[1].find(self.fans[1], &masks[1]);
         }
         let mut crossings = Crossings { least: f64::INFINITY, is_unclear: false };
-        if survivors[1].count > 0 {
+        if !survivors[1].edges().is_empty() {
             crossings.look_at(self, &survivors);
         }
-        if crossings.is_unclear { Outcome::Unclear } else { self.finish(crossings.least) }
+        if crossings.is_unclear { Outcome::Unclear } else { self.finish(crossings.least, found) }
     }
 
     /// The facet that was the nearest.
@@ -199,13 +219,14 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
 
     /// The answer, where `crossings` is the least that is proved of them.
     #[inline(always)]
-    fn finish(&self, crossings: f64) -> Outcome {
+    fn finish(&self, crossings: f64, found: &mut Overlap) -> Outcome {
         let Best { direction, facet, .. } = self.best;
         let direction = direction / direction.norm();
         let (value, error) = (self.true_support(&direction), SUPPORT * self.longest);
         let upper = value + error;
+        (found.direction, found.facet) = (direction, facet);
         if upper < 0.0 {
-            return Outcome::Separated(direction, facet);
+            return Outcome::Separated;
         }
         let [fan1, fan2] = self.fans;
         let (of_faces, of_cells) = (fan1.face_slack + fan2.face_slack, fan1.cell_slack + fan2.cell_slack);
@@ -216,10 +237,8 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         if !(lower > 0.0 && is_narrow) {
             return Outcome::Unclear;
         }
-        match witness::find(self, &direction, value) {
-            Some(witness) => Outcome::Overlapping(Overlap { lower, upper, depth: value, direction, facet, witness }),
-            None => Outcome::Unclear,
-        }
+        (found.lower, found.upper, found.depth) = (lower, upper, value);
+        if witness::find(self, &direction, value, &mut found.witness) { Outcome::Overlapping } else { Outcome::Unclear }
     }
 
     /// The support over all vertices, flat ones included.

@@ -6,53 +6,66 @@ use crate::base::simd::Lanes;
 use crate::polyhedron::{Edge, Polyhedron};
 use crate::solve::state::FeatureId;
 
-/// Points and the features that they are on.
+/// Points and the features that they are on. It is written in its place and not handed on: a copy would wait for its numbers (R1).
 #[derive(Debug, Clone, Copy)]
 pub struct Witness {
     /// In centred coordinates: convex combinations of vertices.
     pub points: [Vector; 2],
+    /// The same in world axes, relative to body 2's origin.
+    world: [Vector; 2],
     /// What holds them.
     pub features: [FeatureId; 2],
+}
+
+impl Witness {
+    /// No points yet.
+    pub const NONE: Witness = Witness {
+        points: [Vector::new(0.0, 0.0, 0.0); 2],
+        world: [Vector::new(0.0, 0.0, 0.0); 2],
+        features: [FeatureId::Vertex(0); 2],
+    };
+
+    #[inline(always)]
+    fn set(&mut self, body: usize, own: &Vector, world: &Vector, feature: FeatureId) {
+        self.points[body] = *own;
+        self.world[body] = *world;
+        self.features[body] = feature;
+    }
 }
 
 /// By how much the difference of the points may miss the overlap times the direction, over M.
 const MISS: f64 = 64.0 * U;
 
-/// A point of a body: in its centred coordinates and in the world.
-#[derive(Clone, Copy)]
-struct WitnessPoint {
-    own: Vector,
-    world: Vector,
-    feature: FeatureId,
-}
-
-/// The witness points of the best facet; `None` where rounding does not let them be found.
+/// The witness points of the best facet; whether rounding lets them be found.
 #[inline(always)]
 pub fn find<L: Lanes, const C: usize, const F: usize>(
     search: &Search<L, C, F>,
     direction: &Vector,
     overlap: f64,
-) -> Option<Witness> {
-    let places = match search.best.facet {
+    witness: &mut Witness,
+) -> bool {
+    let is_found = match search.best.facet {
         Facet::Face(body, face) => {
             let outward = if body == 0 { *direction } else { -direction };
-            let side = Side { search, body, face, outward, overlap };
-            let [on_face, on_other] = side.places()?;
-            if body == 0 { [on_face, on_other] } else { [on_other, on_face] }
+            Side { search, body, face, outward, overlap }.find(witness)
         }
-        Facet::Edges(edges) => on_edges(search, edges),
+        Facet::Edges(edges) => {
+            on_edges(search, edges, witness);
+            true
+        }
     };
-    let [place1, place2] = places;
-    let off = place1.world - place2.world - direction * overlap;
+    let off = witness.world[0] - witness.world[1] - direction * overlap;
     // False for a NaN.
-    let is_near = off.norm() <= MISS * search.longest;
-    let witness = Witness { points: [place1.own, place2.own], features: [place1.feature, place2.feature] };
-    if is_near { Some(witness) } else { None }
+    is_found && off.norm() <= MISS * search.longest
 }
 
 /// The points of two edges that are over each other.
 #[inline(always)]
-fn on_edges<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, edges: [u32; 2]) -> [WitnessPoint; 2] {
+fn on_edges<L: Lanes, const C: usize, const F: usize>(
+    search: &Search<L, C, F>,
+    edges: [u32; 2],
+    witness: &mut Witness,
+) {
     let [body1, body2] = &search.frame.bodies;
     let [edge1, edge2] = edges;
     let (fan_edge1, fan_edge2) = (&search.fans[0].edges[edge1 as usize], &search.fans[1].edges[edge2 as usize]);
@@ -64,16 +77,13 @@ fn on_edges<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, 
     let (ee, eg, gg) = (e.norm_squared(), e.dot(&g), g.norm_squared());
     let (along_e, along_g) = (apart.dot(&e), apart.dot(&g));
     let square = e.cross(&g).norm_squared();
-    let place = |polyhedron: &Polyhedron, edge: u32, t: f64, tail: &Vector, along: &Vector, own: &Vector| {
-        let record = &polyhedron.edges[edge as usize];
-        let t = clamp(t, 0.0, record.length);
-        WitnessPoint { own: record.tail_position + own * t, world: tail + along * t, feature: FeatureId::Edge(edge) }
-    };
     let (s, t) = ((along_g * eg - along_e * gg) / square, (along_g * ee - along_e * eg) / square);
-    [
-        place(body1.polyhedron, edge1, s, &tail1, &e, &fan_edge1.direction),
-        place(body2.polyhedron, edge2, t, &tail2, &g, &fan_edge2.direction),
-    ]
+    let (record1, record2) = (&body1.polyhedron.edges[edge1 as usize], &body2.polyhedron.edges[edge2 as usize]);
+    let (s, t) = (clamp(s, 0.0, record1.length), clamp(t, 0.0, record2.length));
+    let own1 = record1.tail_position + fan_edge1.direction * s;
+    let own2 = record2.tail_position + fan_edge2.direction * t;
+    witness.set(0, &own1, &(tail1 + e * s), FeatureId::Edge(edge1));
+    witness.set(1, &own2, &(tail2 + g * t), FeatureId::Edge(edge2));
 }
 
 /// A face of a body that the other is least deep below.
@@ -91,9 +101,10 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         self.search.frame.bodies[body].polyhedron
     }
 
-    /// A point on the face, and one of the other body below it: of one corner, of an edge, or of a face that is parallel.
+    /// A point on the face, and one of the other body below it: of one corner, of an edge, or of a face that is parallel. Whether
+    /// there are such points.
     #[inline(always)]
-    fn places(&self) -> Option<[WitnessPoint; 2]> {
+    fn find(&self, witness: &mut Witness) -> bool {
         let Side { search, body, outward, .. } = self;
         let other = 1 - body;
         let corners = &search.fans[other].corners;
@@ -102,10 +113,12 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         deepest &= u64::MAX >> (64 - corners.len());
         if deepest.count_ones() == 1 {
             let corner = deepest.trailing_zeros() as usize;
-            let place = self.at_corner(other, corner);
-            return Some([self.on_face(*body, self.face, &self.above(&place.world))?, place]);
+            let world = search.placed[other].point(corner);
+            let vertex = search.fans[other].corners[corner];
+            witness.set(other, self.own(other, corner), &world, FeatureId::Vertex(vertex));
+            return self.on_face(*body, self.face, &self.above(&world), witness);
         }
-        self.over_edge(deepest).or_else(|| self.over_face())
+        self.over_edge(deepest, witness) || self.over_face(witness)
     }
 
     /// Over a point of the other body.
@@ -113,17 +126,15 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         point + self.outward * self.overlap
     }
 
-    fn at_corner(&self, body: usize, corner: usize) -> WitnessPoint {
+    /// A corner in the body's own coordinates.
+    #[inline(always)]
+    fn own(&self, body: usize, corner: usize) -> &Vector {
         let vertex = self.search.fans[body].corners[corner];
-        WitnessPoint {
-            own: self.polyhedron(body).vertices[vertex as usize].position,
-            world: self.search.placed[body].point(corner),
-            feature: FeatureId::Vertex(vertex),
-        }
+        &self.polyhedron(body).vertices[vertex as usize].position
     }
 
     /// The middle of the longest part of an edge between two deepest corners that is below the face.
-    fn over_edge(&self, deepest: u64) -> Option<[WitnessPoint; 2]> {
+    fn over_edge(&self, deepest: u64, witness: &mut Witness) -> bool {
         let Side { search, body, .. } = self;
         let other = 1 - body;
         let mut best = (-SLIGHTLY, None);
@@ -137,14 +148,12 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
                 }
             }
         }
-        let (index, ends, t) = best.1?;
+        let Some((index, ends, t)) = best.1 else { return false };
         let record = &self.polyhedron(other).edges[index];
-        let place = WitnessPoint {
-            own: record.tail_position + search.fans[other].edges[index].direction * (t * record.length),
-            world: ends[0] + (ends[1] - ends[0]) * t,
-            feature: FeatureId::Edge(index as u32),
-        };
-        Some([self.on_face(*body, self.face, &self.above(&place.world))?, place])
+        let own = record.tail_position + search.fans[other].edges[index].direction * (t * record.length);
+        let world = ends[0] + (ends[1] - ends[0]) * t;
+        witness.set(other, &own, &world, FeatureId::Edge(index as u32));
+        self.on_face(*body, self.face, &self.above(&world), witness)
     }
 
     /// From where to where a segment is below the face; the wrong way round where it is not.
@@ -168,25 +177,25 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The middle of the face's corners, where all of it is over a face of the other body.
-    fn over_face(&self) -> Option<[WitnessPoint; 2]> {
+    fn over_face(&self, witness: &mut Witness) -> bool {
         let Side { search, body, outward, .. } = self;
         let other = 1 - body;
         let against = |face: &usize| search.placed[other].normal(*face).dot(outward);
         let faces = 0..self.polyhedron(other).faces.len();
-        let below = faces.reduce(|a, b| if against(&b) < against(&a) { b } else { a })?;
+        let Some(below) = faces.reduce(|a, b| if against(&b) < against(&a) { b } else { a }) else { return false };
         let polygon = Polygon::of(search, *body, self.face);
         let share = 1.0 / polygon.count() as f64;
         let [mut own, mut world] = [Vector::zeros(); 2];
         for side in 0..polygon.count() {
-            let place = self.at_corner(*body, polygon.place(side));
-            (own, world) = (own + place.own * share, world + place.world * share);
+            let corner = polygon.place(side);
+            (own, world) = (own + self.own(*body, corner) * share, world + search.placed[*body].point(corner) * share);
         }
-        let place = WitnessPoint { own, world, feature: FeatureId::Face(self.face) };
-        Some([place, self.on_face(other, below as u32, &(world - outward * self.overlap))?])
+        witness.set(*body, &own, &world, FeatureId::Face(self.face));
+        self.on_face(other, below as u32, &(world - outward * self.overlap), witness)
     }
 
-    /// The point of a face nearest to one over it, about: in the triangle of a fan around its first corner.
-    fn on_face(&self, body: usize, face: u32, point: &Vector) -> Option<WitnessPoint> {
+    /// The point of a face nearest to one over it, about: in the triangle of a fan around its first corner. Whether there is one.
+    fn on_face(&self, body: usize, face: u32, point: &Vector, witness: &mut Witness) -> bool {
         let polygon = Polygon::of(self.search, body, face);
         let normal = self.search.placed[body].normal(face as usize);
         let first = polygon.corner(0);
@@ -201,10 +210,12 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         let weights = [(0, 1.0 - (of_p + of_q) / sum), (last, of_p / sum), (last + 1, of_q / sum)];
         let [mut own, mut world] = [Vector::zeros(); 2];
         for (corner, weight) in weights {
-            let place = self.at_corner(body, polygon.place(corner));
-            (own, world) = (own + place.own * weight, world + place.world * weight);
+            let corner = polygon.place(corner);
+            let placed = self.search.placed[body].point(corner);
+            (own, world) = (own + self.own(body, corner) * weight, world + placed * weight);
         }
-        if area > 0.0 { Some(WitnessPoint { own, world, feature: FeatureId::Face(face) }) } else { None }
+        witness.set(body, &own, &world, FeatureId::Face(face));
+        area > 0.0
     }
 }
 

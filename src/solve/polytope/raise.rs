@@ -12,8 +12,8 @@ use crate::solve::frame::Frame;
 /// What is this much less far, over the size of the pair, ties: above what rounding makes of a facet's heights.
 const TIE: f64 = f64::from_bits((1023 - 43) << 52);
 
-/// What is this much less far is of the same face, if its coordinates were rounded to float or to six digits. A pyramid is proved in
-/// the end, so more does no harm.
+/// What is this much less far is of the same face, if its coordinates were rounded to float or to six digits. A pyramid is proved
+/// in the end, so more does no harm.
 const NEARLY: f64 = f64::from_bits((1023 - 16) << 52);
 
 /// Vertices of a body that tie; of more there is no pyramid.
@@ -153,8 +153,8 @@ impl<L: Lanes> Raising<'_, L> {
         if base.count >= 3 { Some(base) } else { self.thin_base(tied) }
     }
 
-    /// A face of three vertices under a vertex, or two edges: a facet so thin that what reaches farthest in eight directions are not
-    /// all of its corners.
+    /// A face of three vertices under a vertex, or two edges: a facet so thin that what reaches farthest in eight directions are
+    /// not all of its corners.
     fn thin_base(&self, [tied1, tied2]: [&Tied; 2]) -> Option<Base> {
         let ([a, c, e, ..], [b, d, f, ..]) = (tied1.vertices, tied2.vertices);
         let (pairs, count) = match (tied1.count, tied2.count) {

@@ -12,7 +12,7 @@ use swiftprox::math::Pose;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, intersection};
 use swiftprox::shape::Shape;
 
-use crate::method::replies;
+use crate::method::{Cold, Method, replies};
 use crate::motion;
 use crate::options::Options;
 use crate::report;
@@ -45,7 +45,8 @@ pub fn run(options: &Options, wanted: &[String]) -> Result<(), String> {
     for (number, body) in bodies.iter().enumerate() {
         let mut methods = Methods::new(body)?;
         for (question, orbit) in ASKED {
-            if is_measured(body.extent, question, orbit) {
+            let is_asked = options.asked.is_empty() || options.asked.iter().any(|name| name == question.name());
+            if is_asked && is_measured(body.extent, question, orbit) {
                 for &step in &options.steps {
                     rows.extend(measure(body, &mut methods, (question, orbit, step), options)?);
                 }
@@ -82,6 +83,9 @@ fn measure(
     }
     let truths = Truth::of_some(body, &poses, question);
     let (mut asked, first) = methods.of(question, body.extent);
+    if options.cold {
+        asked = asked.into_iter().map(|method| Box::new(Cold(method)) as Box<dyn Method>).collect();
+    }
     asked.iter_mut().for_each(|method| method.load(&poses));
     let replies: Vec<_> = asked.iter_mut().map(|method| replies(method.as_mut(), poses.len())).collect();
     let (strongest, others) = asked.split_at_mut(first);
