@@ -373,6 +373,9 @@ static void scenes(const std::string &folder)
     const auto where = scene.try_get_contacts();
     CHECK(swiftprox::contacts(where.value).size() == 1);
     CHECK(swiftprox::points(where.value, swiftprox::contacts(where.value)[0]).size() == 4);
+    const auto apart = scene.try_get_signed_distance(0);
+    CHECK(apart && apart.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING && apart.value.upper <= 0);
+    CHECK(!scene.try_get_signed_distance(1));
     CHECK(scene.try_query_distance().value.count == 5); // pairs of pieces
     CHECK(scene.try_query_object(c.value, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);

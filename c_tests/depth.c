@@ -217,6 +217,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     swiftprox_scene_query query;
     swiftprox_scene_answer answer;
     swiftprox_scene_contacts contacts, none;
+    swiftprox_signed_distance apart;
     swiftprox_depth_cache cold = {{0}};
     swiftprox_object_info info1, info2;
     const int32_t unknown = 77;
@@ -230,6 +231,8 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK(query.detail == SWIFTPROX_CONTACT_DETAIL_NONE && isinf(query.margin));
 
     /* Nothing was asked, nothing is said. */
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask for contacts with their depths",
+                swiftprox_scene_get_signed_distance(scene, 0, &apart));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL && contacts.points == NULL && contacts.point_count == 0);
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
@@ -262,6 +265,10 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
         uint32_t k;
         CHECK(contact->manifold.outcome == answer.pairs[i].answer.outcome && contact->manifold.point_count == 4);
         CHECK(isnan(contact->depth.depth) == (i == 1));
+        CHECK_OK(swiftprox_scene_get_signed_distance(scene, i, &apart));
+        CHECK(apart.outcome == answer.pairs[i].answer.outcome && apart.lower <= gap && gap <= apart.upper);
+        CHECK(apart.upper - apart.lower < 1e-13 && fabs(apart.normal[2] + 1) < 1e-14);
+        CHECK(fabs(apart.world1[2] - apart.world2[2] + gap) < 1e-13);
         for (k = 0; k < contact->manifold.point_count; ++k) {
             const swiftprox_manifold_point *const point = &contacts.points[contact->first_point + k];
             CHECK(fabs(point->gap_lower - gap) < 1e-12 && fabs(point->gap_upper - gap) < 1e-12);
@@ -273,6 +280,12 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 2 && contacts.point_count == 4);
     CHECK(contacts.contacts[1].manifold.outcome == SWIFTPROX_OUTCOME_BEYOND);
+
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "there is no contact 2, the last query said 2",
+                swiftprox_scene_get_signed_distance(scene, 2, &apart));
+    CHECK(isnan(apart.distance) && isnan(apart.lower) && isnan(apart.normal[2]));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_get_signed_distance(scene, 0, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_signed_distance(NULL, 0, &apart));
 
     /* While objects move and go they stay, until the next query. */
     const swiftprox_contact first = contacts.contacts[0];

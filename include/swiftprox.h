@@ -2550,6 +2550,22 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
                                               struct swiftprox_scene_contacts *contacts);
 
+/**
+ * The distance of a pair of the last query of contacts, or minus how deep it is, as one interval through zero, with normal and
+ * witness points: what swiftprox_pair_signed_distance says, put together from swiftprox_pair_result.answer and
+ * swiftprox_contact.depth at no further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the
+ * answer's numbers are NaN.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
+ * swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_get_signed_distance(const struct swiftprox_scene *scene,
+                                                     size_t number,
+                                                     struct swiftprox_signed_distance *answer);
+
 /** What is asked of a pair. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
   /** The verdict alone. */

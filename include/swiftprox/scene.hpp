@@ -303,6 +303,13 @@ class SceneView
             return swiftprox_scene_get_contacts(scene_, contacts);
         });
     }
+    /** How far one of the pairs of the last query of contacts is apart, or how deep, as one interval through zero. */
+    Result<swiftprox_signed_distance> try_get_signed_distance(std::size_t number) const
+    {
+        return detail::asked<swiftprox_signed_distance>([&](swiftprox_signed_distance *answer) {
+            return swiftprox_scene_get_signed_distance(scene_, number, answer);
+        });
+    }
     Result<swiftprox_scene_answer> try_query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
@@ -453,6 +460,7 @@ class SceneView
     }
     swiftprox_scene_answer query_contact(const SceneQuery &query = {}) { return take(try_query_contact(query)); }
     swiftprox_scene_contacts get_contacts() const { return take(try_get_contacts()); }
+    swiftprox_signed_distance get_signed_distance(std::size_t number) const { return take(try_get_signed_distance(number)); }
     swiftprox_scene_answer query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
     {
         return take(try_query_object(id, kind, query));

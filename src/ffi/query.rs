@@ -9,7 +9,7 @@ use super::structs::{Versioned, init_struct, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use std::mem::MaybeUninit;
 
-use crate::pair::ManifoldPoint;
+use crate::pair::{ManifoldPoint, SignedDistance};
 use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };
@@ -218,6 +218,29 @@ pub unsafe extern "C" fn swiftprox_scene_get_contacts(
         output(contacts, "contacts", CSceneContacts::EMPTY)?;
         look(scene, |scene| {
             contacts.write(CSceneContacts::new(&scene.contacts()));
+            Ok(())
+        })
+    })
+}
+
+/// The distance of a pair of the last query of contacts, or minus how deep it is, as one interval through zero, with normal and
+/// witness points: what swiftprox_pair_signed_distance says, put together from swiftprox_pair_result.answer and
+/// swiftprox_contact.depth at no further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the
+/// answer's numbers are NaN.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
+/// swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_get_signed_distance(
+    scene: *const SceneHandle,
+    number: usize,
+    answer: *mut SignedDistance,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(answer, "answer", SignedDistance::default())?;
+        look(scene, |scene| {
+            answer.write(scene.signed_distance(number)?);
             Ok(())
         })
     })

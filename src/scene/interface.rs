@@ -9,9 +9,9 @@ use crate::base::error::{Error, Result};
 use crate::base::files;
 use crate::base::math::Pose;
 use crate::base::workers::Workers;
-use crate::pair::Query;
 #[cfg(doc)]
 use crate::pair::{self, Outcome};
+use crate::pair::{Query, SignedDistance};
 use crate::scene::change::{Change, Themselves};
 use crate::scene::door::Scene;
 use crate::scene::recording::Recording;
@@ -342,6 +342,14 @@ impl Scene {
     /// What the last query said beside its answers: [`SceneAnswer::contacts`].
     pub fn contacts(&self) -> SceneContacts<'_> {
         self.search.answer().contacts
+    }
+
+    /// How far one of the pairs of the last query of contacts is apart, or how deep: [`SceneAnswer::signed_distance`].
+    ///
+    /// # Errors
+    /// As of that.
+    pub fn signed_distance(&self, number: usize) -> Result<SignedDistance> {
+        self.search.answer().signed_distance(number)
     }
 
     /// What the queries did.

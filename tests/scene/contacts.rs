@@ -3,11 +3,12 @@
 
 use std::sync::Arc;
 
+use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{
     DecidedBy, DepthAnswer, DepthCache, DepthConfig, DepthEnding, Manifold, ManifoldCache, ManifoldConfig,
-    ManifoldPoint, Outcome, Placed, Query, depth, manifold,
+    ManifoldPoint, Outcome, Placed, Query, SignedDistance, depth, manifold,
 };
 use swiftprox::scene::{Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::Shape;
@@ -256,10 +257,20 @@ fn repeated_queries_and_those_of_objects_agree() {
     let placed = scene.query_placed(&cuboid([0.8; 3]), &pose, Query::Contact, &query).unwrap();
     assert!(placed.pairs.len() > 3 && placed.contacts.contacts.len() == placed.pairs.len());
     assert!(placed.contacts.contacts.iter().any(|contact| contact.depth.lower > 0.0));
+    for (number, (result, contact)) in placed.pairs.iter().zip(placed.contacts.contacts).enumerate() {
+        let SignedDistance { outcome, lower, upper, .. } = placed.signed_distance(number).unwrap();
+        let (answer, depth) = (&result.answer, &contact.depth);
+        let is_deep = answer.outcome == Outcome::Intersecting;
+        let ends = if is_deep { [-depth.upper, -depth.lower] } else { [answer.lower, answer.upper] };
+        assert_eq!((outcome, [lower, upper]), (answer.outcome, ends));
+    }
+    assert!(matches!(placed.signed_distance(placed.pairs.len()), Err(Error::Argument(_))));
 
     let early = SceneQuery { early_exit: true, ..query };
     let stopped = scene.query_contact(&early).unwrap();
     let found = *stopped.found.unwrap();
+    let apart = stopped.signed_distance(0).unwrap();
+    assert_eq!((apart.outcome, apart.upper), (Outcome::Intersecting, -stopped.contacts.contacts[0].depth.lower));
     assert!(stopped.pairs.is_empty() && stopped.contacts.contacts.len() == 1);
     let contact = stopped.contacts.contacts[0];
     assert_eq!(stopped.contacts.points_of(&contact).len(), contact.manifold.point_count as usize);

@@ -4,7 +4,9 @@ use std::borrow::Cow;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
-use crate::pair::{DepthAnswer, Levels, Manifold, ManifoldPoint, PairAnswer, Refinement, Start};
+use crate::pair::{
+    DepthAnswer, Levels, Manifold, ManifoldPoint, Outcome, PairAnswer, Refinement, SignedDistance, Start,
+};
 use crate::scene::world::object::ObjectId;
 
 /// What a query over a scene is asked for.
@@ -174,6 +176,26 @@ pub struct SceneAnswer<'a> {
     pub found: Option<&'a PairResult>,
     /// What was asked for beside the answers. Owned as `pairs` are.
     pub contacts: SceneContacts<'a>,
+}
+
+impl SceneAnswer<'_> {
+    /// The distance of a pair, or minus how deep it is, as one interval through zero: that of one of the `contacts`, by its number
+    /// among them. It is what the pair function of this name says, put together from what the query has said.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] if there are not so many contacts.
+    pub fn signed_distance(&self, number: usize) -> Result<SignedDistance> {
+        let pair = self.found.or(self.pairs.get(number));
+        let (Some(Contact { depth, .. }), Some(PairResult { answer, .. })) = (self.contacts.contacts.get(number), pair)
+        else {
+            let count = self.contacts.contacts.len();
+            return Err(Error::Argument(format!(
+                "there is no contact {number}, the last query said {count}: ask for contacts with their depths"
+            )));
+        };
+        let is_deep = depth.outcome == Outcome::Intersecting;
+        Ok(if is_deep { SignedDistance::from(depth) } else { SignedDistance::from(answer) })
+    }
 }
 
 /// A pair of objects, the earlier created first.
