@@ -200,7 +200,8 @@ impl<L: Lanes> Raising<'_, L> {
         let inside = |at: usize| {
             let [from, to] = [at, (at + 1) % pairs.len()].map(|at| self.position(pairs[at]));
             let along = to - from;
-            self.direction.dot(&along.cross(&(foot - from))) / along.norm()
+            let length = along.norm();
+            if length > 0.0 { self.direction.dot(&along.cross(&(foot - from))) / length } else { f64::NEG_INFINITY }
         };
         if pairs.len() < 3 { f64::NEG_INFINITY } else { (0..pairs.len()).map(inside).fold(f64::INFINITY, f64::min) }
     }
@@ -300,8 +301,8 @@ impl<L: Lanes> Raising<'_, L> {
         let along = to - from;
         // First half-way down, then as steep as the side is, which has something beyond it if it is no facet.
         let steep = (self.position(side.apex) - from).cross(&along);
-        let mut further = Some(steep);
-        let mut towards = self.direction + along.cross(&self.direction).normalize();
+        let mut further = (steep.norm_squared() > 0.0).then_some(steep);
+        let mut towards = self.direction + along.cross(&self.direction).try_normalize(0.0)?;
         let mut found: Option<Support> = None;
         for _ in 0..WRAPPINGS {
             let next = self.support(&towards, found.map(|support| support.pair));
@@ -436,11 +437,11 @@ impl Ring {
         for place in 0..self.count {
             let [from, to] = self.edge(place);
             let across = (apex - from).cross(&(to - from));
-            let distance = across.dot(&from) / across.norm();
-            // A NaN is no side.
+            let length = across.norm();
+            // An apex on the edge has no side.
+            let distance = if length > 0.0 { across.dot(&from) / length } else { f64::NEG_INFINITY };
             if !(distance >= nearest.distance) {
-                nearest =
-                    Side { distance: if distance.is_nan() { f64::NEG_INFINITY } else { distance }, place, apex: pair };
+                nearest = Side { distance, place, apex: pair };
             }
         }
         nearest
