@@ -2551,10 +2551,9 @@ swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scen
                                               struct swiftprox_scene_contacts *contacts);
 
 /**
- * The distance of a pair of the last query of contacts, or minus how deep it is, as one interval through zero, with normal and
- * witness points: what swiftprox_pair_signed_distance says, put together from swiftprox_pair_result.answer and
- * swiftprox_contact.depth at no further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the
- * answer's numbers are NaN.
+ * The distance of a pair of the last query of contacts, or minus how deep it is: one interval through zero, normal and witness
+ * points, as of swiftprox_pair_signed_distance. They come from swiftprox_pair_result.answer or swiftprox_contact.depth, at no
+ * further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
  * swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.

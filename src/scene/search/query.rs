@@ -179,8 +179,8 @@ pub struct SceneAnswer<'a> {
 }
 
 impl SceneAnswer<'_> {
-    /// The distance of a pair, or minus how deep it is, as one interval through zero: that of one of the `contacts`, by its number
-    /// among them. It is what the pair function of this name says, put together from what the query has said.
+    /// The distance of a pair, or minus how deep it is, as one interval through zero. The pair is that of one of the `contacts`, by
+    /// its number among them. It is put together from what the query has said.
     ///
     /// # Errors
     /// [`Error::Argument`] if there are not so many contacts.
