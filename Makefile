@@ -202,7 +202,7 @@ hard-motions:
 engines:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	-@scripts/require.sh /usr/include/bullet=libbullet-dev
-	-@scripts/require.sh /usr/include/dart/collision/bullet=libdart-collision-bullet-dev
+	-@scripts/require.sh /usr/include/dart=libdart-dev
 	. scripts/peers.sh
 	$(MAKE) build
 	for engine in mujoco bullet dart; do if [ -x $(BUILD)/examples/engines/$${engine}_compare ]; then \

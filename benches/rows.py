@@ -1,6 +1,9 @@
 """Rows of the CSV files in benches/results, and what every script does with them."""
 import csv
+import datetime
 import math
+import os
+import subprocess
 
 
 def read(path):
@@ -25,6 +28,15 @@ def machine(head):
     """On which machine, of which commit and when was measured, what a CSV file's first line begins with; then how, without the
     compiler's flags."""
     return head.split(", -")[0]
+
+
+def here():
+    """The machine, the commit and the day of now, as the first line of a CSV file has them."""
+    with open("/proc/cpuinfo") as info:
+        cpu = next((line.split(":")[1].strip() for line in info if line.startswith("model name")), "unknown CPU")
+    commit = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=7", "--exclude=*"], capture_output=True, text=True,
+                            cwd=os.path.dirname(os.path.abspath(__file__))).stdout.strip() or "unknown"
+    return f"{cpu}, commit {commit}, {datetime.date.today()}"
 
 
 def in_order(items):

@@ -36,7 +36,6 @@ import argparse
 import collections
 import concurrent.futures
 import csv
-import datetime
 import os
 import platform
 import select
@@ -48,8 +47,9 @@ import time
 from decimal import Decimal
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-sys.path.insert(0, os.path.join(HERE, "..", "..", "scripts"))
+sys.path[:0] = [os.path.join(HERE, "..", "..", "scripts"), os.path.join(HERE, "..")]
 import cases  # noqa: E402
+from rows import here  # noqa: E402
 
 REFUSED = 2  # the exit status of a runner
 FAILURES = ("wrong", "off", "missed", "nan", "threw", "aborted", "timed_out")
@@ -266,11 +266,7 @@ def run_all(found, methods, exact_hull, seconds, jobs):
 
 def head(rows, methods):
     """What was run where, as comments."""
-    with open("/proc/cpuinfo") as info:
-        cpu = next((line.split(":")[1].strip() for line in info if line.startswith("model name")), "unknown CPU")
-    commit = subprocess.run(["git", "describe", "--always", "--dirty", "--abbrev=7", "--exclude=*"], capture_output=True, text=True,
-                            cwd=os.path.dirname(os.path.abspath(__file__))).stdout.strip() or "unknown"
-    lines = ["# %s, commit %s, %s, %s" % (cpu, commit, datetime.date.today(), platform.platform())]
+    lines = ["# %s, %s" % (here(), platform.platform())]
     for method in methods:
         said = (row.settings for (_, name), row in rows.items() if name == method.name and row.settings)
         lines.append("# %s: %s" % (method.name, next(said, "no settings said")))

@@ -5,6 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../outline.h"
+
 enum { WIDTH = 300, HEIGHT = 260, MARGIN = 24 };
 
 /* What is seen: x from −9 to 9, heights from −1 to 12. */
@@ -52,47 +54,7 @@ void strip_destroy(struct strip *strip)
     free(strip);
 }
 
-/* ---- an outline ---- */
-
-struct spot {
-    double x, z;
-};
-
-static int left_to_right(const void *one, const void *other)
-{
-    const struct spot *const a = one, *const b = other;
-    return a->x != b->x ? (a->x > b->x) - (a->x < b->x) : (a->z > b->z) - (a->z < b->z);
-}
-
-static double turn(struct spot a, struct spot b, struct spot c)
-{
-    return (b.x - a.x) * (c.z - a.z) - (b.z - a.z) * (c.x - a.x);
-}
-
-/* Puts a spot behind the corners from `first` on, of which those go that it leaves inside. */
-static size_t add_corner(struct spot *hull, size_t first, size_t count, struct spot spot)
-{
-    while (count >= first + 2 && turn(hull[count - 2], hull[count - 1], spot) <= 0) {
-        count--;
-    }
-    hull[count] = spot;
-    return count + 1;
-}
-
-/* The hull of spots in order of its corners (Andrew 1979); `hull` has room for twice as many. */
-static size_t hull_of(struct spot *spots, size_t count, struct spot *hull)
-{
-    qsort(spots, count, sizeof *spots, left_to_right);
-    size_t corners = 0;
-    for (size_t i = 0; i < count; i++) {
-        corners = add_corner(hull, 0, corners, spots[i]);
-    }
-    const size_t rightmost = corners - 1;
-    for (size_t i = count - 1; i > 0; i--) {
-        corners = add_corner(hull, rightmost, corners, spots[i - 1]);
-    }
-    return corners;
-}
+/* ---- a body ---- */
 
 static void draw_body(struct strip *strip, const struct body *body)
 {
@@ -108,7 +70,7 @@ static void draw_body(struct strip *strip, const struct body *body)
         spots[i].x = m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3];
         spots[i].z = m[8] * v[0] + m[9] * v[1] + m[10] * v[2] + m[11];
     }
-    const size_t corners = hull_of(spots, info.vertex_count, spots + info.vertex_count);
+    const size_t corners = outline_of(spots, info.vertex_count, spots + info.vertex_count);
     const char *const colour = body->inverse_mass > 0 ? COLOURS[body->id.bits % 6] : "#bbbbbb";
     print(strip, "<polygon fill=\"%s\" stroke=\"#222222\" stroke-width=\"0.6\" points=\"", colour);
     for (size_t i = 0; i < corners; i++) {

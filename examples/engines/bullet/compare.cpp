@@ -1,5 +1,6 @@
 // Scenes in Bullet with its own collider and with swiftprox, in one run, taking turns.
-#include <cmath>
+//
+//   bullet_compare [--quick] [FOLDER]
 #include <cstdio>
 #include <cstdlib>
 #include <memory>
@@ -13,7 +14,7 @@
 namespace
 {
 
-enum { STEPS = 2400, SETTLED = 1920 };
+enum { QUICK_STEPS = 480, STEPS = 2400 };
 constexpr btScalar STEP = 1 / btScalar(240);
 
 enum class Collider { BULLET, SWIFTPROX };
@@ -79,7 +80,7 @@ struct World {
     }
 };
 
-run play(const scene &scene, Collider collider)
+void play(const scene &scene, Collider collider, int steps, run &run)
 {
     World world(collider);
     const std::vector<double> floor{-5, -5, -.5, 5, -5, -.5, -5, 5, -.5, 5, 5, -.5, -5, -5, .5, 5, -5, .5, -5, 5, .5, 5, 5, .5};
@@ -97,45 +98,57 @@ run play(const scene &scene, Collider collider)
                   body.fixed);
     }
     std::vector<double> times;
-    for (int step = 0; step < STEPS; ++step) {
+    for (int step = 0; step < steps; ++step) {
         const double before = report_now();
         world.world->stepSimulation(STEP, 1, STEP);
-        if (step >= SETTLED) {
+        if (step >= steps - steps / 5) {
             times.push_back(report_now() - before);
         }
     }
-    run result{0, 0, report_median(times.data(), static_cast<int>(times.size())), 0};
+    run.is_played = true;
+    run.energy = 0;
     for (int i = 0; i < scene.count; ++i) {
         const btRigidBody &body = *world.bodies[static_cast<std::size_t>(i) + 1];
-        const double *const t = scene.bodies[i].place;
-        const btVector3 start{btScalar(t[0]), btScalar(t[1]), btScalar(t[2])};
-        result.motion = std::fmax(result.motion, double((body.getWorldTransform().getOrigin() - start).length()));
+        const btTransform place = body.getWorldTransform();
+        for (int row = 0; row < 3; ++row) {
+            for (int column = 0; column < 3; ++column) {
+                run.poses[i][4 * row + column] = double(place.getBasis()[row][column]);
+            }
+            run.poses[i][4 * row + 3] = double(place.getOrigin()[row]);
+        }
         if (!scene.bodies[i].fixed) {
             const btVector3 spin = body.getAngularVelocity();
             const btMatrix3x3 inverse = body.getInvInertiaTensorWorld();
-            result.energy += 0.5 * double(body.getLinearVelocity().length2() / body.getInvMass() +
-                                          spin.dot(inverse.inverse() * spin));
+            run.energy += 0.5 * double(body.getLinearVelocity().length2() / body.getInvMass() + spin.dot(inverse.inverse() * spin));
         }
     }
+    run.microseconds = report_median(times.data(), static_cast<int>(times.size()));
+    run.contacts = 0;
     for (int i = 0; i < world.dispatcher->getNumManifolds(); ++i) {
-        result.contacts += world.dispatcher->getManifoldByIndexInternal(i)->getNumContacts();
+        run.contacts += world.dispatcher->getManifoldByIndexInternal(i)->getNumContacts();
     }
-    return result;
 }
 
 } // namespace
 
-int main()
+int main(int argc, char **argv)
 try {
-    static scene made;
+    static report report;
     bool good = true;
-    report_head("Bullet");
-    for (int i = 0; i < SCENE_COUNT; ++i) {
-        scene_make(i, &made);
-        const run theirs = play(made, Collider::BULLET), ours = play(made, Collider::SWIFTPROX);
-        good = report_scene(&made, &theirs, &ours) && good;
+    int status;
+    if (!report_begin(&report, "Bullet", argc, argv, &status)) {
+        return status;
     }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    const int steps = report.is_quick ? QUICK_STEPS : STEPS;
+    for (int i = 0; i < SCENE_COUNT; ++i) {
+        played &played = report.played[i];
+        scene_make(i, &played.scene);
+        play(played.scene, Collider::BULLET, steps, played.theirs);
+        play(played.scene, Collider::SWIFTPROX, steps, played.ours);
+        report_add(&report);
+        good = good && report_stands_as_well(&played);
+    }
+    return report_end(&report, good);
 } catch (const swiftprox::Error &error) {
     std::fprintf(stderr, "%s\n", error.what());
     return EXIT_FAILURE;

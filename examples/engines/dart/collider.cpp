@@ -258,9 +258,12 @@ double least_distance(const Pairs &pairs, const DistanceOption &option, Distance
 class Detector final : public CollisionDetector
 {
   public:
-    Detector() { mCollisionObjectManager.reset(new ManagerForSharableCollisionObjects(this)); }
+    explicit Detector(double margin) : margin_(margin)
+    {
+        mCollisionObjectManager.reset(new ManagerForSharableCollisionObjects(this));
+    }
 
-    std::shared_ptr<CollisionDetector> cloneWithoutCollisionObjects() const override { return collider_create(); }
+    std::shared_ptr<CollisionDetector> cloneWithoutCollisionObjects() const override { return collider_create(margin_); }
 
     const std::string &getType() const override
     {
@@ -275,8 +278,8 @@ class Detector final : public CollisionDetector
         Group &group = updated(of);
         Collisions found = begin(option, result);
         swiftprox::SceneQuery query;
-        query.distance_tolerance = 0;
-        query.margin = 0;
+        query.distance_tolerance = margin_for(option, result);
+        query.margin = query.distance_tolerance;
         query.detail = option.enableContact ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
         const swiftprox_scene_answer answer = group.scene().query_contact(query);
         const swiftprox_scene_contacts contacts = group.scene().get_contacts();
@@ -301,6 +304,7 @@ class Detector final : public CollisionDetector
         Collisions found = begin(option, result);
         swiftprox::ManifoldConfig config;
         config.reduces = true;
+        config.margin = margin_for(option, result);
         for (const auto &[a, b] : pairs_between(updated(first), updated(second))) {
             if (found.is_enough()) {
                 break;
@@ -312,7 +316,7 @@ class Detector final : public CollisionDetector
             swiftprox_manifold_point points[MOST_POINTS];
             const swiftprox::Pose at[2] = {swiftprox::Pose(a->getTransform()), swiftprox::Pose(b->getTransform())};
             const auto manifold = swiftprox::manifold({a->shape, at[0]}, {b->shape, at[1]}, cache, {points, MOST_POINTS}, config);
-            if (manifold.outcome == SWIFTPROX_OUTCOME_INTERSECTING) {
+            if (manifold.point_count > 0) {
                 found.add(a, b, manifold.normal, {points, manifold.point_count});
             }
         }
@@ -355,11 +359,18 @@ class Detector final : public CollisionDetector
         }
         return {option, result};
     }
+
+    double margin_for(const CollisionOption &option, const CollisionResult *result) const
+    {
+        return option.enableContact && result ? margin_ : 0;
+    }
+
+    double margin_;
 };
 
 } // namespace
 
-std::shared_ptr<dart::collision::CollisionDetector> collider_create()
+std::shared_ptr<dart::collision::CollisionDetector> collider_create(double margin)
 {
-    return std::make_shared<Detector>();
+    return std::make_shared<Detector>(margin);
 }

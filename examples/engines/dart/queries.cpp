@@ -112,5 +112,18 @@ int main()
     CHECK(group->collide() && is_near(group->distance(DistanceOption(false, least)), -0.25));
     group->removeAllShapeFrames();
     CHECK(group->distance(DistanceOption(), &result) == 0 && !result.found() && !group->collide());
+
+    // With a margin cubes that are nearly together have contacts, and are said to collide only where contacts are asked for.
+    const auto wary = collider_create(0.01);
+    const auto below = wary->createCollisionGroup(left.get()), above = wary->createCollisionGroup(right.get());
+    const auto both = wary->createCollisionGroup(left.get(), right.get());
+    right->setTranslation(Eigen::Vector3d(2 + 0x1p-8, 0, 0));
+    CHECK(both->collide(CollisionOption(true, 100), &contacts) && contacts.getNumContacts() == 4);
+    CHECK(is_near(contacts.getContact(0).penetrationDepth, -0x1p-8) && is_near(contacts.getContact(0).normal.x(), -1));
+    CHECK(below->collide(above.get(), CollisionOption(true, 100), &contacts) && contacts.getNumContacts() == 4);
+    CHECK(is_near(contacts.getContact(0).penetrationDepth, -0x1p-8));
+    CHECK(!both->collide() && !both->collide(CollisionOption(false, 100), &contacts) && !below->collide(above.get()));
+    right->setTranslation(Eigen::Vector3d(2 + 0x1p-6, 0, 0));
+    CHECK(!both->collide(CollisionOption(true, 100), &contacts) && !below->collide(above.get(), CollisionOption(true, 100), &contacts));
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

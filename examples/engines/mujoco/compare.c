@@ -1,8 +1,7 @@
 /* MuJoCo's scenes with its own collider and with swiftprox, in one run, taking turns.
  *
- *   mujoco_compare [FOLDER]    FOLDER: where the scenes are written, NAME.xml; they can be opened in MuJoCo's viewer
+ *   mujoco_compare [--quick] [FOLDER]    FOLDER: where the scenes are written too, NAME.xml, for MuJoCo's viewer
  */
-#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -12,58 +11,54 @@
 #include "collider.h"
 #include "mjcf.h"
 
-enum { STEPS = 5000, SETTLED = 4000 };
-
-/* How far the body that moved most is from where it was. */
-static double motion(const mjModel *model, const mjData *data, const double *start)
-{
-    double most = 0;
-    for (int body = 1; body < model->nbody; body++) {
-        const mjtNum *const now_at = data->xpos + 3 * body;
-        const double *const was = start + 3 * body;
-        most = fmax(most, sqrt(pow(now_at[0] - was[0], 2) + pow(now_at[1] - was[1], 2) + pow(now_at[2] - was[2], 2)));
-    }
-    return most;
-}
+enum { QUICK_STEPS = 1000, STEPS = 5000 };
 
 /* Steps a scene, by the collider that is installed. The time is that of the last fifth, when what falls has settled. */
-static struct run play(const mjModel *model)
+static void play(const mjModel *model, int steps, struct run *run)
 {
     mjData *const data = mj_makeData(model);
-    static double times[STEPS - SETTLED];
-    double *const start = malloc(3 * (size_t)model->nbody * sizeof *start);
-    if (!data || !start) {
+    static double times[STEPS / 5];
+    if (!data) {
         fputs("mujoco_compare: no memory\n", stderr);
         exit(EXIT_FAILURE);
     }
     mj_forward(model, data);
-    for (int i = 0; i < 3 * model->nbody; i++) {
-        start[i] = data->xpos[i];
-    }
-    for (int step = 0; step < STEPS; step++) {
+    const int settled = steps - steps / 5;
+    for (int step = 0; step < steps; step++) {
         const double before = report_now();
         mj_step(model, data);
-        if (step >= SETTLED) {
-            times[step - SETTLED] = report_now() - before;
+        if (step >= settled) {
+            times[step - settled] = report_now() - before;
         }
     }
-    const struct run run = {motion(model, data, start), data->energy[1], report_median(times, STEPS - SETTLED), data->ncon};
-    free(start);
+    /* Body 0 is the world. */
+    for (int body = 1; body < model->nbody; body++) {
+        for (int i = 0; i < 12; i++) {
+            run->poses[body - 1][i] = i % 4 == 3 ? data->xpos[3 * body + i / 4] : data->xmat[9 * body + i / 4 * 3 + i % 4];
+        }
+    }
+    run->is_played = true;
+    run->energy = data->energy[1];
+    run->microseconds = report_median(times, steps - settled);
+    run->contacts = data->ncon;
     mj_deleteData(data);
-    return run;
 }
 
 int main(int argc, char **argv)
 {
-    const char *const folder = argc > 1 ? argv[1] : ".";
-    static struct scene scene;
+    static struct report report;
     bool good = true;
-    report_head("MuJoCo");
+    int status;
+    if (!report_begin(&report, "MuJoCo", argc, argv, &status)) {
+        return status;
+    }
+    const int steps = report.is_quick ? QUICK_STEPS : STEPS;
     for (int i = 0; i < SCENE_COUNT; i++) {
         char path[1024], error[1024];
-        scene_make(i, &scene);
-        snprintf(path, sizeof path, "%s/%s.xml", folder, scene.name);
-        if (!mjcf_write(&scene, path)) {
+        struct played *const played = &report.played[i];
+        scene_make(i, &played->scene);
+        snprintf(path, sizeof path, "%s/%s.xml", report.folder ? report.folder : ".", played->scene.name);
+        if (!mjcf_write(&played->scene, path)) {
             perror(path);
             return EXIT_FAILURE;
         }
@@ -72,15 +67,16 @@ int main(int argc, char **argv)
             fprintf(stderr, "%s: %s\n", path, error);
             return EXIT_FAILURE;
         }
-        const struct run theirs = play(model);
+        play(model, steps, &played->theirs);
         if (!collider_install(model)) {
             fprintf(stderr, "%s: %s\n", path, swiftprox_library_last_error_message());
             return EXIT_FAILURE;
         }
-        const struct run ours = play(model);
+        play(model, steps, &played->ours);
         collider_remove();
         mj_deleteModel(model);
-        good = report_scene(&scene, &theirs, &ours) && good;
+        report_add(&report);
+        good = good && report_stands_as_well(played);
     }
-    return good ? EXIT_SUCCESS : EXIT_FAILURE;
+    return report_end(&report, good);
 }

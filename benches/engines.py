@@ -1,0 +1,136 @@
+#!/usr/bin/env python3
+"""Plays scenes in rigid-body engines, and draws of the numbers docs/charts/engines.svg and the tables of docs/engines.md.
+
+usage: engines.py --play FOLDER RESULTS.csv   FOLDER has the programs of examples/engines; pictures go to docs/pictures
+       engines.py RESULTS.csv
+       engines.py --check RESULTS.csv         nothing is written, and it fails where page or chart do not say what the file says
+"""
+import csv
+import math
+import os
+import shutil
+import subprocess
+import sys
+import tempfile
+
+import charts
+import claims
+import rows
+from charts import Axis, Curve, Kind, Panel, Panels, Row, Style
+
+PAGE = os.path.join(charts.FOLDER, "..", "engines.md")
+PICTURES = os.path.join(charts.FOLDER, "..", "pictures")
+RUNS = {"mujoco": 4, "bullet": 4, "dart": 1}  # a run of DART takes half an hour
+COLUMNS = ("moved_m", "energy_j", "contacts", "step_us")
+SHORT = {"ten boxes": "boxes", "eight drums": "drums", "wall of 33 bricks": "wall", "arch of 11 wedges": "arch",
+         "card house": "cards", "36 hulls in a tray": "tray"}
+STYLES = {"own": Style("the engine's own collider", charts.RED, marker="s"), "swiftprox": Style("swiftprox", charts.BLUE)}
+
+
+# ---- playing ----
+
+def play(folder, engine):
+    """The rows of an engine's runs. Times are the least of them; all else has to be the same."""
+    merged = None
+    with tempfile.TemporaryDirectory() as place:
+        for _ in range(RUNS[engine]):
+            subprocess.run([os.path.join(folder, engine + "_compare"), place], check=True)
+            _, found = rows.read(os.path.join(place, f"engines-{engine}.csv"))
+            times = [min(float(row["step_us"]) for row in of) for of in zip(found, merged or found)]
+            for row, time, before in zip(found, times, merged or found):
+                row["step_us"] = time
+                if any(row[column] != before[column] for column in row if column != "step_us"):
+                    sys.exit(f"{engine}: {row['scene']} ended in two ways: {before}, {row}")
+            merged = found
+        shutil.copy(os.path.join(place, f"engines-{engine}.svg"), PICTURES)
+    return merged
+
+
+def play_all(folder, path):
+    played = []
+    for engine in RUNS:
+        if os.path.exists(os.path.join(folder, engine + "_compare")):
+            played += play(folder, engine)
+        else:
+            print(f"{engine} is not installed: left out", file=sys.stderr)
+    if not played:
+        sys.exit("none of the engines is installed")
+    with open(path, "w", newline="") as out:
+        out.write(f"# {rows.here()}\n")
+        table = csv.DictWriter(out, played[0].keys(), lineterminator="\n")
+        table.writeheader()
+        table.writerows(played)
+
+
+# ---- page and chart ----
+
+def of_scenes(played, engine):
+    """{scene: {collider: row}}"""
+    found = {}
+    for row in played:
+        if row["engine"] == engine:
+            found.setdefault(row["scene"], {})[row["collider"]] = row
+    return found
+
+
+def table(played, engine):
+    names = {"moved_m": "moved, m", "energy_j": "energy, J", "contacts": "contacts", "step_us": "step, µs"}
+    formats = {"moved_m": "{:.2g}", "energy_j": "{:.1e}", "contacts": "{:.0f}", "step_us": "{:,.0f}"}
+    head = [f"{engine}'s scenes"] + [cell for column in COLUMNS for cell in (f"{names[column]}: {engine}", "swiftprox")]
+    lines = [[scene] + [formats[column].format(of[collider][column]) if collider in of else "–"
+                        for column in COLUMNS for collider in STYLES] for scene, of in of_scenes(played, engine).items()]
+    return claims.table(head, lines)
+
+
+def decades(label, values, name):
+    low, high = math.floor(math.log10(min(values))), math.ceil(math.log10(max(values)))
+    step = 1 if high - low < 8 else 4
+    return Axis(label, 10.0**low, 10.0**high, [(10.0**e, name(e)) for e in range(low, high + 1) if e % step == 0])
+
+
+def chart(where, played):
+    engines = rows.in_order(row["engine"] for row in played)
+    x = Axis("scene", 0.6, 2.0**(len(SHORT) - 1) / 0.6, [(2.0**k, short) for k, short in enumerate(SHORT.values())])
+    place = {scene: 2.0**k for k, scene in enumerate(SHORT)}
+
+    def panel(engine, column, title):
+        of = of_scenes(played, engine)
+        return Panel(f"{engine}: {title}", [Curve(collider, [(place[scene], by[collider][column]) for scene, by in of.items()
+                                                             if collider in by], Kind.DOTS) for collider in STYLES])
+
+    said = {"moved_m": ("moved", "metres", lambda e: f"{10.0**e:g}"), "energy_j": ("energy", "joules", lambda e: f"1e{e}"),
+            "step_us": ("a step", "time", lambda e: charts.duration(10.0**(e + 3)))}
+    made = [Row([panel(engine, column, title) for engine in engines],
+                decades(label, [row[column] for row in played], name), 110) for column, (title, label, name) in said.items()]
+    return Panels("Scenes in rigid-body engines, after 10 simulated seconds", where, x, STYLES, made,
+                  "How far the body that moved most is from where it began (in the tray all fall first), the kinetic energy, and the median\n"
+                  "time of a step in the last fifth.")
+
+
+def main():
+    arguments = sys.argv[1:]
+    if arguments[:1] == ["--play"] and len(arguments) == 3:
+        return play_all(*arguments[1:])
+    check = arguments[:1] == ["--check"]
+    if len(arguments) != 1 + check:
+        sys.exit(__doc__)
+    head, played = rows.read(arguments[-1])
+    rows.with_numbers(played, COLUMNS)
+    where = rows.machine(head[0])
+    made = {engine.lower(): table(played, engine) for engine in rows.in_order(row["engine"] for row in played)}
+    made["machine"] = f"Measured on: {where}."
+    with open(PAGE) as file:
+        text = file.read()
+    filled = claims.fill(text, made)
+    path = os.path.join(charts.FOLDER, "engines.svg")
+    if check:
+        if filled != text:
+            sys.exit(f"{PAGE} does not say what {arguments[-1]} says: run benches/engines.py")
+        return charts.check(path, chart(where, played))
+    with open(PAGE, "w") as file:
+        file.write(filled)
+    charts.draw(path, chart(where, played), arguments)
+
+
+if __name__ == "__main__":
+    main()
