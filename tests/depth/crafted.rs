@@ -15,9 +15,11 @@ fn pyramid(tip: Vector, up: f64) -> Shape {
     hull(&[tip, corner(2.0, 0.0), corner(-1.0, 1.75), corner(-1.0, -1.75)])
 }
 
-/// Where a cache has its pairs and its triangles: behind 16 bytes and two pyramids, and behind 56 pairs.
+/// Where a cache has its pairs, triangles and counts: behind 16 bytes and two pyramids, behind 56 pairs, and behind 108 triangles.
 const PAIRS: usize = 16 + 2 * 88;
 const TRIANGLES: usize = PAIRS + 56 * 8;
+const COUNTS: usize = TRIANGLES + 108 * 7;
+const _: () = assert!(size_of::<DepthCache>() == COUNTS + 4);
 
 /// A tetrahedron of four differences of the pyramids' vertices: tip and tip, and the corners of the first over the other tip.
 fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
@@ -25,7 +27,7 @@ fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
         shape.polyhedron().vertex_labels.iter().position(|known| *known == label).unwrap() as u32
     };
     let mut bytes = [0; size_of::<DepthCache>()];
-    bytes[..2].copy_from_slice(&[4, 4]);
+    bytes[COUNTS..COUNTS + 2].copy_from_slice(&[4, 4]);
     for label in 0..4 {
         let pair = [index(shapes[0], label), index(shapes[1], 0)];
         for (i, vertex) in pair.into_iter().enumerate() {

@@ -21,10 +21,12 @@ const MOST_TRIANGLES: usize = 108;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct DepthCache {
-    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
-    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind, the third says whether the
-    /// objects overlapped, in its lowest bit, and in how many searches to come no pyramid is raised, in the others.
-    counts: [u8; 4],
+    /// In how many searches to come no pyramid is raised, unless the last one is worth it.
+    waits: u8,
+    /// How many pyramids in a row came to nothing.
+    failures: u8,
+    /// How many depths pyramids have proved since one was raised last.
+    proved: u16,
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
     /// What proved the depth where the pair rested, the last one that did first.
@@ -33,13 +35,21 @@ pub struct DepthCache {
     /// next two have the bits of its direction in body 2's axes.
     pairs: [VertexPair; MOST_VERTICES],
     triangles: [PackedTriangle; MOST_TRIANGLES],
+    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
+    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind, and the third says whether the
+    /// objects overlapped.
+    counts: [u8; 4],
 }
 
 /// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
 pub const PYRAMIDS: usize = 2;
 
-/// Searches in which no pyramid is raised after one that came to nothing, as of bodies that touch along edges of both.
+/// Searches of a pair that seems to rest in which no pyramid is raised after one was, or two came to nothing, as where bodies touch
+/// along edges of both …
 const WAITS: u8 = 15;
+
+/// … unless the last has proved so many depths since: raising one takes about as long as three searches.
+const WORTH: u16 = 4;
 
 /// A pyramid, and which features held the witness points when it proved a depth.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -66,11 +76,14 @@ type PackedTriangle = [u8; 7];
 impl Default for DepthCache {
     fn default() -> Self {
         DepthCache {
-            counts: [0; 4],
+            waits: 0,
+            failures: 0,
+            proved: 0,
             direction: [0; 3],
             pyramids: [KeptPyramid::default(); PYRAMIDS],
             pairs: [[0; 2]; MOST_VERTICES],
             triangles: [[0; 7]; MOST_TRIANGLES],
+            counts: [0; 4],
         }
     }
 }
@@ -166,8 +179,7 @@ impl DepthCache {
             Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
             Facet::Edges(edges) => (EDGES, edges),
         };
-        let waits = if self.facet().is_some() { (self.counts[2] >> 1).saturating_sub(1) } else { 0 };
-        (self.counts, self.pairs[0]) = ([kind, 0, waits << 1 | u8::from(overlap), 0], pair);
+        (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
         (self.pairs[1], self.pairs[2]) = ([x, y], [z, 0]);
     }
 
@@ -179,18 +191,28 @@ impl DepthCache {
         Some([number(self.direction), number([x, y, z])])
     }
 
-    /// Whether a pyramid is to be raised: none came to nothing in the last searches.
+    /// Whether a search may raise a pyramid. It is asked once in each search of a pair that seems to rest.
     #[inline(always)]
-    pub fn raises(&self) -> bool {
-        self.facet().is_none() || self.counts[2] >> 1 == 0
+    pub fn may_raise(&mut self) -> bool {
+        let may = self.waits == 0 || self.proved >= WORTH;
+        self.waits = self.waits.min(WAITS).saturating_sub(1);
+        may
     }
 
-    /// A pyramid came to nothing: of a pair at rest the next will, too.
+    /// A pyramid was raised, or came to nothing. The other one stays behind it.
     #[inline(always)]
-    pub fn wait_to_raise(&mut self) {
-        if self.facet().is_some() {
-            self.counts[2] = WAITS << 1 | self.counts[2] & 1;
+    pub fn raised(&mut self, pyramid: Option<&Pyramid>) {
+        self.failures = if pyramid.is_some() { 0 } else { self.failures.saturating_add(1) };
+        (self.waits, self.proved) = (if self.failures == 1 { 0 } else { WAITS }, 0);
+        if let Some(pyramid) = pyramid {
+            self.pyramids = [KeptPyramid { pyramid: *pyramid, features: [0; 2] }, self.pyramids[0]];
         }
+    }
+
+    /// A kept pyramid proved a depth.
+    #[inline(always)]
+    pub fn has_proved(&mut self) {
+        self.proved = self.proved.saturating_add(1);
     }
 
     /// Whether a polytope is kept, be it of these bodies or not.
@@ -209,11 +231,6 @@ impl DepthCache {
     #[inline(always)]
     pub fn pyramid(&self, place: usize) -> &Pyramid {
         &self.pyramids[place].pyramid
-    }
-
-    /// Keeps a pyramid, the other one behind it.
-    pub fn keep_pyramid(&mut self, pyramid: &Pyramid) {
-        self.pyramids = [KeptPyramid { pyramid: *pyramid, features: [0; 2] }, self.pyramids[0]];
     }
 
     /// Keeps a pyramid in the place of another.
@@ -295,7 +312,7 @@ impl DepthCache {
     /// Whether a polytope is kept, or a facet of objects that overlapped.
     pub fn expects_overlap(&self) -> bool {
         let [_, triangles, overlap, _] = self.counts;
-        triangles > 0 || (overlap & 1 == 1 && self.facet().is_some())
+        triangles > 0 || (overlap == 1 && self.facet().is_some())
     }
 
     /// The objects were apart.

@@ -99,6 +99,7 @@ fn fill<L: Lanes>(
 ) {
     let ([body1, body2], [point1, point2]) = (&frame.bodies, rest.points);
     let features = features_of(frame.polyhedra(), poses, cache, rest);
+    cache.has_proved();
     (answer.outcome, answer.ending) = (Outcome::Intersecting, DepthEnding::Narrow);
     (answer.lower, answer.upper) = (rest.lower, rest.upper);
     answer.depth = clamp(rest.depth, rest.lower, rest.upper);
@@ -172,9 +173,9 @@ impl<L: Lanes> Work for Raise<'_, L> {
         if let Some(pyramid) = polytope::raise(frame, direction, *upper, *farthest)
             && pyramid.prove(frame, &Rounding::of(frame)).is_ok()
         {
-            cache.keep_pyramid(&pyramid);
+            cache.raised(Some(&pyramid));
         } else {
-            cache.wait_to_raise();
+            cache.raised(None);
         }
     }
 }

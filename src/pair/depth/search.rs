@@ -128,7 +128,7 @@ impl Kernel for DepthQuery<'_> {
         if let Some(facet) = self.facet_of(&found)
             && match self.pyramids {
                 Pyramids::Unused => false,
-                Pyramids::AtRest => facet.rests(before, frame.size) && self.cache.raises(),
+                Pyramids::AtRest => facet.rests(before, frame.size) && self.cache.may_raise(),
                 Pyramids::Always => true,
             }
         {
