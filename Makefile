@@ -20,7 +20,8 @@
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
-# make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md
+# make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md, its tables,
+#                             chart and pictures, benches/results/engines.csv; DART takes most of an hour of it
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
@@ -57,6 +58,7 @@ QUICK =
 FIGURES = benches/results/figures
 CASTS = benches/results/casts.csv
 GROUNDS = benches/results/grounds.csv
+ENGINES = benches/results/engines.csv
 MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
@@ -200,13 +202,13 @@ hard-motions:
 	cargo run --locked --release --example hard_motions -- --count $(MOTIONS) $(if $(SEED),--seed $(SEED))
 
 engines:
-	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh /usr/include/bullet=libbullet-dev
 	-@scripts/require.sh /usr/include/dart=libdart-dev
 	. scripts/peers.sh
 	$(MAKE) build
-	for engine in mujoco bullet dart; do if [ -x $(BUILD)/examples/engines/$${engine}_compare ]; then \
-	    $(BUILD)/examples/engines/$${engine}_compare $(BUILD) || exit 1; fi; done
+	$(TIMED) python3 benches/engines.py --play $(BUILD)/examples/engines $(ENGINES)
+	$(DRAW) benches/engines.py $(ENGINES)
 
 steps:
 	@scripts/require.sh $(CC_PACKAGES) $(MATPLOTLIB)
@@ -219,6 +221,7 @@ charts:
 	$(DRAW) benches/bodies.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 	$(DRAW) benches/casts.py $(CASTS)
+	$(DRAW) benches/engines.py $(ENGINES)
 	$(STABILITY_PAGE)
 
 cases:

@@ -14,6 +14,7 @@ fi
 python3 benches/figures.py --check benches/results/figures-*.csv
 python3 benches/plot.py --check
 python3 benches/casts.py --check benches/results/casts.csv
+python3 benches/engines.py --check benches/results/engines.csv
 python3 benches/bodies.py --check
 python3 benches/sentences.py
 python3 benches/stability/report.py benches/results/stability.csv benches/results/stability-cost.csv docs/charts/failures.svg \
