@@ -33,7 +33,8 @@ fn corrupted_caches_change_no_answer_beyond_its_interval() {
             let mut bytes = bytes_of(&cache);
             match random.below(3) {
                 0 => bytes.iter_mut().for_each(|byte| *byte = random.next_u64() as u8),
-                1 => (0..1 + random.below(4)).for_each(|_| bytes[random.below(size_of::<DepthCache>())] ^= 1 << random.below(8)),
+                1 => (0..1 + random.below(4))
+                    .for_each(|_| bytes[random.below(size_of::<DepthCache>())] ^= 1 << random.below(8)),
                 _ => {
                     // Small numbers look most like indices.
                     for _ in 0..1 + random.below(40) {
