@@ -14,8 +14,9 @@
 /* The smallest body is 0.1 high: what has moved by half of that has left its place. */
 static const double FALLEN = 0.05;
 
-static const struct program PROGRAM = {
-    "engine comparison",
+/* Its name is that of the engine's. */
+static struct program program = {
+    "",
     "usage: mujoco_compare|bullet_compare|dart_compare [--quick] [FOLDER]\n",
     "\n"
     "Plays scenes in an engine, with its own collider and with swiftprox in turn. Fails if one falls that is to stand.\n"
@@ -26,11 +27,25 @@ static const struct program PROGRAM = {
     "  --help, --version  print this text, the version\n",
 };
 
+/* Writes an engine's name in small letters; `room` is at least 1. */
+static void write_small(const char *engine, char *small, size_t room)
+{
+    size_t i = 0;
+    for (; engine[i] && i + 1 < room; i++) {
+        small[i] = (char)tolower((unsigned char)engine[i]);
+    }
+    small[i] = '\0';
+}
+
 bool report_begin(struct report *report, const char *engine, int argc, char **argv, int *status)
 {
+    static char small[16], name[32];
+    write_small(engine, small, sizeof small);
+    snprintf(name, sizeof name, "%s_compare", small);
+    program.name = name;
     *report = (struct report){.engine = engine};
     struct program_option options[] = {{.name = "--quick", .kind = OPTION_FLAG, .value = &report->is_quick}};
-    struct command_line line = {.program = &PROGRAM, .options = options, .option_count = 1, .operands = &report->folder, .most_operands = 1};
+    struct command_line line = {.program = &program, .options = options, .option_count = 1, .operands = &report->folder, .most_operands = 1};
     if (!command_line_read(&line, argc, argv, status)) {
         return false;
     }
@@ -103,18 +118,15 @@ static void write_csv(FILE *file, const struct report *report)
     }
 }
 
-/* Writes FOLDER/engines-ENGINE.KIND, all in small letters; false, with a message, when it cannot. */
+/* Writes FOLDER/engines-ENGINE.KIND; false, with a message, when it cannot. */
 static bool write_file(const struct report *report, const char *kind, void (*fill)(FILE *file, const struct report *report))
 {
-    char path[1024];
-    const int begin = snprintf(path, sizeof path, "%s/", report->folder);
-    const int end = snprintf(path, sizeof path, "%s/engines-%s.%s", report->folder, report->engine, kind);
-    if (begin < 0 || end < 0 || (size_t)end >= sizeof path) {
+    char path[1024], small[16];
+    write_small(report->engine, small, sizeof small);
+    const int length = snprintf(path, sizeof path, "%s/engines-%s.%s", report->folder, small, kind);
+    if (length < 0 || (size_t)length >= sizeof path) {
         fprintf(stderr, "%s: too long a path\n", report->folder);
         return false;
-    }
-    for (char *letter = path + begin; *letter; letter++) {
-        *letter = (char)tolower((unsigned char)*letter);
     }
     FILE *const file = fopen(path, "w");
     if (file) {
