@@ -21,7 +21,7 @@
 # make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md, its tables,
-#                             chart and pictures, benches/results/engines.csv; DART takes most of an hour of it
+#                             chart and pictures, benches/results/engines.csv; DART takes more than half an hour of it
 # make steps                  the worst queries over the number of vertices: benches/results/worst-case.csv, docs/charts/steps.svg
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
