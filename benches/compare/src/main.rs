@@ -21,8 +21,6 @@ mod resting;
 mod setting;
 mod timing;
 
-use std::process::ExitCode;
-
 use options::Options;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::read_mesh;
@@ -30,7 +28,7 @@ use testkit::PosePair;
 use testkit::models::{ELLIPSOIDS, ellipsoid};
 use testkit::orbits::{ORBITS, Orbit, Step, poses};
 
-fn main() -> ExitCode {
+fn main() -> ! {
     let run = || {
         let options = options::parse(std::env::args().skip(1))?;
         if options.help {
@@ -64,11 +62,11 @@ fn main() -> ExitCode {
         }
     };
     match run() {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(()) => peers::end(0),
         Err(message) => {
             let message: String = message;
             eprintln!("compare: {message}");
-            ExitCode::from(2)
+            peers::end(2)
         }
     }
 }
