@@ -11,7 +11,7 @@ unsafe extern "C" {
     fn _exit(status: i32) -> !;
 }
 
-/// Ends the program without destructors of C++: coal from PyPI and Debian's FCL bring an octomap each, and both free the same string.
+/// Ends the program without destructors of C++: coal from PyPI and Debian's FCL bring an octomap each, and both free one string.
 pub fn end(status: u8) -> ! {
     // What cannot be written can no longer be told either.
     let _ = std::io::stdout().flush();
