@@ -91,18 +91,7 @@ def main():
     with_numbers(rows, ("count", "hits", "best_ns", "mean_queries", "misses", "false_hits", "off", "unknown"))
     casts, rays = ([r for r in rows if r["asked"] == asked] for asked in ("cast", "ray"))
     made = {"casts": cast_table(casts), "rays": ray_table(rays)}
-    with open(PAGE) as file:
-        text = file.read()
-    filled = claims.fill(text, made)
-    path = os.path.join(charts.FOLDER, "casts.svg")
-    if check:
-        if filled != text:
-            sys.exit(f"{PAGE} does not say what {arguments[-1]} says: run benches/casts.py")
-        charts.check(path, chart(head[0], casts))
-        return
-    with open(PAGE, "w") as file:
-        file.write(filled)
-    charts.draw(path, chart(head[0], casts), arguments)
+    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "casts.svg"), chart(head[0], casts)), arguments[-1], check)
 
 
 if __name__ == "__main__":

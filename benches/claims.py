@@ -1,7 +1,9 @@
 """What Ehmann & Lin (2000) conclude from their figures, beside what the figures say when measured anew (benches/figures.py)."""
 import math
 import re
+import sys
 
+import charts
 from rows import geometric_mean, in_order
 
 LOW_COHERENCE = ("20", "45", "90", "random")
@@ -354,3 +356,19 @@ def fill(page, made):
         return f"<!-- table: {match[1]} -->\n{made[match[1]]}\n<!-- end -->"
 
     return re.sub(r"<!-- table: (\w+) -->\n.*?<!-- end -->", anew, page, flags=re.DOTALL)
+
+
+def show(page, made, drawn, csv_path, check):
+    """Fills a page's tables and draws a chart, (path, chart). With `check` nothing is written, and the program ends where page or chart
+    do not say what the CSV file says."""
+    with open(page) as file:
+        text = file.read()
+    filled = fill(text, made)
+    if check:
+        if filled != text:
+            sys.exit(f"{page} does not say what {csv_path} says: run {sys.argv[0]}")
+        charts.check(*drawn)
+        return
+    with open(page, "w") as file:
+        file.write(filled)
+    charts.draw(*drawn, [csv_path])

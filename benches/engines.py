@@ -119,17 +119,7 @@ def main():
     where = rows.machine(head[0])
     made = {engine.lower(): table(played, engine) for engine in rows.in_order(row["engine"] for row in played)}
     made["machine"] = f"Measured on: {where}."
-    with open(PAGE) as file:
-        text = file.read()
-    filled = claims.fill(text, made)
-    path = os.path.join(charts.FOLDER, "engines.svg")
-    if check:
-        if filled != text:
-            sys.exit(f"{PAGE} does not say what {arguments[-1]} says: run benches/engines.py")
-        return charts.check(path, chart(where, played))
-    with open(PAGE, "w") as file:
-        file.write(filled)
-    charts.draw(path, chart(where, played), arguments)
+    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "engines.svg"), chart(where, played)), arguments[-1], check)
 
 
 if __name__ == "__main__":
