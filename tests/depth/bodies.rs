@@ -287,6 +287,32 @@ fn witness_points_on_slivers_hold() {
     assert!(overlapping > 40_000, "{overlapping}");
 }
 
+/// A small body inside a needle: seen from it the needle's nearest facet is two triangles 10³ to 10⁶ times as long as wide, and the
+/// least direction meets their common side. From fuzzing.
+#[test]
+fn witness_points_on_a_side_of_slivers_hold() {
+    let mut random = Random::new(41);
+    let mut overlapping = 0;
+    for _ in 0..20_000 {
+        let thin = random.power(-20, -8);
+        let needle: Vec<Vector> = {
+            let turn = random.rotation();
+            let half = Vector::new(1.0, thin * random.power(-4, 0), thin);
+            let corner = |i: usize| Vector::from_fn(|k, _| if i >> k & 1 == 0 { -half[k] } else { half[k] });
+            (0..8).map(|i| turn * corner(i)).collect()
+        };
+        let small: Vec<Vector> = (0..8).map(|_| random.vector() * thin * 1e-6).collect();
+        let (needle, small) = (hull(&needle), hull(&small));
+        let poses = [Pose::new(&random.rotation(), &Vector::zeros()), Pose::new(&random.rotation(), &Vector::zeros())];
+        let (pair, placed) = ([&small, &needle], [&poses[0], &poses[1]]);
+        let mut cache = DepthCache::default();
+        let answer = query(pair, placed, &mut cache);
+        check(pair, placed, &cache, &answer);
+        overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+    }
+    assert_eq!(overlapping, 20_000);
+}
+
 /// Two bodies that no unit of length brings into the range of the search, and a pose that shrinks one: the common point is farther
 /// from the feature in the object's frame than the interval is wide. From fuzzing, the small body smaller.
 #[test]

@@ -1,7 +1,7 @@
 //! Small bodies, whose depth all facets of the Minkowski difference tell.
 
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{DepthAnswer, DepthCache};
+use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
 
@@ -154,4 +154,31 @@ fn what_is_kept_of_middling_bodies_is_moved_on_where_poses_hardly_change() {
     let (wild, still) = (count(2.0), count(1e-3));
     println!("{wild:?} {still:?}");
     assert!(wild.0 > 190 && still.1 > 180, "{wild:?} {still:?}");
+}
+
+/// A box beside a body of corners 10¹³ times as far out: rounding hides whether a vertex is deep enough below a plane, and integers
+/// tell. From fuzzing.
+#[test]
+fn depths_of_small_bodies_far_out_are_proved() {
+    let mut random = Random::new(75);
+    let (mut overlapping, mut by_facets) = (0, 0);
+    for _ in 0..20_000 {
+        let far = random.power(20, 45);
+        let points: Vec<Vector> = (0..6)
+            .map(|_| {
+                Vector::from_fn(
+                    |_, _| if random.below(2) == 0 { random.signed() * 32.0 } else { random.pick(&[-far, far]) },
+                )
+            })
+            .collect();
+        let (body, block) = (hull(&points), cuboid([30.0, 32.0, 32.0]));
+        let skew = Matrix::identity() + Matrix::from_fn(|_, _| random.pick(&[0.0, 0.0, 1.0]) * random.power(-40, -28));
+        let poses = [Pose::new(&skew, &random.lattice(16)), Pose::new(&Matrix::identity(), &random.lattice(32))];
+        let mut cache = DepthCache::default();
+        let answer = check([&body, &block], [&poses[0], &poses[1]], &mut cache);
+        overlapping += usize::from(answer.outcome == Outcome::Intersecting);
+        by_facets += usize::from(answer.lower > 0.0 && answer.statistics.triangles == 0);
+    }
+    println!("{overlapping} overlap, {by_facets} by facets");
+    assert!(overlapping > 5_000 && by_facets > 1_000, "{overlapping} {by_facets}");
 }

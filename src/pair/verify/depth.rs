@@ -39,8 +39,8 @@ use std::cmp::Ordering;
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
 /// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to
-/// triangles times vertices. For bodies 10⁹ times as long as they are deep that may fail: the error says that the depth is not
-/// proved, and the answer may hold.
+/// triangles times vertices; integers tell what rounding hides there. For larger bodies 10⁹ times as long as they are deep no proof
+/// may be found: the error says that the depth is not proved, and the answer may hold.
 ///
 /// # Errors
 /// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.
@@ -280,8 +280,7 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
             return Ok(());
         }
     }
-    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, bounds.in_units(lower)))
-    {
+    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower)) {
         return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))

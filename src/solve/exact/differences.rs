@@ -45,12 +45,53 @@ impl<'a> Differences<'a> {
 
     /// By how much the bodies overlap along a direction from body 2 to body 1, over all vertices; `None` if they do not.
     pub fn overlap_along(&self, direction: &Vector) -> Option<ExactDistance> {
-        let against = DyadicVector::from_doubles((-direction).into()).components;
-        let farthest = self.0.farthest([0, 0], &against, Supports::OfAll).position;
-        let height = dot(&against, &farthest.components);
-        (height >= IBig::ZERO).then(|| {
-            let square = dot(&against, &against);
-            ExactDistance { height, square, exponent: farthest.exponent }
-        })
+        let against = Normal::new(DyadicVector::from_doubles((-direction).into()).components);
+        self.height(&against, self.farthest(&against))
+    }
+
+    /// Both directions across two edges, each of either body; `None` where they are parallel.
+    pub fn across(&self, edges: [PairEdge; 2]) -> Option<[Normal; 2]> {
+        let [a, b] = edges.map(|edge| {
+            let [tail, head] = edge.map(|pair| self.0.corner(pair).position);
+            head.difference(tail).components
+        });
+        let normals = [Normal::new(cross(&a, &b)), Normal::new(cross(&b, &a))];
+        (normals[0].square > IBig::ZERO).then_some(normals)
+    }
+
+    /// Whether a difference is at least so far along a direction, `least` from 0 on.
+    pub fn is_beyond(&self, normal: &Normal, pair: VertexPair, least: f64) -> bool {
+        self.height(normal, pair).is_some_and(|height| height.compare(least).is_ge())
+    }
+
+    /// Whether the bodies overlap by at least `least`, from 0 on, against a direction from body 2 to body 1, over all vertices.
+    pub fn overlap_by(&self, normal: &Normal, least: f64) -> bool {
+        self.is_beyond(normal, self.farthest(normal), least)
+    }
+
+    fn farthest(&self, normal: &Normal) -> VertexPair {
+        self.0.farthest([0, 0], &normal.components, Supports::OfAll).pair
+    }
+
+    /// How far a difference is along a direction; `None` if it is behind the origin.
+    fn height(&self, Normal { components, square }: &Normal, pair: VertexPair) -> Option<ExactDistance> {
+        let position = self.0.corner(pair).position;
+        let height = dot(components, &position.components);
+        (height >= IBig::ZERO).then(|| ExactDistance { height, square: square.clone(), exponent: position.exponent })
+    }
+}
+
+/// Two differences with one body's vertex in common: an edge of the other body.
+pub type PairEdge = [VertexPair; 2];
+
+/// A direction of any length.
+pub struct Normal {
+    components: IntVector,
+    square: IBig,
+}
+
+impl Normal {
+    fn new(components: IntVector) -> Normal {
+        Normal { square: dot(&components, &components), components }
     }
 }

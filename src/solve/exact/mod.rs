@@ -22,7 +22,7 @@ use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 pub use answer::{ExactAnswer, ExactDistance};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
-pub use differences::Differences;
+pub use differences::{Differences, Normal, PairEdge};
 pub use half_space::{Lowest, lowest};
 use minkowski::MinkowskiDifference;
 pub use simplex::VertexPair;

@@ -97,12 +97,31 @@ fn on_triangle<const V: usize, const T: usize>(
             }
         }
     }
-    let positive = weights.map(|weight| clamp(weight, 0.0, 1.0));
-    let sum: f64 = positive.iter().sum();
-    let weights @ [a, b, c] = positive.map(|weight| weight / sum);
+    if weights.iter().any(|weight| !(*weight >= 0.0)) {
+        weights = on_side(&seen);
+    }
+    let sum: f64 = weights.iter().sum();
+    let weights @ [a, b, c] = weights.map(|weight| weight / sum);
     let depth = weighted(&corners, &weights).dot(ray);
     let witness = Witness { pairs: polytope.pairs_of(triangle), count: 3, weights: [a, b, c, 0.0], depth };
     (witness, weighted(&seen, &weights).norm())
+}
+
+/// The weights of the point of a triangle's sides that is nearest to the origin. To cut a negative weight off instead would move the
+/// point by that times the triangle's length: 10⁴ times as far as the origin is beside a side, for a triangle 10⁻⁴ times as wide.
+#[cold]
+fn on_side(corners: &[Vector; 3]) -> [f64; 3] {
+    let of_side = |k: usize| {
+        let (next, mut weights) = ((k + 1) % 3, [0.0; 3]);
+        let along = corners[next] - corners[k];
+        weights[next] = clamp(-corners[k].dot(&along) / divisor(along.norm_squared()), 0.0, 1.0);
+        weights[k] = 1.0 - weights[next];
+        weights
+    };
+    let nearer = |a: [f64; 3], b: [f64; 3]| {
+        if weighted(corners, &b).norm_squared() < weighted(corners, &a).norm_squared() { b } else { a }
+    };
+    nearer(nearer(of_side(0), of_side(1)), of_side(2))
 }
 
 /// The point of these weights.
