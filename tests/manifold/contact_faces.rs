@@ -233,9 +233,10 @@ fn noisy_meshes_have_the_manifolds_of_the_meshes_that_were_meant() {
     good_turns(20);
 }
 
-/// By hand.
+/// The same with fifty times as many turns, for changes of contact faces:
+/// `cargo test --profile checked --test manifold -- --ignored`.
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes a minute; the twenty turns above are a sample of it"]
 fn noisy_meshes_over_a_thousand_turns() {
     good_turns(1_000);
 }

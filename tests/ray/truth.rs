@@ -37,9 +37,9 @@ fn rays_anywhere() {
     assert!(counts.iter().all(|&count| count > 200), "{counts:?}");
 }
 
-/// Ten times as many, other ones.
+/// Ten times as many, other ones, for changes of rays: `cargo test --profile checked --test ray -- --ignored`.
 #[test]
-#[ignore = "takes minutes"]
+#[ignore = "takes minutes; the tests above are a tenth of it"]
 fn a_million() {
     println!("{:?}", try_all(3, 920_000, on_lattice));
     println!("{:?}", try_all(4, 80_000, anywhere));

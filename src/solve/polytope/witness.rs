@@ -107,8 +107,8 @@ fn on_triangle<const V: usize, const T: usize>(
     (witness, weighted(&seen, &weights).norm())
 }
 
-/// The weights of the point of a triangle's sides that is nearest to the origin. To cut a negative weight off instead would move the
-/// point by that times the triangle's length: 10⁴ times as far as the origin is beside a side, for a triangle 10⁻⁴ times as wide.
+/// The weights of the point of a triangle's sides that is nearest to the origin. To cut a negative weight off instead would move
+/// the point by that times the triangle's length: of one 10⁻⁴ times as wide, 10⁴ times as far as the origin is beside a side.
 #[cold]
 fn on_side(corners: &[Vector; 3]) -> [f64; 3] {
     let of_side = |k: usize| {
