@@ -356,7 +356,9 @@ impl<'a> Groups<'a> {
         let first = faces.next();
         let is_one = faces.all(|face| Some(face) == first);
         let sides = first.map_or(0, |face| hull.polyhedron.faces[face as usize].side_count);
-        if is_one && sides as usize == slab.corners.len() {
+        // A vertex that slivers keep from the merged face finds it by the contact face alone.
+        let is_at_face = |v: &u32| hull.surface.around(*v).iter().any(|h| Some(hull.face(h / 3)) == first);
+        if is_one && sides as usize == slab.corners.len() && slab.vertices.iter().all(is_at_face) {
             triangles.iter().for_each(|t| self.group_of[*t as usize] = UNCHANGED);
             return Ok(());
         }
