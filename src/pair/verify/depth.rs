@@ -39,8 +39,8 @@ use std::cmp::Ordering;
 ///
 /// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
 /// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to
-/// triangles times vertices; integers tell what rounding hides there. For larger bodies 10⁹ times as long as they are deep no proof
-/// may be found: the error says that the depth is not proved, and the answer may hold.
+/// triangles times vertices; integers tell what rounding hides there. Of larger bodies 10⁹ times as long as they are deep no proof
+/// may be found. The error then says that the depth is not proved; the answer may hold.
 ///
 /// # Errors
 /// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.

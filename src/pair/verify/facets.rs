@@ -1,7 +1,7 @@
-//! A lower bound of the depth of small bodies by all facets of their Minkowski difference, in double-double arithmetic, and in
-//! integers where that leaves a vertex open. It knows nothing of the search by facets: it walks the triangles of the exact hulls,
-//! whose normals are nodes and whose edges are arcs of the exact normal fans (`solve/facets/` has the lemma; of exact fans nothing
-//! is lost).
+//! A lower bound of the depth of small bodies by all facets of their Minkowski difference. Double-double arithmetic tells most,
+//! integers what that leaves open. It knows nothing of the search by facets: it walks the triangles of the exact hulls. Their
+//! normals are nodes and their edges are arcs of the exact normal fans (`solve/facets/` has the lemma; of exact fans nothing is
+//! lost).
 //!
 //! Every direction of a facet of C = {x − y} is the normal of a triangle or is perpendicular to an edge of each body. An arc
 //! between two normals is done with where one vertex of the other body is deep enough below both planes. Of the edges left, both
@@ -171,7 +171,7 @@ impl<'a> Proof<'a> {
             [Some(along), Some(against)] => along && against,
             _ => self
                 .exactly(&direction)
-                .is_none_or(|normals| normals.iter().all(|normal| self.exact.overlap_by(normal, self.lower))),
+                .is_none_or(|normals| normals.iter().all(|normal| self.exact.overlaps_by(normal, self.lower))),
         }
     }
 }

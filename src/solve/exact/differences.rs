@@ -65,7 +65,7 @@ impl<'a> Differences<'a> {
     }
 
     /// Whether the bodies overlap by at least `least`, from 0 on, against a direction from body 2 to body 1, over all vertices.
-    pub fn overlap_by(&self, normal: &Normal, least: f64) -> bool {
+    pub fn overlaps_by(&self, normal: &Normal, least: f64) -> bool {
         self.is_beyond(normal, self.farthest(normal), least)
     }
 
