@@ -76,7 +76,7 @@ demo: build
 # The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
 # other libraries, further compilers, a browser.
 LONG := _under_|^(package|subdirectory|fetch_content|find_package|legacy_(clang_)?cxx|legacy_float|cpp_(c|g|clang)\+\+)
-LONG := $(LONG)|^(tower_|instructions|ratios|abi_dump|replay_page$$|reference|samples|setup)
+LONG := $(LONG)|^(tower_|instructions|ratios|replay_page$$|reference|samples|setup)
 check:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
 	@scripts/rust.sh cargo-fmt cargo-clippy
@@ -89,7 +89,7 @@ check:
 # Side by side, the longest first: what one compiles on a single core leaves the others to another. Each prints when it is done.
 test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config abidiff=abigail-tools $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
 	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz lint
 
@@ -107,7 +107,7 @@ test-rust:
 # in the end: it fails no test, but nobody should have to look for it.
 test-c:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config abidiff=abigail-tools $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true

@@ -4,11 +4,11 @@
  * Conventions, which hold for every function below:
  *
  * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments. What is asked has one name over all layers: intersection,
- * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Former names stand at
- * the end of this file. Flags are an int32_t: given, any number but 0 is yes; returned, yes is 1.
+ * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Flags are an
+ * int32_t: given, any number but 0 is yes; returned, yes is 1.
  *
- * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, the numbers are never reused, and compilers warn where
- * one is ignored. swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
+ * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, and compilers warn where one is ignored.
+ * swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
  * changes nothing but the outputs it names. What initialises, shares and releases returns none: a mistake there, such as a null
  * pointer, is ignored and told by that message and the log. Nothing is printed, nothing unwinds into the caller. A bug of the
  * library, when it is caught, comes back as SWIFTPROX_ERROR_BUG; a scene that was being changed answers
@@ -40,11 +40,11 @@
  * library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
  * is the default. Of a larger struct of a newer header this library leaves 0 what it does not know, and refuses by
  * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
- * results, features, statistics, meshes, caches, ids) stay as they are within a major version, while that is 0 within a minor one.
+ * results, features, statistics, meshes, caches, ids) have a fixed size.
  *
- * Stability. Each function says that it is stable or experimental. A stable one keeps its arguments and its meaning as structs of
- * fixed size keep their members: within a major version, while that is 0 within a minor one. An experimental one may change or go
- * in any version, and so may what it alone takes or fills.
+ * Stability. Nothing has been released, and until the first release anything may change. From then on a function that ends in
+ * "Stable." keeps its arguments, its meaning and the structs of fixed size that it takes: within a major version, while that is 0
+ * within a minor one. One that ends in "Experimental." may change or go in any version, and so may what it alone takes or fills.
  *
  * Enums. Each is a type of its own, as large as an int32_t, so that compilers warn where two are mixed up. Any number is safe to
  * hand over: those that are no enumerators are refused, and get words that say so.
@@ -93,21 +93,6 @@
 
 /** Makes a call and ignores its status on purpose, with no warning in any standard. */
 #define SWIFTPROX_IGNORE(call) ((void)!(call))
-
-/** Stands before former names: compilers warn and say the new one, unless SWIFTPROX_NO_DEPRECATION_WARNINGS is defined. */
-#ifndef SWIFTPROX_DEPRECATED
-#if defined(SWIFTPROX_NO_DEPRECATION_WARNINGS)
-#define SWIFTPROX_DEPRECATED(name)
-#elif (defined(__cplusplus) && __cplusplus >= 201402L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
-#define SWIFTPROX_DEPRECATED(name) [[deprecated("use " #name)]]
-#elif defined(__GNUC__)
-#define SWIFTPROX_DEPRECATED(name) __attribute__((deprecated("use " #name)))
-#elif defined(_MSC_VER)
-#define SWIFTPROX_DEPRECATED(name) __declspec(deprecated("use " #name))
-#else
-#define SWIFTPROX_DEPRECATED(name)
-#endif
-#endif
 
 /** What enums are made of: an int32_t, where the language lets them say so, else an int. Any number is safe to hand over. */
 #ifndef SWIFTPROX_INT32
@@ -3890,66 +3875,6 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  */
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_former Former names, for programs that were written with them
- * @{
- */
-
-/**
- * Former name of swiftprox_scene_query_distance, which lists what is within a tolerance.
- *
- * Stable.
- */
-SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_tolerance(struct swiftprox_scene *scene,
-                                                 const struct swiftprox_scene_query *query,
-                                                 struct swiftprox_scene_answer *answer);
-
-/**
- * Former name of swiftprox_scene_query_distance.
- *
- * Stable.
- */
-SWIFTPROX_DEPRECATED(swiftprox_scene_query_distance)
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_exact_distance(struct swiftprox_scene *scene,
-                                                      const struct swiftprox_scene_query *query,
-                                                      struct swiftprox_scene_answer *answer);
-
-/**
- * Former name of swiftprox_scene_query_approximate.
- *
- * Stable.
- */
-SWIFTPROX_DEPRECATED(swiftprox_scene_query_approximate)
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_approximate_distance(struct swiftprox_scene *scene,
-                                                            const struct swiftprox_scene_query *query,
-                                                            struct swiftprox_scene_answer *answer);
-
-/**
- * Former name of swiftprox_scene_query_contact.
- *
- * Stable.
- */
-SWIFTPROX_DEPRECATED(swiftprox_scene_query_contact)
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_contacts(struct swiftprox_scene *scene,
-                                                const struct swiftprox_scene_query *query,
-                                                struct swiftprox_scene_answer *answer);
-
-/**
- * Former name of swiftprox_scene_reset_pairs.
- *
- * Stable.
- */
-SWIFTPROX_DEPRECATED(swiftprox_scene_reset_pairs)
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_find_pairs(struct swiftprox_scene *scene);
 
 /** @} */
 

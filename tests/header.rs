@@ -62,21 +62,6 @@ const BEFORE: &str = "\
 /** Makes a call and ignores its status on purpose, with no warning in any standard. */
 #define SWIFTPROX_IGNORE(call) ((void)!(call))
 
-/** Stands before former names: compilers warn and say the new one, unless SWIFTPROX_NO_DEPRECATION_WARNINGS is defined. */
-#ifndef SWIFTPROX_DEPRECATED
-#if defined(SWIFTPROX_NO_DEPRECATION_WARNINGS)
-#define SWIFTPROX_DEPRECATED(name)
-#elif (defined(__cplusplus) && __cplusplus >= 201402L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
-#define SWIFTPROX_DEPRECATED(name) [[deprecated(\"use \" #name)]]
-#elif defined(__GNUC__)
-#define SWIFTPROX_DEPRECATED(name) __attribute__((deprecated(\"use \" #name)))
-#elif defined(_MSC_VER)
-#define SWIFTPROX_DEPRECATED(name) __declspec(deprecated(\"use \" #name))
-#else
-#define SWIFTPROX_DEPRECATED(name)
-#endif
-#endif
-
 /** What enums are made of: an int32_t, where the language lets them say so, else an int. Any number is safe to hand over. */
 #ifndef SWIFTPROX_INT32
 #if (defined(__cplusplus) && __cplusplus >= 201103L) || (defined(__STDC_VERSION__) && __STDC_VERSION__ >= 202311L)
@@ -112,9 +97,6 @@ const BEHIND_OBJECT_ID: &str = "\
 #define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
 #endif
 ";
-
-/// What the comment of a former name begins with; the new one follows.
-const FORMER: &str = "Former name of ";
 
 /// Marks of functions; the head of swiftprox.h says what they mean.
 const STABLE: &str = "Stable.";
@@ -249,14 +231,7 @@ fn marked(declaration: &str, mark: &str) -> String {
         Some(line) => format!("/**\n * {line}\n"),
         None => comment.trim_end_matches(' ').to_string(),
     };
-    format!("{} *\n * {mark}\n */\n{}{code}", comment.replace(" \n", "\n"), deprecation(&comment))
-}
-
-/// What stands before a former name: the attribute with the new one.
-fn deprecation(comment: &str) -> String {
-    let new =
-        comment.split_once(FORMER).map(|(_, rest)| rest.split(|c: char| !(c.is_alphanumeric() || c == '_')).next());
-    new.flatten().map_or_else(String::new, |new| format!("SWIFTPROX_DEPRECATED({new})\n"))
+    format!("{} *\n * {mark}\n */\n{code}", comment.replace(" \n", "\n"))
 }
 
 /// Ends a header.
@@ -564,7 +539,6 @@ fn compilers_see_what_is_mixed_up_or_ignored() {
         ("what decided, compared with a status's name", "return answer->decided_by == SWIFTPROX_OK;"),
         ("an outcome, compared with what decided", "return answer->outcome == answer->decided_by;"),
         ("an id for a number", "return id == 0;"),
-        ("a former name", "return swiftprox_scene_find_pairs(scene);"),
         ("a scene for a shape", "swiftprox_shape_release(scene);"),
     ] {
         let source = |line: &str| {

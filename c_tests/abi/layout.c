@@ -1,4 +1,4 @@
-/* The C compiler lays structs out, and numbers statuses, as layout.h says, which Rust has written. Compiling it is the test. */
+/* The C compiler lays structs out as layout.h says, which Rust has written. Compiling it is the test. */
 
 #include "swiftprox_tuning.h"
 
@@ -12,7 +12,6 @@
 #define MEMBER(type, member, offset, size) \
     _Static_assert(offsetof(type, member) == (offset), "where " #type "." #member " stands"); \
     _Static_assert(sizeof(((type *)0)->member) == (size), "the size of " #type "." #member);
-#define NUMBER(enumerator, value) _Static_assert((enumerator) == (value), "the number of " #enumerator);
 
 #include "layout.h"
 

@@ -1,9 +1,9 @@
 /*
- * The layout of C's structs where pointers have 64 bits, and the numbers of the statuses. Written by Rust, compared by layout.c.
+ * The layout of C's structs where pointers have 64 bits. Written by Rust, compared by layout.c.
  *
- *   STRUCT(type, size, alignment)    MEMBER(type, member, offset, size)    NUMBER(enumerator, value)
+ *   STRUCT(type, size, alignment)    MEMBER(type, member, offset, size)
  *
- * `BLESS=1 cargo test --test project layout` rewrites it. A line that changes is a change of the ABI: CHANGELOG.md tells it.
+ * `BLESS=1 cargo test --test project layout` rewrites it.
  */
 
 STRUCT(swiftprox_shape_options, 168, 8)
@@ -486,21 +486,3 @@ MEMBER(swiftprox_pair_tuning, struct_size, 0, 8)
 MEMBER(swiftprox_pair_tuning, start, 8, 4)
 MEMBER(swiftprox_pair_tuning, levels, 12, 4)
 MEMBER(swiftprox_pair_tuning, refinement, 16, 4)
-
-NUMBER(SWIFTPROX_OK, 0)
-NUMBER(SWIFTPROX_ERROR_NULL_POINTER, 1)
-NUMBER(SWIFTPROX_ERROR_INVALID_ARGUMENT, 2)
-NUMBER(SWIFTPROX_ERROR_STRUCT_SIZE, 3)
-NUMBER(SWIFTPROX_ERROR_POSE, 4)
-NUMBER(SWIFTPROX_ERROR_MESH, 5)
-NUMBER(SWIFTPROX_ERROR_FILE, 6)
-NUMBER(SWIFTPROX_ERROR_HANDLE, 7)
-NUMBER(SWIFTPROX_ERROR_LIMIT, 8)
-NUMBER(SWIFTPROX_ERROR_CANCELLED, 9)
-NUMBER(SWIFTPROX_ERROR_BUG, 10)
-NUMBER(SWIFTPROX_ERROR_POISONED, 11)
-NUMBER(SWIFTPROX_ERROR_VERSION, 12)
-NUMBER(SWIFTPROX_ERROR_UNVERIFIED, 13)
-NUMBER(SWIFTPROX_ERROR_UNSUPPORTED, 14)
-NUMBER(SWIFTPROX_ERROR_MEMORY, 15)
-NUMBER(SWIFTPROX_ERROR_BUSY, 16)

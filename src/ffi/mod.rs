@@ -43,6 +43,5 @@ pub mod object_set;
 pub mod scene_ground;
 pub mod pair_batch;
 pub mod record;
-pub mod former_names;
 
 pub use failure::StatusCode;
