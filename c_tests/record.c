@@ -1,5 +1,5 @@
-/* Recordings through C: what is done to a scene is played back with the same answers; files that are none, cut off or damaged are
- * refused or read as far as they go; a disk that is full ends the recording and nothing else.
+/* Recordings through C: what is done to a scene is played back with the same answers; a disk that is full ends the recording and
+ * nothing else. tests/scene/record.rs cuts and damages files.
  *
  *   record [FOLDER FOR FILES] */
 #include <math.h>
@@ -164,43 +164,6 @@ static void played_back(void)
     CHECK(play(0, NULL, &ending, &cut_off) == 1 && ending == SWIFTPROX_OK && !cut_off);
 }
 
-/* The file with other content. */
-static void rewrite(const char *bytes, size_t size)
-{
-    FILE *file = fopen(path, "wb");
-    if (CHECK(file != NULL)) {
-        CHECK(fwrite(bytes, 1, size, file) == size);
-        CHECK(fclose(file) == 0);
-    }
-}
-
-static void cut_and_damaged(void)
-{
-    swiftprox_scene *const scene = recorded_scene();
-    swiftprox_status ending;
-    double sums[2 * STEPS];
-    int cut_off;
-    const size_t asked = session(scene, sums);
-    CHECK_OK(swiftprox_scene_destroy(scene));
-    static char bytes[1 << 16];
-    FILE *file = fopen(path, "rb");
-    const size_t size = file ? fread(bytes, 1, sizeof bytes, file) : 0;
-    CHECK(size > 1000 && size < sizeof bytes && fclose(file) == 0);
-
-    rewrite(bytes, size - 1);
-    CHECK(play(1, sums, &ending, &cut_off) == asked && ending == SWIFTPROX_OK && cut_off);
-    rewrite(bytes, size / 2);
-    const size_t half = play(1, sums, &ending, &cut_off);
-    CHECK(half > 0 && half < asked && ending == SWIFTPROX_OK && cut_off);
-    bytes[size / 2] ^= 4;
-    rewrite(bytes, size);
-    CHECK(play(1, sums, &ending, &cut_off) <= half && ending == SWIFTPROX_ERROR_FILE);
-    CHECK(strstr(swiftprox_library_last_error_message(), "at byte ") != NULL);
-    rewrite("# swiftprox scene 1\n", 20);
-    CHECK(play(1, sums, &ending, &cut_off) == 0 && ending == SWIFTPROX_ERROR_FILE);
-    CHECK(strstr(swiftprox_library_last_error_message(), "no recording") != NULL);
-}
-
 static int lines;
 
 static void count_line(swiftprox_status status, const char *message, void *user)
@@ -269,7 +232,6 @@ int main(int argc, char **argv)
     const char *const folder = argc > 1 ? argv[1] : ".";
     snprintf(path, sizeof path, "%s/record.swiftprox", folder);
     played_back();
-    cut_and_damaged();
     a_full_disk();
     bad_arguments(folder);
     remove(path);

@@ -6,6 +6,7 @@
  *
  *     threads [rounds]
  */
+#include <math.h>
 #include <pthread.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@
 
 #include "swiftprox.h"
 
-enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8 };
+enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8, ROUND = 200 };
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 
@@ -43,6 +44,23 @@ static void set_pose_at(double pose[12], double x, double y)
     memcpy(pose, identity, sizeof identity);
     pose[3] = x;
     pose[7] = y;
+}
+
+/* Two boxes, and a round body whose look-up table the first thread makes that looks into it. */
+static int make_shape(int i)
+{
+    double points[3 * ROUND];
+    for (int k = 0; k < 24; ++k)
+        points[k] = CORNERS[k] * (1 + i % (1 + k % 3));
+    if (i < SHAPES - 1)
+        return swiftprox_shape_create_from_points(points, 8, NULL, &shapes[i]) == SWIFTPROX_OK;
+    for (int k = 0; k < ROUND; ++k) { /* a spiral around a ball in the unit cube */
+        const double z = 1 - (2 * k + 1.0) / ROUND, r = sqrt(1 - z * z);
+        points[3 * k] = 0.5 + 0.5 * r * cos(2.4 * k);
+        points[3 * k + 1] = 0.5 + 0.5 * r * sin(2.4 * k);
+        points[3 * k + 2] = 0.5 + 0.5 * z;
+    }
+    return swiftprox_shape_create_from_points(points, ROUND, NULL, &shapes[i]) == SWIFTPROX_OK;
 }
 
 /* Pair queries from touching to far apart and back; the last of them in `distances`. */
@@ -156,11 +174,8 @@ int main(int argument_count, char **arguments)
         return 1;
     for (int i = 0; i < SHAPES; ++i) {
         swiftprox_object_options options;
-        double corners[24];
-        for (int k = 0; k < 24; ++k)
-            corners[k] = CORNERS[k] * (1 + i % (1 + k % 3));
         const swiftprox_shape *piece;
-        if (swiftprox_shape_create_from_points(corners, 8, NULL, &shapes[i]) != SWIFTPROX_OK)
+        if (!make_shape(i))
             return 1;
         piece = shapes[i];
         swiftprox_object_options_init(&options);
