@@ -216,16 +216,6 @@ public:
      */
     bool Get_Depth(int k, swiftprox_depth_answer& depth) const;
 
-    /*
-     * Writes an object as Add_General_Object reads it, in its local frame: after its input transform. The first makes the
-     * decomposition (Convex_Decomposition), the second the hierarchy of hulls above it (Convex_Hierarchy). What is read back has
-     * the same vertices, pieces and numbers, and is written as the same bytes. False after a message, as of old where the file
-     * cannot be opened: of an object of several pieces with numbers, or of one whose convex hull counts, and where the disk is
-     * full. A file that could be opened is overwritten; it is no file of the decomposer's unless the result is true.
-     */
-    bool Save_Decomposition_File(const char* filename, int id) const;
-    bool Save_Hierarchy_File(const char* filename, int id) const;
-
     /* With true, of a mesh added later that is refused otherwise the convex hull counts; face ids are -1 then. At first false. */
     void Set_Take_Hull(bool take_hull);
 
@@ -257,7 +247,6 @@ private:
     void take_near_pairs();
     void keep_overlapping_boxes();
     const swift_legacy::Part& part(uint64_t id, uint32_t piece) const;
-    std::string decompose(int id, swift_legacy::Decomposition& decomposition) const;
     void write_contacts(swift_legacy::IntersectingFeatures intersecting, SWIFT_Real** distances, SWIFT_Real** nearest_pts,
                         SWIFT_Real** normals, int** feature_types, int** feature_ids);
 
@@ -268,7 +257,6 @@ private:
 #include "swift_legacy/scene_adding.h"
 #include "swift_legacy/scene_pairs.h"
 #include "swift_legacy/scene_queries.h"
-#include "swift_legacy/scene_saving.h"
 
 /* Last: they break the headers of the standard library. */
 #ifdef SWIFT_LEGACY_MIN_MAX

@@ -1,4 +1,4 @@
-/* Numbers in the binary files of SWIFT++'s decomposer, behind a header of words: read, and written. */
+/* Numbers in the binary files of SWIFT++'s decomposer, behind a header of words. */
 #ifndef SWIFT_LEGACY_BINARY_NUMBERS_H
 #define SWIFT_LEGACY_BINARY_NUMBERS_H
 
@@ -89,11 +89,6 @@ public:
         return at_ == bytes_.size();
     }
 
-    std::size_t size() const
-    {
-        return bytes_.size();
-    }
-
 private:
     std::vector<char> bytes_;
     std::size_t at_;
@@ -130,52 +125,6 @@ inline bool read_integers(BinaryNumbers& numbers, int count, int limit, std::vec
         }
     }
     return numbers.is_whole();
-}
-
-/* The first lines of a file in the byte order of this machine, with SWIFT_Real's kind of real numbers. */
-inline std::string binary_head(const char* magic)
-{
-    const uint16_t one = 1;
-    unsigned char low;
-    std::memcpy(&low, &one, 1);
-    return std::string(1, '\0') + magic + "\nbinary " + (low == 1 ? "little_endian" : "big_endian") + "\nreal " +
-           (sizeof(SWIFT_Real) == sizeof(float) ? "float" : "double") + "\n";
-}
-
-/* A count behind its name. */
-inline std::string named_count(const char* name, std::size_t count)
-{
-    return std::string(name) + " " + text(count) + "\n";
-}
-
-inline void append_integer(std::string& bytes, int number)
-{
-    const int32_t value = number;
-    char as_bytes[sizeof value];
-    std::memcpy(as_bytes, &value, sizeof value);
-    bytes.append(as_bytes, sizeof value);
-}
-
-inline void append_integers(std::string& bytes, const std::vector<int>& numbers)
-{
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        append_integer(bytes, numbers[i]);
-    }
-}
-
-inline void append_real(std::string& bytes, double number)
-{
-    const SWIFT_Real value = static_cast<SWIFT_Real>(number);
-    char as_bytes[sizeof value];
-    std::memcpy(as_bytes, &value, sizeof value);
-    bytes.append(as_bytes, sizeof value);
-}
-
-inline void append_reals(std::string& bytes, const std::vector<double>& numbers)
-{
-    for (std::size_t i = 0; i < numbers.size(); ++i) {
-        append_real(bytes, numbers[i]);
-    }
 }
 
 } // namespace swift_legacy

@@ -1,8 +1,7 @@
-/* Convex decompositions (Convex_Decomposition) of SWIFT++'s decomposer, read and written: a surface in convex pieces. */
+/* Convex decompositions (Convex_Decomposition) of SWIFT++'s decomposer: a surface in convex pieces. */
 #ifndef SWIFT_LEGACY_DECOMPOSITION_FILES_H
 #define SWIFT_LEGACY_DECOMPOSITION_FILES_H
 
-#include "decomposition.h"
 #include "sub_mesh.h"
 
 namespace swift_legacy {
@@ -120,33 +119,6 @@ inline std::string read_decomposition(std::ifstream& stream, std::vector<Mesh>& 
         fault = read_decomposition_pieces(numbers, counts, pieces);
     }
     return fault;
-}
-
-/* The file's bytes; see read_decomposition_pieces for their order. */
-inline std::string written_decomposition(const Decomposition& decomposition)
-{
-    std::string bytes = binary_head("Convex_Decomposition");
-    bytes += named_count("vertices", decomposition.vertex_count()) + named_count("faces", decomposition.face_count());
-    bytes += named_count("map_vids", decomposition.vertex_labels.size()) + named_count("map_fids", decomposition.face_labels.size());
-    bytes += named_count("pieces", decomposition.pieces.size());
-    append_reals(bytes, decomposition.vertices);
-    append_integers(bytes, decomposition.corners);
-    append_integers(bytes, decomposition.vertex_labels);
-    append_integers(bytes, decomposition.face_labels);
-    append_integers(bytes, decomposition.piece_of_face);
-    for (std::size_t i = 0; i < decomposition.pieces.size(); ++i) {
-        append_integer(bytes, static_cast<int>(decomposition.pieces[i].faces.size()));
-    }
-    for (std::size_t i = 0; i < decomposition.pieces.size(); ++i) {
-        append_integer(bytes, static_cast<int>(decomposition.pieces[i].closing.size() / 3));
-    }
-    for (std::size_t i = 0; i < decomposition.pieces.size(); ++i) {
-        append_integers(bytes, decomposition.pieces[i].faces);
-    }
-    for (std::size_t i = 0; i < decomposition.pieces.size(); ++i) {
-        append_integers(bytes, decomposition.pieces[i].closing);
-    }
-    return bytes;
 }
 
 } // namespace swift_legacy
