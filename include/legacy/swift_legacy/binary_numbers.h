@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "../SWIFT_common.h"
 #include "messages.h"
 
 namespace swift_legacy {
@@ -125,6 +124,20 @@ inline bool read_integers(BinaryNumbers& numbers, int count, int limit, std::vec
         }
     }
     return numbers.is_whole();
+}
+
+/* So many vertices; empty, or what is wrong with them. */
+inline std::string read_vertices(BinaryNumbers& numbers, int count, std::vector<double>& vertices)
+{
+    for (int i = 0; i < count && numbers.is_whole(); ++i) {
+        for (int axis = 0; axis < 3; ++axis) {
+            vertices.push_back(numbers.real());
+            if (numbers.is_whole() && !(vertices.back() - vertices.back() <= 0)) {
+                return "vertex " + text(i) + " is not finite";
+            }
+        }
+    }
+    return numbers.is_whole() ? "" : "it is cut off among its vertices";
 }
 
 } // namespace swift_legacy

@@ -1,4 +1,4 @@
-/* Which reader reads a file. */
+/* Which reader reads a file. A part of SWIFT_fileio.h, which includes it at its end. */
 #ifndef SWIFT_LEGACY_FILE_DISPATCHER_H
 #define SWIFT_LEGACY_FILE_DISPATCHER_H
 
@@ -8,7 +8,6 @@
 #include <sys/stat.h>
 #endif
 
-#include "../SWIFT_fileio.h"
 #include "mesh.h"
 
 namespace swift_legacy {

@@ -1,4 +1,5 @@
-/* The readers for TRI, POLY and OBJ. Whatever a file holds, what comes back is whole, or a message says what is wrong. */
+/* The readers for TRI, POLY and OBJ. Whatever a file holds, what comes back is whole, or a message says what is wrong. A part of
+ * SWIFT_fileio.h, which includes it at its end. */
 #ifndef SWIFT_LEGACY_MESH_FILES_H
 #define SWIFT_LEGACY_MESH_FILES_H
 
@@ -6,7 +7,6 @@
 #include <cstdlib>
 #include <locale>
 
-#include "../SWIFT_fileio.h"
 #include "messages.h"
 
 namespace swift_legacy {

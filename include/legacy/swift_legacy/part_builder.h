@@ -2,7 +2,7 @@
 #ifndef SWIFT_LEGACY_PART_BUILDER_H
 #define SWIFT_LEGACY_PART_BUILDER_H
 
-#include "piece_files.h"
+#include "decomposer_files.h"
 #include "defaults.h"
 #include "objects.h"
 #include "surface_pieces.h"

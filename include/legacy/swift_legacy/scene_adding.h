@@ -1,8 +1,6 @@
-/* SWIFT_Scene: adding, copying and deleting objects. */
+/* SWIFT_Scene: adding, copying and deleting objects. A part of SWIFT.h, which includes it at its end. */
 #ifndef SWIFT_LEGACY_SCENE_ADDING_H
 #define SWIFT_LEGACY_SCENE_ADDING_H
-
-#include "../SWIFT.h"
 
 inline SWIFT_Scene::SWIFT_Scene(bool broad_phase, bool)
     : scene_(NULL), gives_pairs_(false), has_broad_phase_(broad_phase), convexity_(swift_legacy::CONVEXITY_REQUIRED)

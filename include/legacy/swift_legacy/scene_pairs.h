@@ -1,8 +1,6 @@
-/* SWIFT_Scene: transformations and which pairs are tested. */
+/* SWIFT_Scene: transformations and which pairs are tested. A part of SWIFT.h, which includes it at its end. */
 #ifndef SWIFT_LEGACY_SCENE_PAIRS_H
 #define SWIFT_LEGACY_SCENE_PAIRS_H
-
-#include "../SWIFT.h"
 
 inline void SWIFT_Scene::Set_Object_Transformation(int id, const SWIFT_Real* R, const SWIFT_Real* T)
 {

@@ -1,8 +1,6 @@
-/* SWIFT_Scene: queries. */
+/* SWIFT_Scene: queries. A part of SWIFT.h, which includes it at its end. */
 #ifndef SWIFT_LEGACY_SCENE_QUERIES_H
 #define SWIFT_LEGACY_SCENE_QUERIES_H
-
-#include "../SWIFT.h"
 
 /* Has the scene test the pairs of objects whose boxes overlap. */
 inline void SWIFT_Scene::give_overlapping_boxes()

@@ -3,7 +3,6 @@
 #define SWIFT_LEGACY_SURFACE_PIECES_H
 
 #include "native.h"
-#include "sub_mesh.h"
 
 namespace swift_legacy {
 
