@@ -1,5 +1,5 @@
 //! The C functions as C calls them, where Rust can look behind them: struct sizes, shares of shapes, messages by thread, the log,
-//! any bytes in what a caller hands in. Bad input in general is `c_tests/bad_input.c`, which runs under valgrind, too.
+//! any bytes in what a caller hands in. Bad input in general is `c_tests/process/bad_input.c`, which runs under valgrind, too.
 
 #![allow(unsafe_code, reason = "the C functions are unsafe to call")]
 
@@ -340,7 +340,7 @@ fn a_scene_holds_shares_of_its_own() {
     }
 }
 
-/// The C libraries' allocator is tested by c_tests/allocator.c.
+/// The C libraries' allocator is tested by c_tests/process/allocator.c.
 #[test]
 #[cfg(not(feature = "allocator"))]
 fn a_rust_program_keeps_its_allocator() {

@@ -25,7 +25,7 @@ fn each_function_has_its_counterpart() {
     let mut count = 0;
     for line in code().filter(|line| !line.starts_with([' ', '#', 't', '}'])) {
         let name = line.split_once('(').map_or("", |(before, _)| before).split([' ', '*']).next_back().unwrap();
-        // Configs begin with their defaults by member initialisers, which c_tests/cpp.cpp compares.
+        // Configs begin with their defaults by member initialisers, which c_tests/cpp/cpp.cpp compares.
         if name.starts_with("swiftprox_") && !name.ends_with("_init_sized") {
             let is_used = wrapper
                 .match_indices(name)

@@ -18,7 +18,6 @@ struct Member {
 };
 #define STRUCT(type, size, alignment)
 #define MEMBER(type, member, offset, size) {#type, offsetof(type, member), sizeof(type::member)},
-#define NUMBER(enumerator, value)
 static const Member members[] = {
 #include "abi/layout.h"
 };

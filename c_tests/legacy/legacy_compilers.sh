@@ -14,12 +14,12 @@ compile() {
         "-I$source/include/legacy" "-I$source/include" "-I$source/c_tests" "$@"
 }
 
-for test in "$source"/c_tests/legacy_*.cpp; do
+for test in "$source"/c_tests/legacy/legacy_*.cpp; do
     name=$(basename "$test" .cpp)
     more=''
     case $name in
     legacy_cost | legacy_bench | legacy_units_other) continue ;;
-    legacy_units) more=$source/c_tests/legacy_units_other.cpp ;;
+    legacy_units) more=$source/c_tests/legacy/legacy_units_other.cpp ;;
     legacy_macros) more=-DSWIFT_LEGACY_VERSION=2 ;;
     esac
     if [ "$what" = compile ]; then
