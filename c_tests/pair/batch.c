@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 enum { COUNT = 3000 };
 
@@ -12,19 +12,6 @@ static double poses[2][COUNT][12];
 static swiftprox_pair_cache single[COUNT], caches[COUNT];
 static swiftprox_pair_answer expected[COUNT], answers[COUNT];
 static swiftprox_pair_question pairs[COUNT];
-
-static const swiftprox_shape *box(double x, double y, double z)
-{
-    double corners[24];
-    const double half[3] = {x, y, z};
-    int i;
-    const swiftprox_shape *shape = NULL;
-    for (i = 0; i < 24; ++i) {
-        corners[i] = (i / 3) >> (i % 3) & 1 ? half[i % 3] : -half[i % 3];
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-    return shape;
-}
 
 int main(void)
 {

@@ -5,30 +5,7 @@
 #include <stdint.h>
 #include <string.h>
 
-#include "check.h"
-
-static const swiftprox_shape *box(double x, double y, double z)
-{
-    double corners[24];
-    int i;
-    const swiftprox_shape *shape = NULL;
-    for (i = 0; i < 8; ++i) {
-        corners[3 * i] = i & 1 ? x : -x;
-        corners[3 * i + 1] = i & 2 ? y : -y;
-        corners[3 * i + 2] = i & 4 ? z : -z;
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-    return shape;
-}
-
-static void place(double pose[12], double x, double y, double z)
-{
-    static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    memcpy(pose, identity, sizeof identity);
-    pose[3] = x;
-    pose[7] = y;
-    pose[11] = z;
-}
+#include "bodies.h"
 
 static void fixed(swiftprox_motion *motion, double x, double y, double z)
 {

@@ -4,26 +4,16 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-
-/* A cube of side 1. */
-static const swiftprox_shape *cube(void)
-{
-    const double corners[24] = {-0.5, -0.5, -0.5, 0.5, -0.5, -0.5, -0.5, 0.5, -0.5, 0.5, 0.5, -0.5,
-                                -0.5, -0.5, 0.5,  0.5, -0.5, 0.5,  -0.5, 0.5, 0.5,  0.5, 0.5, 0.5};
-    const swiftprox_shape *shape = NULL;
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-    return shape;
-}
 
 /* A cube 0.25 over a level grid, and 0.125 in it: it stands on four corners. */
 static void a_cube_on_a_level_grid(void)
 {
     double heights[25] = {0};
     const double over[12] = {1, 0, 0, 2.1, 0, 1, 0, 1.9, 0, 0, 1, 0.75}, in[12] = {1, 0, 0, 2.1, 0, 1, 0, 1.9, 0, 0, 1, 0.375};
-    const swiftprox_shape *body = cube();
+    const swiftprox_shape *body = box(0.5, 0.5, 0.5);
     const swiftprox_ground *ground = NULL;
     swiftprox_ground_info info;
     swiftprox_ground_distance answer;
@@ -60,7 +50,7 @@ static void what_a_program_may_do_wrong(void)
     const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const double far[9] = {0, 0, 0, HUGE_VAL, 0, 0, 0, 1, 0};
     const uint32_t one[3] = {0, 1, 2}, absent[3] = {0, 1, 3}, thin[3] = {0, 1, 1};
-    const swiftprox_shape *body = cube();
+    const swiftprox_shape *body = box(0.5, 0.5, 0.5);
     const swiftprox_ground *ground = NULL, *none = NULL;
     swiftprox_ground_distance answer;
     swiftprox_ground_count count;
@@ -99,7 +89,7 @@ static void objects_of_a_scene(void)
     const double down[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, 0.375}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const swiftprox_half_space floor = {{0, 0, 2}, 0}, none = {{0, 0, 0}, 0};
     const swiftprox_group_filter second = {1, 2};
-    const swiftprox_shape *body = cube();
+    const swiftprox_shape *body = box(0.5, 0.5, 0.5);
     const swiftprox_ground *ground = NULL;
     swiftprox_scene *scene = NULL;
     swiftprox_scratch *scratch = NULL;

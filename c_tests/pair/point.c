@@ -4,26 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-/* The corners of a cube with sides of length 2: number i has its coordinate k positive if bit k of i is set. */
-static const swiftprox_shape *cube(void)
-{
-    double corners[24];
-    int i;
-    const swiftprox_shape *shape = NULL;
-    for (i = 0; i < 24; ++i) {
-        corners[i] = (i / 3) >> (i % 3) & 1 ? 1 : -1;
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-    return shape;
-}
-
 static void answers_that_are_known(void)
 {
-    const swiftprox_shape *shape = cube();
+    const swiftprox_shape *shape = box(1, 1, 1);
     double point[3] = {3, 0.25, 0.5};
     const double direction[3] = {1, -2, 3};
     swiftprox_point_answer answer;
@@ -46,7 +33,7 @@ static void answers_that_are_known(void)
 
 static void mistakes(void)
 {
-    const swiftprox_shape *shape = cube();
+    const swiftprox_shape *shape = box(1, 1, 1);
     double pose[12];
     double numbers[3] = {0, 0, 0};
     swiftprox_point_answer answer;

@@ -4,26 +4,13 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
-/* The corners of a cube with sides of length 2. */
-static const swiftprox_shape *cube(void)
-{
-    double corners[24];
-    int i;
-    const swiftprox_shape *shape = NULL;
-    for (i = 0; i < 24; ++i) {
-        corners[i] = (i / 3) >> (i % 3) & 1 ? 1 : -1;
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-    return shape;
-}
-
 static void answers_that_are_known(void)
 {
-    const swiftprox_shape *shape = cube();
+    const swiftprox_shape *shape = box(1, 1, 1);
     swiftprox_ray ray = {{-5, 0.25, 0.5}, {2, 0, 0}, 10};
     swiftprox_ray_answer answer;
     CHECK_OK(swiftprox_shape_cast_ray(shape, identity, &ray, &answer));
@@ -44,7 +31,7 @@ static void answers_that_are_known(void)
 
 static void mistakes(void)
 {
-    const swiftprox_shape *shape = cube();
+    const swiftprox_shape *shape = box(1, 1, 1);
     double pose[12];
     const swiftprox_ray good = {{-5, 0, 0}, {1, 0, 0}, 1};
     swiftprox_ray ray = good;

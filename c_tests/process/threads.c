@@ -12,7 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "swiftprox.h"
+#include "bodies.h"
 
 enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8, ROUND = 200 };
 
@@ -37,14 +37,6 @@ typedef struct worker {
         if (!(condition) && worker->failed_line == 0)                                                                          \
             worker->failed_line = __LINE__;                                                                                    \
     } while (0)
-
-static void set_pose_at(double pose[12], double x, double y)
-{
-    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    memcpy(pose, identity, sizeof identity);
-    pose[3] = x;
-    pose[7] = y;
-}
 
 /* Two boxes, and a round body whose look-up table the first thread makes that looks into it. */
 static int make_shape(int i)
@@ -71,8 +63,8 @@ static void query_pairs(worker *worker)
         swiftprox_pair_answer answer;
         double pose1[12], pose2[12];
         const swiftprox_shape *a = shapes[i % SHAPES], *b = shapes[(i + 1) % SHAPES];
-        set_pose_at(pose1, 0, 0);
-        set_pose_at(pose2, 0.375 * i, 0.25 * i);
+        place(pose1, 0, 0, 0);
+        place(pose2, 0.375 * i, 0.25 * i, 0);
         if (i % 4 == 3)
             memset(&cache, 0, sizeof cache);
         REQUIRE(swiftprox_shape_retain(a) == a);
@@ -112,7 +104,7 @@ static void ask_about_a_set(worker *worker)
     swiftprox_scene_cast_answer cast;
     swiftprox_motion motion;
     for (int i = 0; i < 3; ++i)
-        set_pose_at(poses + 12 * i, 1.5 * i, 0);
+        place(poses + 12 * i, 1.5 * i, 0, 0);
     REQUIRE(swiftprox_motion_between(poses, poses + 24, NULL, 4, &motion, NULL) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scratch_create(&scratch) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scene_least_distance(scene, &set, NULL, 100, scratch, &least) == SWIFTPROX_OK);
@@ -137,7 +129,7 @@ static void use_own_scene(worker *worker)
         swiftprox_object_options options;
         const swiftprox_shape *piece = shapes[i];
         swiftprox_object_options_init(&options);
-        set_pose_at(options.pose, 3.0 * i, worker->number);
+        place(options.pose, 3.0 * i, worker->number, 0);
         REQUIRE(swiftprox_scene_add_object(own, &piece, 1, &options, &id) == SWIFTPROX_OK);
     }
     REQUIRE(swiftprox_scene_query_distance(own, NULL, &answer) == SWIFTPROX_OK && answer.count == SHAPES);
@@ -180,7 +172,7 @@ int main(int argument_count, char **arguments)
         piece = shapes[i];
         swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
-        set_pose_at(options.pose, 3.0 * i, 0);
+        place(options.pose, 3.0 * i, 0, 0);
         if (swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFTPROX_OK)
             return 1;
     }

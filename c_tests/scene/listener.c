@@ -3,18 +3,10 @@
  */
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 static swiftprox_scene *scene;
 static swiftprox_object_id slab, cube;
-
-static void put(swiftprox_object_options *options, double x, double z)
-{
-    memset(options->pose, 0, sizeof options->pose);
-    options->pose[0] = options->pose[5] = options->pose[10] = 1;
-    options->pose[3] = x;
-    options->pose[11] = z;
-}
 
 /* A slab of 4 x 4 x 1 whose top is at height 0, and a cube of side 1 that rests on it. */
 static void make(void)
@@ -22,17 +14,12 @@ static void make(void)
     const double half[2][3] = {{2, 2, 0.5}, {0.5, 0.5, 0.5}}, height[2] = {-0.5, 0.5};
     swiftprox_object_id *ids[2] = {&slab, &cube};
     swiftprox_object_options options;
-    int body, i;
+    int body;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     swiftprox_object_options_init(&options);
     for (body = 0; body < 2; ++body) {
-        const swiftprox_shape *shape = NULL;
-        double corners[24];
-        for (i = 0; i < 24; ++i) {
-            corners[i] = (i / 3) >> (i % 3) & 1 ? half[body][i % 3] : -half[body][i % 3];
-        }
-        CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
-        put(&options, 0, height[body]);
+        const swiftprox_shape *const shape = box(half[body][0], half[body][1], half[body][2]);
+        place(options.pose, 0, 0, height[body]);
         options.user_data = 10 + (uint64_t)body;
         CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, ids[body]));
         swiftprox_shape_release(shape);
@@ -41,9 +28,9 @@ static void make(void)
 
 static void move_cube(double x)
 {
-    swiftprox_object_options options;
-    put(&options, x, 0.5);
-    CHECK_OK(swiftprox_scene_set_pose(scene, cube, options.pose));
+    double pose[12];
+    place(pose, x, 0, 0.5);
+    CHECK_OK(swiftprox_scene_set_pose(scene, cube, pose));
 }
 
 /* How many points of the only pair are in a state. */

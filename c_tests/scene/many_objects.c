@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 enum { COUNT = 10 };
 
@@ -17,12 +17,8 @@ static swiftprox_object_id ids[COUNT];
 /* Unit cubes in a row, 2 apart, every second one in the second group. */
 static void make(void)
 {
-    double corners[24];
     int i;
-    for (i = 0; i < 24; ++i) {
-        corners[i] = (i / 3) >> (i % 3) & 1 ? 0.5 : -0.5;
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &cube));
+    cube = box(0.5, 0.5, 0.5);
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < COUNT; ++i) {
         swiftprox_object_options_init(&options[i]);

@@ -9,7 +9,7 @@
 #include <string.h>
 #include <sys/resource.h>
 
-#include "check.h"
+#include "bodies.h"
 
 enum { CUBES = 12, STEPS = 30 };
 
@@ -28,10 +28,8 @@ static double draw(void)
 
 static void set_pose(double pose[12])
 {
-    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    memcpy(pose, identity, sizeof identity);
-    for (int row = 0; row < 3; ++row)
-        pose[4 * row + 3] = 4 * draw();
+    const double x = 4 * draw(), y = 4 * draw(), z = 4 * draw();
+    place(pose, x, y, z);
 }
 
 static int32_t likes(swiftprox_object_id object1, swiftprox_object_id object2, void *user)

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 enum { OBJECTS = 60, PAIRS = OBJECTS * (OBJECTS - 1) / 2 };
 
@@ -29,20 +29,13 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
     free(memory);
 }
 
-static void set_pose_at(double pose[12], double x)
-{
-    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    memcpy(pose, identity, sizeof identity);
-    pose[3] = x;
-}
-
 static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *shape, double x)
 {
     swiftprox_object_options options;
     swiftprox_object_id id;
     int32_t valid = 0;
     swiftprox_object_options_init(&options);
-    set_pose_at(options.pose, x);
+    place(options.pose, x, 0, 0);
     CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &id));
     CHECK_OK(swiftprox_scene_is_object_valid(scene, id, &valid));
     CHECK(valid == 1);
@@ -86,7 +79,7 @@ static void results_stay(const swiftprox_shape *shape)
         if (valid == 0) {
             continue;
         }
-        set_pose_at(pose, pair->answer.distance);
+        place(pose, pair->answer.distance, 0, 0);
         CHECK_OK(swiftprox_scene_set_pose(scene, pair->object1, pose));
         CHECK_OK(swiftprox_scene_set_user_data(scene, pair->object1, i));
         if (i % 8 == 0) {
@@ -195,14 +188,14 @@ static void caches_go_back(const swiftprox_shape *shape)
     double here[12], there[12];
     memset(first, 0, sizeof first);
     memset(second, 0, sizeof second);
-    set_pose_at(here, 0);
-    set_pose_at(there, 2);
+    place(here, 0, 0, 0);
+    place(there, 2, 0, 0);
     CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &first[0]));
     kept = cache;
     for (int round = 0; round < 2; ++round) {
         swiftprox_pair_answer *const answers = round == 0 ? first : second;
         for (int i = 0; i < 8; ++i) {
-            set_pose_at(there, 2 - 0.2 * i);
+            place(there, 2 - 0.2 * i, 0, 0);
             there[7] = 0.3 * i;
             CHECK_OK(swiftprox_pair_contact(shape, here, shape, there, &cache, NULL, &answers[i]));
         }

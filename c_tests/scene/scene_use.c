@@ -4,7 +4,7 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 #include "swiftprox_tuning.h"
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
@@ -12,13 +12,6 @@ static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 
 static const uint32_t VALENCES[6] = {4, 4, 4, 4, 4, 4};
 /* A quarter turn about z: x to y. It and its transpose differ, so a transposed or shifted matrix is seen. */
 static const double QUARTER[9] = {0, -1, 0, 1, 0, 0, 0, 0, 1};
-
-static void set_pose_at(double pose[12], double x)
-{
-    const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
-    memcpy(pose, identity, sizeof identity);
-    pose[3] = x;
-}
 
 /* Whether two ids are one. */
 static int is(swiftprox_object_id id, swiftprox_object_id other)
@@ -33,7 +26,7 @@ static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
     swiftprox_object_id id;
     swiftprox_object_options_init(&options);
     options.user_data = (uint64_t)(10 * x);
-    set_pose_at(options.pose, x);
+    place(options.pose, x, 0, 0);
     CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
     return id;
 }
@@ -106,7 +99,7 @@ static void motion(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5);
 
-    set_pose_at(pose, 3);
+    place(pose, 3, 0, 0);
     CHECK_OK(swiftprox_scene_set_pose(scene, b, pose));
     CHECK(lists(scene, 1, (const double[]){2}));
 
@@ -118,8 +111,8 @@ static void motion(void)
     CHECK_OK(swiftprox_scene_get_object_info(scene, b, &info));
     CHECK(info.pose[1] == -1 && info.pose[3] == 4 && info.pose[4] == 1 && info.user_data == 5 && info.piece_count == 1);
 
-    set_pose_at(poses, 1);
-    set_pose_at(poses + 12, 6);
+    place(poses, 1, 0, 0);
+    place(poses + 12, 6, 0, 0);
     CHECK_OK(swiftprox_scene_set_all_poses(scene, poses, 2));
     CHECK(lists(scene, 1, (const double[]){4}));
 
@@ -212,7 +205,7 @@ static void levels(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     swiftprox_object_options_init(&where);
     for (int i = 0; i < 3; ++i) {
-        set_pose_at(pose, 4.0 * i);
+        place(pose, 4.0 * i, 0, 0);
         memcpy(where.pose, pose, sizeof pose);
         CHECK_OK(swiftprox_scene_add_shape(scene, shape, &where, &id));
     }
@@ -316,8 +309,8 @@ static void pieces(void)
     double poses[24], pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 3);
-    set_pose_at(poses, 1);
-    set_pose_at(poses + 12, 5);
+    place(poses, 1, 0, 0);
+    place(poses + 12, 5, 0, 0);
     const swiftprox_object_id moved[] = {b, a};
     CHECK_OK(swiftprox_scene_set_poses(scene, moved, poses, 2));
     CHECK(lists(scene, 1, (const double[]){3}));
@@ -329,7 +322,7 @@ static void pieces(void)
     const swiftprox_shape *two[] = {shape, shape};
     CHECK_OK(swiftprox_scene_add_object(scene, two, 2, NULL, &id));
     swiftprox_shape_release(shape);
-    set_pose_at(pose, 10);
+    place(pose, 10, 0, 0);
     CHECK_OK(swiftprox_scene_set_piece_pose(scene, id, 1, pose));
     /* At 1 (b), 5 (a), and the pieces at 0 and 10: a with b, a with both pieces, b with both. */
     CHECK(lists(scene, 5, (const double[]){3, 4, 4, 0, 8}));
@@ -367,7 +360,7 @@ static void near_objects(void)
     CHECK(swiftprox_scene_query_object(scene, a, (swiftprox_query_kind)9, NULL, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
 
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
-    set_pose_at(pose, 3.5);
+    place(pose, 3.5, 0, 0);
     CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
     CHECK(answer.count == 1 && is(answer.pairs[0].object1, c) && answer.pairs[0].object2.bits == 0);
     CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_DISTANCE, NULL, &answer));
@@ -380,7 +373,7 @@ static void near_objects(void)
     CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
     CHECK(events.began_count == 1 && events.ended_count == 0 && events.ended == NULL);
     CHECK(is(events.began[0].object1, a) && is(events.began[0].object2, b) && events.began[0].user_data2 == 5);
-    set_pose_at(pose, 2);
+    place(pose, 2, 0, 0);
     CHECK_OK(swiftprox_scene_set_pose(scene, b, pose));
     CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));
     CHECK(events.began_count == 1 && is(events.began[0].object2, c));
@@ -442,7 +435,7 @@ static void workers(void)
     swiftprox_object_options_init(&where);
     for (int s = 0; s < 3; ++s) {
         for (int i = 0; i < 80; ++i) {
-            set_pose_at(where.pose, 0.25 * i);
+            place(where.pose, 0.25 * i, 0, 0);
             CHECK_OK(swiftprox_scene_add_shape(scenes[s], shape, &where, &id));
         }
         CHECK_OK(swiftprox_scene_query_distance(scenes[s], NULL, &answers[s]));

@@ -4,40 +4,26 @@
 #include <math.h>
 #include <string.h>
 
-#include "check.h"
+#include "bodies.h"
 
 static swiftprox_scene *scene;
 static swiftprox_object_id arm[2], posts[20];
 
-static void pose_at(double x, double y, double z, double *pose)
-{
-    memset(pose, 0, 12 * sizeof *pose);
-    pose[0] = pose[5] = pose[10] = 1;
-    pose[3] = x;
-    pose[7] = y;
-    pose[11] = z;
-}
-
 /* An arm of two cubes of side 1, and twenty cubes in a row, 3 apart, which begins 10 away. */
 static void make(void)
 {
-    double corners[24];
     int i;
-    const swiftprox_shape *shape = NULL;
+    const swiftprox_shape *const shape = box(0.5, 0.5, 0.5);
     swiftprox_object_options options;
-    for (i = 0; i < 24; ++i) {
-        corners[i] = (i / 3) >> (i % 3) & 1 ? 0.5 : -0.5;
-    }
-    CHECK_OK(swiftprox_shape_create_from_points(corners, 8, NULL, &shape));
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     swiftprox_object_options_init(&options);
     for (i = 0; i < 2; ++i) {
-        pose_at(0, 2.0 * i, 0, options.pose);
+        place(options.pose, 0, 2.0 * i, 0);
         CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &arm[i]));
     }
     options.fixed = 1;
     for (i = 0; i < 20; ++i) {
-        pose_at(10 + 3.0 * i, 0, 0, options.pose);
+        place(options.pose, 10 + 3.0 * i, 0, 0);
         CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &posts[i]));
     }
     swiftprox_shape_release(shape);
@@ -71,8 +57,8 @@ static void answers_that_are_known(swiftprox_scratch *scratch)
     CHECK(least.lower == 2 && least.upper == HUGE_VAL && least.nearest.object1.bits == 0);
     /* Only the third time hits. */
     for (i = 0; i < 4; ++i) {
-        pose_at(i == 2 ? 10.25 : -5, 0, 0, poses + 24 * i);
-        pose_at(-5, 2, 0, poses + 24 * i + 12);
+        place(poses + 24 * i, i == 2 ? 10.25 : -5, 0, 0);
+        place(poses + 24 * i + 12, -5, 2, 0);
     }
     CHECK_OK(swiftprox_scene_first_hit(scene, &set, poses, 4, SWIFTPROX_POSE_ORDER_IN_ORDER, 0, scratch, &hit));
     CHECK(hit.time == 2 && hit.tried == 3 && hit.pair.object2.bits == posts[0].bits);
@@ -83,8 +69,8 @@ static void answers_that_are_known(swiftprox_scratch *scratch)
     CHECK(met.hits[1].answer.entry[0] <= 4.5 && 4.5 <= met.hits[1].answer.entry[1]);
     CHECK_OK(swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_FIRST, UINT32_MAX, scratch, &met));
     CHECK(met.count == 1 && met.hits[0].object.bits == arm[1].bits && met.hits[0].answer.exit[1] >= 3.5);
-    pose_at(0, 0, 0, start);
-    pose_at(10, 0, 0, end);
+    place(start, 0, 0, 0);
+    place(end, 10, 0, 0);
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 3, &motions[0], NULL));
     end[3] = -10;
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 3, &motions[1], NULL));
@@ -109,7 +95,7 @@ static void mistakes(swiftprox_scratch *scratch)
     swiftprox_motion motion;
     swiftprox_object_id null_id = {0};
     double pose[12];
-    pose_at(0, 0, 0, pose);
+    place(pose, 0, 0, 0);
     set.ids = arm;
     set.count = 1;
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_least_distance(NULL, &set, NULL, 1, scratch, &least));
