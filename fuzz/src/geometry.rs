@@ -164,15 +164,7 @@ fn ring(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
 
 /// Spread over the unit sphere, along Fibonacci's spiral.
 fn sphere(u: &mut Unstructured, most: usize) -> Result<Vec<Vector>> {
-    let count = count(u, 4, most)?;
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    let point = |k: usize| {
-        let z = 1.0 - (2 * k + 1) as f64 / count as f64;
-        let (sin, cos) = (golden * k as f64).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        Vector::new(r * cos, r * sin, z)
-    };
-    Ok((0..count).map(point).collect())
+    Ok(testkit::models::spiral(count(u, 4, most)?))
 }
 
 /// A size from 10⁻³⁰⁰ to 10³⁰⁰.

@@ -37,6 +37,18 @@ pub fn random_hull(n: usize, seed: u64) -> Result<PolygonMesh> {
     hull_mesh(&points)
 }
 
+/// Points spread evenly over the unit sphere, along Fibonacci's spiral (R. Swinbank, R. J. Purser, "Fibonacci grids", 2006).
+pub fn spiral(count: usize) -> Vec<Vector> {
+    let golden_angle = std::f64::consts::PI * (3.0 - 5f64.sqrt());
+    let point = |k: usize| {
+        let z = 1.0 - (2 * k + 1) as f64 / count as f64;
+        let (sin, cos) = (golden_angle * k as f64).sin_cos();
+        let r = (1.0 - z * z).sqrt();
+        Vector::new(r * cos, r * sin, z)
+    };
+    (0..count).map(point).collect()
+}
+
 /// A box around the origin, six quadrilaterals.
 pub fn cuboid(half_extents: [f64; 3]) -> Result<PolygonMesh> {
     let [x, y, z] = half_extents;

@@ -9,6 +9,8 @@ use swiftprox::build::hull::{Hull, convex_hull};
 use swiftprox::math::Vector;
 use testkit::random::Random;
 
+use super::turned;
+
 /// The corners of the hull of a set that spans a plane or space, by definition, O(n⁴): the corners of
 /// the polygon in every supporting plane. Exact duplicates once, by their lowest index.
 fn brute_force_corners(points: &[Vector]) -> Vec<u32> {
@@ -73,11 +75,6 @@ fn proved_hull(points: &[Vector]) -> Hull {
     let hull = convex_hull(points).unwrap();
     check_hull(points, &hull).unwrap_or_else(|e| panic!("{e}"));
     hull
-}
-
-/// A rotation by no special angle about no special axis.
-fn turned(v: &Vector) -> Vector {
-    Vector::new(0.36 * v.x + 0.48 * v.y - 0.8 * v.z, -0.8 * v.x + 0.6 * v.y, 0.48 * v.x + 0.64 * v.y + 0.6 * v.z)
 }
 
 /// The points of a grid of `n` cells an edge on the faces of the cube [0, n]³.

@@ -5,6 +5,9 @@ use swiftprox::build::hull::convex_hull;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
+use testkit::models::spiral;
+
+use super::turned;
 
 fn mesh(vertices: &[Vector], faces: &[&[u32]]) -> PolygonMesh {
     let mut starts = vec![0];
@@ -69,20 +72,6 @@ const CUBE_FACES: [[u32; 4]; 6] = [[0, 4, 6, 2], [1, 3, 7, 5], [0, 1, 5, 4], [2,
 
 fn cube() -> PolygonMesh {
     mesh(&cube_vertices(), &CUBE_FACES.each_ref().map(|f| &f[..]))
-}
-
-/// A point set near the unit sphere, evenly spread (golden spiral).
-fn spiral(n: u32) -> Vec<Vector> {
-    let point = |i: u32| {
-        let z = 1.0 - (2.0 * f64::from(i) + 1.0) / f64::from(n);
-        let (r, angle) = ((1.0 - z * z).sqrt(), f64::from(i) * 2.399963229728653);
-        Vector::new(r * angle.cos(), r * angle.sin(), z)
-    };
-    (0..n).map(point).collect()
-}
-
-fn turned(v: &Vector) -> Vector {
-    Vector::new(0.36 * v.x + 0.48 * v.y - 0.8 * v.z, -0.8 * v.x + 0.6 * v.y, 0.48 * v.x + 0.64 * v.y + 0.6 * v.z)
 }
 
 /// The faces of the cube [0, 1]³ as grids of n by n squares, each cut into two triangles; vertices

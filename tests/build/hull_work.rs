@@ -9,29 +9,17 @@ use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::models::spiral;
+
+use super::turned;
 
 /// Tests between two reports.
 const STEPS_A_REPORT: usize = 2048;
-
-/// A turn by no special angle.
-fn turned(v: Vector) -> Vector {
-    Vector::new(0.36 * v.x + 0.48 * v.y - 0.8 * v.z, -0.8 * v.x + 0.6 * v.y, 0.48 * v.x + 0.64 * v.y + 0.6 * v.z)
-}
 
 fn ring(sides: usize, radius: f64, z: f64) -> impl Iterator<Item = Vector> {
     (0..sides).map(move |k| {
         let (sin, cos) = (TAU * k as f64 / sides as f64).sin_cos();
         Vector::new(radius * cos, radius * sin, z)
-    })
-}
-
-fn sphere(count: usize) -> impl Iterator<Item = Vector> {
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    (0..count).map(move |k| {
-        let z = 1.0 - (2 * k + 1) as f64 / count as f64;
-        let (sin, cos) = (golden * k as f64).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        Vector::new(r * cos, r * sin, z)
     })
 }
 
@@ -42,7 +30,7 @@ fn crumpled_box(count: usize) -> Vec<Vector> {
         let mut p = Vector::zeros();
         p[face % 3] = if face < 3 { 0.0 } else { n as f64 };
         (p[(face + 1) % 3], p[(face + 2) % 3]) = (i as f64, j as f64);
-        turned(p) / 7.0
+        turned(&p) / 7.0
     };
     let all = (0..6).flat_map(|face| (0..n * n).map(move |k| (face, k / n, k % n)));
     all.map(|(face, i, j)| on_face(face, i, j)).collect()
@@ -61,12 +49,12 @@ fn bodies(count: usize) -> Vec<(&'static str, Vec<Vector>)> {
     tiny_corner[5].x = 3e-310;
     let spread = crumpled_box(count).into_iter().enumerate();
     vec![
-        ("a sphere", sphere(count).collect()),
+        ("a sphere", spiral(count)),
         ("a prism of height 1e-200 and radius 1e200", flat_prism().collect()),
         ("the same below an apex", flat_prism().chain([Vector::new(0.0, 0.0, 1e200)]).collect()),
         ("a needle of radius 1e-200", ring(half, 1e-200, 0.0).chain(ring(half, 1e-200, 1e200)).collect()),
         ("a flat cone", ring(count, 1e200, 0.0).chain([Vector::new(0.0, 0.0, 1e-200)]).collect()),
-        ("a sphere flattened to 1e-250", sphere(count).map(|v| Vector::new(v.x, v.y, 1e-250 * v.z)).collect()),
+        ("a sphere flattened to 1e-250", spiral(count).iter().map(|v| Vector::new(v.x, v.y, 1e-250 * v.z)).collect()),
         ("a curve of falling size", (0..count).map(|k| curve(k, 1.1)).collect()),
         ("a crumpled box", crumpled_box(count)),
         ("a crumpled box with a tiny coordinate", tiny_corner),

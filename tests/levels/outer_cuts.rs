@@ -9,7 +9,7 @@ use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::Vector;
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
-use testkit::models::{ELLIPSOIDS, ellipsoid, random_hull};
+use testkit::models::{ELLIPSOIDS, ellipsoid, random_hull, spiral};
 use testkit::random::{Random, rotation};
 
 fn hull(points: &[Vector]) -> Polyhedron {
@@ -38,19 +38,11 @@ fn assert_contains(level: &Polyhedron, base: &Polyhedron) {
     }
 }
 
-/// The polyhedron of as many planes that touch an ellipsoid where a Fibonacci spiral touches the ball that it was made from (R.
-/// Swinbank, R. J. Purser, "Fibonacci grids", 2006): what one would do without looking at the body.
+/// The polyhedron of as many planes that touch an ellipsoid where a Fibonacci spiral touches the ball that it was made from: what one
+/// would do without looking at the body.
 fn spread_evenly(half_axes: [f64; 3], count: usize) -> Polyhedron {
-    let golden_angle = std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
-    let normals: Vec<Vector> = (0..count)
-        .map(|i| {
-            let z = 1.0 - (2 * i + 1) as f64 / count as f64;
-            let (sine, cosine) = (golden_angle * i as f64).sin_cos();
-            Vector::new(cosine, sine, 0.0) * (1.0 - z * z).sqrt() + Vector::z() * z
-        })
-        .collect();
     // Planes n·x = 1 meet where the polar of the normals' hull has its vertices.
-    let polar = hull(&normals);
+    let polar = hull(&spiral(count));
     let corners: Vec<Vector> = polar
         .triangles
         .iter()

@@ -12,10 +12,11 @@ mod forgery;
 mod known;
 mod refused;
 
-use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::motion::{CastAnswer, CastConfig, Motion, Moving, Screw, cast};
 use swiftprox::pair::PairCache;
 use swiftprox::shape::Shape;
+use testkit::shapes::at;
 
 fn moving<'a>(shapes: [&'a Shape; 2], motions: [&'a Motion<'a>; 2]) -> [Moving<'a>; 2] {
     [0, 1].map(|i| Moving { shape: shapes[i], motion: motions[i] })
@@ -25,10 +26,6 @@ fn run(bodies: [Moving; 2], config: &CastConfig) -> CastAnswer {
     let mut answer = CastAnswer::default();
     cast(bodies, &mut PairCache::default(), config, &mut answer).unwrap();
     answer
-}
-
-fn at(x: f64, y: f64, z: f64) -> Pose {
-    Pose::new(&Matrix::identity(), &Vector::new(x, y, z))
 }
 
 /// Without turning.

@@ -9,6 +9,7 @@ use swiftprox::pair::{
     Levels, Outcome, PairAnswer, PairCache, PairConfig, approximate, contact, distance, intersection,
 };
 use swiftprox::shape::{Shape, ShapeOptions};
+use testkit::models::spiral;
 use testkit::random::Random;
 use testkit::retold::{renumbered, shifted_exactly, shuffled};
 use testkit::shapes::hull;
@@ -154,16 +155,9 @@ fn on_grid(v: Vector) -> Vector {
     v.map(|x| (x * power_of_two(20)).round() * power_of_two(-20))
 }
 
-/// Spread over the unit sphere along Fibonacci's spiral.
+/// Spread over the unit sphere.
 fn ball(count: usize) -> Vec<Vector> {
-    let golden = std::f64::consts::PI * (3.0 - 5f64.sqrt());
-    let point = |k: usize| {
-        let z = 1.0 - (2 * k + 1) as f64 / count as f64;
-        let (sin, cos) = (golden * k as f64).sin_cos();
-        let r = (1.0 - z * z).sqrt();
-        on_grid(Vector::new(r * cos, r * sin, z))
-    };
-    (0..count).map(point).collect()
+    spiral(count).into_iter().map(on_grid).collect()
 }
 
 fn prism(sides: usize) -> Vec<Vector> {
