@@ -1,5 +1,5 @@
-//! The floating-point environment where the door of C does not set it: integers that decide in any, panics that unwind, and no number
-//! without a value. c_tests/process/environment.c tests that every call answers alike in all environments.
+//! The floating-point environment where the door of C does not set it: integers that decide in any, panics that unwind, and no
+//! number without a value. c_tests/process/environment.c tests that every call answers alike in all environments.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 

@@ -38,8 +38,8 @@ fn assert_contains(level: &Polyhedron, base: &Polyhedron) {
     }
 }
 
-/// The polyhedron of as many planes that touch an ellipsoid where a Fibonacci spiral touches the ball that it was made from: what one
-/// would do without looking at the body.
+/// The polyhedron of as many planes that touch an ellipsoid where a Fibonacci spiral touches the ball that it was made from: what
+/// one would do without looking at the body.
 fn spread_evenly(half_axes: [f64; 3], count: usize) -> Polyhedron {
     // Planes n·x = 1 meet where the polar of the normals' hull has its vertices.
     let polar = hull(&spiral(count));

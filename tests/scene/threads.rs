@@ -1,5 +1,5 @@
-//! Workers of a scene change no bit of what it answers, and one that fails hides no pair. Under the thread sanitizer (`make tsan`) a
-//! race is an error. What a program's own threads may do at once c_tests/process/threads.c tests, for helgrind.
+//! Workers of a scene change no bit of what it answers, and one that fails hides no pair. Under the thread sanitizer (`make tsan`)
+//! a race is an error. What a program's own threads may do at once c_tests/process/threads.c tests, for helgrind.
 
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::sync::Arc;

@@ -12,7 +12,7 @@
 
 namespace swift_legacy {
 
-/* --- Decompositions ------------------------------------------------------------------------------------------------------------ */
+/* --- Decompositions ------------------------------------------------------------------------------------------------------ */
 
 /* The counts of a convex decomposition. */
 struct DecompositionCounts {
@@ -129,7 +129,7 @@ inline std::string read_decomposition(std::ifstream& stream, std::vector<Mesh>& 
     return fault;
 }
 
-/* --- Hierarchies of hulls ------------------------------------------------------------------------------------------------------- */
+/* --- Hierarchies of hulls ------------------------------------------------------------------------------------------------ */
 
 /* The counts of a hierarchy of hulls. */
 struct HullTreeCounts {
@@ -360,7 +360,7 @@ inline std::string read_hull_tree(std::ifstream& stream, std::vector<Mesh>& piec
     return fault;
 }
 
-/* --- Both ----------------------------------------------------------------------------------------------------------------------- */
+/* --- Both ---------------------------------------------------------------------------------------------------------------- */
 
 enum PieceFileResult { PIECE_FILE_NONE, PIECE_FILE_READ, PIECE_FILE_REFUSED };
 
