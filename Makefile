@@ -8,7 +8,7 @@
 # make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
 # make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
-#                             docs/figures.md and docs/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
+#                             docs/research/figures.md and docs/research/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is
 # make crowds                 scenes of 100 to 100,000 bodies beside parry3d, FCL and a sweep and prune: benches/results/crowds.csv, charts

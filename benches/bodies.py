@@ -146,7 +146,7 @@ def accuracy(where, rows, query, title, axis):
 
 # ---- the grid ----
 
-BANDS = ((8, "#2b7bba"), (4, "#6aaed6"), (2, "#abd0e6"), (1, "#deebf7"), (0.5, "#fbd38d"), (0, "#f2a05f"))
+BANDS = ((8, charts.NAVY), (4, "#6aaed6"), (2, "#abd0e6"), (1, "#deebf7"), (0.5, "#fbd38d"), (0, "#f2a05f"))
 
 
 def band(ratio):
@@ -198,9 +198,9 @@ def grid(where, rows):
                           gap_before=family == "paper", bold=True))
     columns = [(query, motion(step).replace(" a query", "").replace(" poses", "")) for query in QUERIES for step in STEPS]
     legend = [(colour, f"{least} and more" if least else "less") for least, colour in BANDS]
-    return Cells("How many times as long the quickest other library takes", where,
+    return Cells("Speed-up over the fastest other library", where,
                  f"of {others_of(rows)}: geometric mean, small the least, where a line is several bodies",
-                 columns, lines, legend, 138)
+                 columns, lines, legend + [(charts.REFUSED, "no pose overlaps")], 138)
 
 
 # ---- time over motion, vertices and sides ----
@@ -275,6 +275,23 @@ def family_table(rows):
     return "\n".join(lines + ["", certain])
 
 
+FIRST = (("distance", "1"), ("verdict", "1"), ("depth", "1"), ("depth", "10"))
+ASKED = {"distance": "distance", "verdict": "overlap test", "depth": "depth"}
+
+
+def first_table(rows):
+    """Geometric means over the real hulls, of the libraries that take all of them, the best per line in bold."""
+    rows = of(strongest(rows), family="real")
+    shown = [name for name in WAYS if name not in ("jolt", LEVELS) and of([{"way": way(row["method"])} for row in rows], way=name)]
+    lines = ["| | " + " | ".join(WAYS[name].label.split(",")[0] for name in shown) + " |", "|---|" + "--:|" * len(shown)]
+    for query, step in FIRST:
+        means = {way(row["method"]): mean(of(rows, query=query, step=step, method=row["method"])) for row in of(rows, query=query, step=step)}
+        best = min(time for name, time in means.items() if name in shown)
+        cells = ["" if name not in means else f"**{means[name]:,.0f}**" if means[name] == best else f"{means[name]:,.0f}" for name in shown]
+        lines.append(f"| {ASKED[query]}, {MOTIONS[step]} | " + " | ".join(cells) + " |")
+    return "\n".join(lines)
+
+
 def weak_table(rows):
     """Of each query the bodies with the least ratios, each at its worst motion and in its worst form."""
     rows = strongest(rows)
@@ -306,7 +323,8 @@ def instruction_table(counts):
 
 def tables_of(rows, counts):
     """Of each page the tables by name."""
-    return {"README.md": {"bodies": family_table(rows), "weak": weak_table(rows), "instructions": instruction_table(counts)}}
+    return {"README.md": {"first": first_table(rows)},
+            "docs/benchmarks.md": {"bodies": family_table(rows), "weak": weak_table(rows), "instructions": instruction_table(counts)}}
 
 
 def with_tables(text, tables):

@@ -1,6 +1,6 @@
 """Draws every chart of docs/charts by matplotlib, and tells whether a drawn one still shows its data.
 
-A chart is plain data: `Panels` of curves over logarithmic axes, or `Cells`, a table with colours. plot.py, figures.py and
+A chart is plain data: `Panels` of curves over logarithmic axes, `Cells`, a table with colours, or `Bars`. plot.py, figures.py and
 stability/report.py make it of CSV files. The same data gives the same bytes with the same matplotlib (Debian 12 has 3.6.3), but
 not with every other, so `check` compares no drawing. Each file holds a digest of its chart's data and of this module, and one
 of its own text: the first tells that the data, or the way to draw them, have changed, the second that the file was edited.
@@ -25,8 +25,9 @@ INDIGO, WINE, OLIVE, FOREST, GREY, INK = "#332288", "#882255", "#999933", "#1177
 FRAME, GRID = "#999999", "#e4e4e4"
 SOLID, DASHED, DOTTED = "-", "--", ":"
 GOOD, REFUSED = "#dcebf5", "#d9d9d9"
-BAD = ("#fff3cd", "#fbd38d", "#f2a05f", "#d9603f", "#a5192d")  # from little to much; light text stands on the last two
-DARK = BAD[3:]
+BAD = ("#fff3cd", "#fbd38d", "#f2a05f", "#d9603f", "#a5192d")  # from little to much; light text stands on the last two, and on navy
+NAVY = "#2b7bba"
+DARK = (*BAD[3:], NAVY)
 
 
 # ---- what a chart is ----
@@ -117,6 +118,15 @@ class Cells:
     legend: list  # (colour, label)
     label_width: float
     last_head: str = ""
+
+
+@dataclass
+class Bars:
+    """Lengths from 0 on, one below the other, each with its number behind it; the first line is our own."""
+    title: str
+    machine: str
+    lines: list  # (label, value)
+    label_width: float
 
 
 # ---- axes ----
@@ -218,7 +228,7 @@ def draw(path, chart, csv_paths):
     FigureCanvasSVG(canvas.figure)
     canvas.text(8, 15, chart.title, weight="bold", size=10)
     canvas.text(8, 27, chart.machine, color=GREY)
-    (draw_panels if isinstance(chart, Panels) else draw_cells)(canvas, chart)
+    {Panels: draw_panels, Cells: draw_cells, Bars: draw_bars}[type(chart)](canvas, chart)
     os.makedirs(os.path.dirname(path) or ".", exist_ok=True)
     said = {"Date": None, "Title": chart.title, "Identifier": "sha256:" + digest(chart),
             "Source": ", ".join(os.path.basename(csv_path) for csv_path in csv_paths)}
@@ -273,7 +283,23 @@ def height(chart):
         _, legend = legend_shape([style.label for style in chart.styles.values()])
         rows = sum(PANEL_HEAD + row.height + TICKS for row in chart.rows)
         return HEAD + legend + rows + 18 + 12 * len(chart.note.splitlines()) + 4
+    if isinstance(chart, Bars):
+        return HEAD + LINE * len(chart.lines) + 6
     return CELLS_TOP + sum(LINE + GROUP_GAP * line.gap_before for line in chart.lines) + 28
+
+
+def draw_bars(canvas, chart):
+    from matplotlib.patches import Rectangle
+    width = WIDTH - chart.label_width - LAST_WIDTH - RIGHT
+    most = max(value for _, value in chart.lines)
+    for k, (label, value) in enumerate(chart.lines):
+        y, length = HEAD + LINE * k, width * value / most
+        weight = "bold" if k == 0 else "normal"
+        canvas.text(chart.label_width - 6, y + 11, label, ha="right", weight=weight)
+        canvas.text(chart.label_width + length + 4, y + 11, f"{value:,}", weight=weight)
+        corner = (chart.label_width / WIDTH, 1 - (y + LINE - 2) / canvas.height)
+        canvas.figure.add_artist(Rectangle(corner, length / WIDTH, (LINE - 4) / canvas.height, facecolor=BLUE if k == 0 else RED,
+                                           linewidth=0, transform=canvas.figure.transFigure))
 
 
 def draw_panels(canvas, chart):

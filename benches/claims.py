@@ -245,7 +245,7 @@ CLAIMS = (marching_rule, tables_on_fat, tables_by_model, tables_factor, removal_
           quadric_distance, best_intersection, best_distance, quadric_beats_removal, speed_ups, flatness, approximate_between, larger)
 
 
-# ---- the tables of docs/figures.md ----
+# ---- the tables of docs/research/figures.md ----
 
 def table(head, lines, rest="--:"):
     """Markdown; the columns but the first are of numbers, unless `rest` says otherwise."""

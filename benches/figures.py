@@ -5,7 +5,7 @@ usage: figures.py [--check] RESULTS.csv ...
 
 The files are those that `make figures` writes, of figures, of verdicts beside libccd's and of builds, in any order.
 
-Writes docs/charts/figure-*.svg, and in docs/figures.md and docs/levels.md replaces what stands between <!-- table: NAME --> and
+Writes docs/charts/figure-*.svg, and in docs/research/figures.md and docs/research/levels.md replaces what stands between <!-- table: NAME --> and
 <!-- end -->. With --check it writes nothing and fails where a page differs, or a chart is not the drawing of these rows.
 """
 import math
@@ -18,7 +18,7 @@ from charts import BLUE, DASHED, DOTTED, FOREST, GREEN, GREY, INDIGO, ORANGE, PI
 from charts import Axis, Cell, Cells, Curve, Kind, Line, Panel, Panels, Row, Style
 from rows import in_order, machine, read, with_numbers
 
-PAGES = [os.path.join(charts.FOLDER, "..", page) for page in ("figures.md", "levels.md")]
+PAGES = [os.path.join(charts.FOLDER, "..", "research", page) for page in ("figures.md", "levels.md")]
 NUMBERS = ("best_ns", "mean_steps", "by_levels", "error", "best_ms", "bytes")
 STYLES = {
     "most violated": Style("most violated plane (SWIFT)", BLUE),

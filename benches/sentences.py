@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that sentences and tables of README.md, docs/choosing.md and docs/contacts.md that have numbers say what the CSV files of benches/results say.
+"""Checks that sentences and tables of docs/benchmarks.md, docs/choosing.md and docs/grounds.md that have numbers say what the CSV files of benches/results say.
 Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
@@ -41,7 +41,7 @@ def second_thread():
         if row["motion"] == "all" and int(row["count"]) >= 10000:
             times.setdefault((row["bodies"], row["count"], row["query"]), {})[row["method"]] = float(row["mean_ms"])
     saved = [100 * (1 - of["swiftprox-2"] / of["swiftprox"]) for of in times.values() if "swiftprox-2" in of]
-    return f"a second thread saves {min(saved):.0f} to {max(saved):.0f} % of a step of 10,000 bodies or more where all move"
+    return f"saves {min(saved):.0f} to {max(saved):.0f} % of a step of 10,000 bodies or more where all move"
 
 
 MOTIONS = {"0.1": "0.1°", "1": "1°", "10": "10°", "random": "random"}
@@ -107,8 +107,8 @@ def ground_table():
 def commits():
     """Tables and meshes are of the same commit as queries."""
     if commit_of(BUILD) != commit_of(SPEED):
-        sys.exit(f"{BUILD} and {SPEED} are of different commits, which README.md takes for one")
-    return f"at {commit_of(SPEED)}", f"those of a second thread of {commit_of(CROWDS)}"
+        sys.exit(f"{BUILD} and {SPEED} are of different commits, which docs/benchmarks.md takes for one")
+    return f"at {commit_of(SPEED)}", f"the second thread at {commit_of(CROWDS)}"
 
 
 def check(page, said):
@@ -121,8 +121,8 @@ def check(page, said):
 
 def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
-    check("README.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
-    check("docs/contacts.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}"))
+    check("docs/benchmarks.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
+    check("docs/grounds.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}"))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 

@@ -6,8 +6,9 @@ rules hold:
 
   ```c, ```cpp   stands word for word in the file that a comment before it names, <!-- sample: examples/hello.c -->; CTest runs that
   ```cmake       is a whole CMakeLists.txt: it is configured and built where hello.c is, with the installed library
-  ```sh          is run, in a folder that looks like the project's, with the library installed in $HOME/swiftprox. What builds the
-                 project is not run again: of `make` the targets have to be there
+  ```sh          is run, in a folder that looks like the project's, with the library installed in $HOME/swiftprox, in a shell that
+                 knows what README.md exports and no more. What builds the project is not run again: of `make` the targets have to
+                 be there
   ```text        is shown; behind <!-- prints: hello --> it is what that example prints, up to the last digits of numbers
 
 Code that is indented and in no block is refused."""
@@ -24,7 +25,7 @@ ROOT = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 BUILD, LIBRARIES = (os.path.abspath(path) for path in sys.argv[1:3])
 NOTE = re.compile(r"<!-- (sample|prints): (\S+) -->")
 # They build the project, which takes minutes; a build folder with tests is what they leave.
-BUILDS = re.compile(r"(make|cargo|git clone|cmake -S)\b")
+BUILDS = re.compile(r"(make|cargo|git clone|cmake -S|cmake --install)\b")
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[-+]?\d+)?")
 DIGITS = 1e-9
 IDENTITY = "1 0 0 0 0 1 0 0 0 0 1 0"
@@ -45,7 +46,13 @@ def read(*parts):
 
 
 def pages():
-    return ["README.md", "CONTRIBUTING.md"] + sorted("docs/" + name for name in os.listdir(os.path.join(ROOT, "docs")) if name.endswith(".md"))
+    found = [os.path.join(folder, name) for folder in ("docs", "docs/research") for name in os.listdir(os.path.join(ROOT, folder))]
+    return ["README.md", "CONTRIBUTING.md"] + sorted(page for page in found if page.endswith(".md"))
+
+
+def exports():
+    """What README.md tells a reader's shell, for good: the blocks of all pages are run after it."""
+    return [line for line in read("README.md").splitlines() if line.startswith("export ")]
 
 
 class Block:
@@ -107,8 +114,9 @@ class Samples(unittest.TestCase):
         cls.addClassCleanup(shutil.rmtree, cls.home)
         cls.prefix = os.path.join(cls.home, "swiftprox")
         subprocess.run(["cmake", "--install", BUILD, "--prefix", cls.prefix], check=True, capture_output=True)
-        cls.environment = {**os.environ, **MPI, "HOME": cls.home, "PKG_CONFIG_PATH": os.path.join(cls.prefix, "lib", "pkgconfig"),
-                           "LD_LIBRARY_PATH": os.path.join(cls.prefix, "lib")}
+        cls.environment = {**os.environ, **MPI, "HOME": cls.home}
+        for name in ("PKG_CONFIG_PATH", "LD_LIBRARY_PATH"):
+            cls.environment.pop(name, None)
 
     def of(self, *languages):
         found = [block for block in self.blocks if block.language in languages]
@@ -179,7 +187,7 @@ class Samples(unittest.TestCase):
         for block in self.of("sh"):
             page = block.place.split(":")[0]
             folders[page] = folders.get(page) or self.project()
-            script = ["set -eu"]
+            script = ["set -eu", "unset PKG_CONFIG_PATH LD_LIBRARY_PATH", *(exports() if page != "README.md" else [])]
             for line in block.lines:
                 if line.startswith("make "):
                     self.check_make(line)

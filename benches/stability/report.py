@@ -3,8 +3,8 @@
 
   report.py COUNTS.csv COST.csv SVG PAGE.md [--check]
 
-Writes the page, in which it replaces what stands between <!-- table: NAME --> and <!-- end -->, and the SVG. With --check it
-writes nothing and fails where the page differs, or the SVG is not the drawing of these counts.
+Writes the page, in which it replaces what stands between <!-- table: NAME --> and <!-- end -->, the SVG, and beside it one of the
+totals, -total.svg. With --check it writes nothing and fails where the page differs, or an SVG is not the drawing of these counts.
 """
 import os
 import re
@@ -13,7 +13,7 @@ import sys
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, ".."))
 import charts  # noqa: E402
-from charts import Cell, Cells, Line  # noqa: E402
+from charts import Bars, Cell, Cells, Line  # noqa: E402
 from rows import in_order, machine, read  # noqa: E402
 from stability import COUNTS, FAILURES, TIERS  # noqa: E402
 
@@ -78,6 +78,14 @@ def chart(head, rows):
                  "how many poses: wrong verdict, distance off by more than 1e-6 of the size (* says none), NaN, exception, crash or hang; "
                  "colour: their share", [column[1:] for column in columns], lines,
                  legend + [(charts.REFUSED, "no shape made; −n: of n poses")], 96, "poses")
+
+
+def total_chart(head, rows):
+    """The failures of each method over all families."""
+    names = {method: " ".join(part for part in (first, second.strip("* ")) if part) for method, first, second in COLUMNS}
+    lines = [(names[method], failures(total([row for row in rows if row["method"] == method])))
+             for method in names if any(row["method"] == method for row in rows)]
+    return Bars("Failures on hard poses", machine(head[0]), lines, 130)
 
 
 # ---- the tables ----
@@ -193,12 +201,16 @@ def main():
     filled = page(text, head, rows, costs)
     if check and filled != text:
         sys.exit(f"{page_path} does not say what {counts_csv} says: run make charts")
+    drawn = {svg: chart(head, rows), svg.replace(".svg", "-total.svg"): total_chart(head, rows)}
     if check:
-        return charts.check(svg, chart(head, rows))
+        for path, made in drawn.items():
+            charts.check(path, made)
+        return
     with open(page_path, "w") as out:
         out.write(filled)
     print(page_path)
-    charts.draw(svg, chart(head, rows), [counts_csv])
+    for path, made in drawn.items():
+        charts.draw(path, made, [counts_csv])
 
 
 if __name__ == "__main__":

@@ -116,6 +116,11 @@ static void shapes()
     CHECK(box.try_level_vertices(7).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(box.try_tuning_info().value.level_count == 0);
     CHECK_OK(box.try_prepare().status);
+    CHECK(Shape::try_box(1, 2, 3).value.try_info().value.volume == 48);
+    CHECK(Shape::try_box(1, 2, 3, 0.5).value.try_info().value.swept_radius == 0.5);
+    CHECK(Shape::try_sphere(2).value.try_info().value.swept_radius == 2);
+    CHECK(Shape::try_capsule(1, 2).value.try_info().value.vertex_count == 2);
+    CHECK(Shape::try_box(1, 0, 3).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     const auto large = box.try_scaled(2);
     CHECK(large && large.value.try_info().value.volume == 8);
     const swiftprox_mesh mesh = {vertices.value.data(), 8, nullptr, nullptr, 0};

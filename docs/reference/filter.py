@@ -17,7 +17,7 @@ def is_shown(target, folder):
     if target.startswith(("http", "#")):
         return True
     path = os.path.relpath(os.path.join(folder, target.split("#")[0]), ROOT)
-    return path.endswith(".md") and os.path.dirname(path) in ("", "docs")
+    return path.endswith(".md") and os.path.dirname(path) in ("", "docs", os.path.join("docs", "research"))
 
 
 def page(text, folder):

@@ -69,6 +69,27 @@ class Shape
             return swiftprox_shape_create_from_points(points.data(), points.size() / 3, c, shape);
         });
     }
+    /** [-x, x] x [-y, y] x [-z, z]; a radius rounds edges and corners, and makes the box larger by as much. */
+    static Result<Shape> try_box(double x, double y, double z, double radius = 0)
+    {
+        const double half_extents[3] = {x, y, z};
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_box(half_extents, radius, shape);
+        });
+    }
+    static Result<Shape> try_sphere(double radius)
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_sphere(radius, shape);
+        });
+    }
+    /** About the segment from (0, 0, -half_length) to (0, 0, half_length). */
+    static Result<Shape> try_capsule(double half_length, double radius)
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_capsule(half_length, radius, shape);
+        });
+    }
     static Result<Shape> try_from_file(const std::string &path, const ShapeOptions &options = {})
     {
         return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
@@ -184,6 +205,9 @@ class Shape
     {
         return take(try_from_points(points, options));
     }
+    static Shape box(double x, double y, double z, double radius = 0) { return take(try_box(x, y, z, radius)); }
+    static Shape sphere(double radius) { return take(try_sphere(radius)); }
+    static Shape capsule(double half_length, double radius) { return take(try_capsule(half_length, radius)); }
     static Shape from_file(const std::string &path, const ShapeOptions &options = {})
     {
         return take(try_from_file(path, options));

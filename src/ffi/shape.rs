@@ -154,6 +154,50 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     })
 }
 
+/// Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges and
+/// corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1 for
+/// y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
+/// SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_box(
+    half_extents: *const f64,
+    radius: f64,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let half_extents = read_vectors(half_extents, 1, "half_extents")?;
+        Ok(Shape::from_box(&half_extents[0], radius)?)
+    })
+}
+
+/// Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_sphere(radius: f64, shape: *mut *const Shape) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || Ok(Shape::from_sphere(radius)?))
+}
+
+/// Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
+/// cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_MEMORY.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_capsule(
+    half_length: f64,
+    radius: f64,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || Ok(Shape::from_capsule(half_length, radius)?))
+}
+
 /// Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
 ///
 /// The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,

@@ -4,6 +4,7 @@ pub(crate) mod extent;
 mod transform;
 mod patch;
 mod face;
+mod solids;
 mod triangle;
 pub mod file;
 

@@ -69,5 +69,5 @@ fn the_page_shows_the_example() {
         .and_then(|(_, rest)| rest.split_once("```\n"))
         .expect("docs/cpp.md has a block of C++")
         .0;
-    assert!(block == include_str!("../../examples/hello.cpp"), "docs/cpp.md and examples/hello.cpp differ");
+    assert!(block == include_str!("../../examples/scene.cpp"), "docs/cpp.md and examples/scene.cpp differ");
 }

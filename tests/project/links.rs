@@ -2,10 +2,12 @@
 
 use std::path::{Path, PathBuf};
 
-/// README.md, ARCHITECTURE.md, and those of `docs`, `benches` and `fuzz`.
+/// README.md, ARCHITECTURE.md, and those of `docs`, `docs/research`, `benches` and `fuzz`.
 fn pages() -> Vec<PathBuf> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let files = ["", "docs", "benches", "fuzz"].iter().flat_map(|folder| root.join(folder).read_dir().unwrap());
+    let files = ["", "docs", "docs/research", "benches", "fuzz"]
+        .iter()
+        .flat_map(|folder| root.join(folder).read_dir().unwrap());
     files.map(|entry| entry.unwrap().path()).filter(|path| path.extension().is_some_and(|end| end == "md")).collect()
 }
 

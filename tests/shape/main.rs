@@ -7,4 +7,5 @@ mod shape_file;
 mod faces;
 mod inertia;
 mod shapes;
+mod solids;
 mod shared_scenes;

@@ -62,7 +62,7 @@ fn are_automatic(shapes: [&Shape; 2]) -> bool {
 }
 
 /// How far automatic levels stand off, about. The finest level of an ellipsoid of n vertices does so by some 20/n of its radius
-/// (docs/levels.md); bodies four times as smooth are given the benefit of the doubt.
+/// (docs/research/levels.md); bodies four times as smooth are given the benefit of the doubt.
 #[inline(always)]
 fn standing_off(shape: &Shape) -> f64 {
     5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64
