@@ -457,6 +457,47 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
                                                   const struct swiftprox_shape **shape);
 
 /**
+ * Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges and
+ * corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1 for
+ * y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
+ * SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_box(const double *half_extents,
+                                            double radius,
+                                            const struct swiftprox_shape **shape);
+
+/**
+ * Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_MEMORY.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_sphere(double radius,
+                                               const struct swiftprox_shape **shape);
+
+/**
+ * Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
+ * cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_MEMORY.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_capsule(double half_length,
+                                                double radius,
+                                                const struct swiftprox_shape **shape);
+
+/**
  * Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
  * swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
  * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
