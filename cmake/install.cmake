@@ -47,7 +47,22 @@ install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swi
   DESTINATION "${config_dir}" COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftprox.pc" "${install_tree}/swiftprox-legacy.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
 install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development
-  FILES_MATCHING PATTERN "*.md" PATTERN "*.svg" PATTERN reference EXCLUDE)
+  FILES_MATCHING PATTERN "*.svg" PATTERN "*.png" PATTERN reference EXCLUDE)
+
+# The pages, without links to what is not installed: those that lead out of docs/ keep their words.
+set(out_of_docs "../")
+foreach(folder IN ITEMS docs docs/research)
+  file(GLOB pages CONFIGURE_DEPENDS "${folder}/*.md")
+  foreach(page IN LISTS pages)
+    file(READ "${page}" text)
+    string(REGEX REPLACE "\\[([^]\n]*)\\]\\(${out_of_docs}[^)\n]*\\)" "\\1" text "${text}")
+    file(RELATIVE_PATH name "${PROJECT_SOURCE_DIR}/docs" "${page}")
+    file(WRITE "${install_tree}/docs/${name}" "${text}")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${page}")
+  endforeach()
+  string(PREPEND out_of_docs "../")
+endforeach()
+install(DIRECTORY "${install_tree}/docs/" DESTINATION "${doc_dir}" COMPONENT swiftprox_development)
 
 # --- Without debug information -------------------------------------------------------------------------------------------------
 

@@ -128,6 +128,17 @@ class Samples(unittest.TestCase):
         self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
         return done.stdout
 
+    def test_installed_pages_have_no_dead_link(self):
+        folder, count = os.path.join(self.prefix, "share", "doc", "swiftprox"), 0
+        for here, _, names in os.walk(folder):
+            for name in (name for name in names if name.endswith(".md")):
+                with open(os.path.join(here, name), encoding="utf-8") as file:
+                    targets = re.findall(r"\]\(([^)#]+)", file.read())
+                for target in (target for target in targets if not target.startswith("http")):
+                    self.assertTrue(os.path.exists(os.path.join(here, target)), f"{name} links to {target}")
+                    count += 1
+        self.assertGreater(count, 100)
+
     def test_languages_are_known(self):
         for block in self.blocks:
             self.assertIn(block.language, ("c", "cpp", "cmake", "sh", "text"), block.place)
