@@ -198,7 +198,7 @@ class Samples(unittest.TestCase):
         for block in self.of("sh"):
             page = block.place.split(":")[0]
             folders[page] = folders.get(page) or self.project()
-            script = ["set -eu", "unset PKG_CONFIG_PATH LD_LIBRARY_PATH", *(exports() if page != "README.md" else [])]
+            script = ["set -eu", *(exports() if page != "README.md" else [])]
             for line in block.lines:
                 if line.startswith("make "):
                     self.check_make(line)
