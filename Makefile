@@ -1,6 +1,7 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
 # make check                  the daily loop, minutes of it: unit tests, C tests and lint
-# make test                   everything that is tested: lint, test-rust, test-c and test-fuzz, side by side
+# make test                   everything that is tested: lint, test-rust, test-c, test-fuzz and proofs, side by side
+# make proofs                 bounds on rounding, proved of the code by Gappa and Coq: docs/proofs.md (a part of make test, too)
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
 # make tsan                   tests with threads under the thread sanitizer
@@ -63,7 +64,7 @@ MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -91,7 +92,7 @@ test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
 	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz lint
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz test-proofs lint
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
@@ -101,7 +102,7 @@ lint:
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils
-	cargo test --locked --profile checked
+	cargo test --locked --profile checked --package swiftprox --package proofs
 
 # Without valgrind or the peers their tests are left out; CMake says so. Where the peers differ from the exact answer is printed
 # in the end: it fails no test, but nobody should have to look for it.
@@ -115,6 +116,16 @@ test-c:
 # Every input of the corpora, and new ones, the same every time; an input that fails fails.
 test-fuzz:
 	scripts/fuzz.sh --as-test
+
+# Where Gappa and Coq cannot be had the tapes are compared all the same, by test-rust.
+PROVERS = gappa=gappa coqc=coq /usr/lib/ocaml/coq/user-contrib/Flocq=libcoq-flocq
+test-proofs:
+	-@scripts/require.sh $(CC_PACKAGES) $(PROVERS)
+	scripts/proofs.sh --if-there
+
+proofs:
+	@scripts/require.sh $(CC_PACKAGES) $(PROVERS)
+	scripts/proofs.sh
 
 # Each target begins with its corpus in fuzz/corpus. Without nightly Rust the address sanitizer is left out; the script says so.
 fuzz:

@@ -3,6 +3,7 @@
 //! nalgebra's types are aliased here and nowhere else.
 
 use crate::base::error::{Error, Result};
+use crate::base::scalar::{Scalar, constant, dot};
 
 /// A point or a direction in three dimensions.
 pub type Vector = nalgebra::Vector3<f64>;
@@ -34,6 +35,20 @@ pub fn divisor(x: f64) -> f64 {
 pub fn power_of_two(exponent: i32) -> f64 {
     debug_assert!((-1022..=1023).contains(&exponent), "{exponent}");
     f64::from_bits(((exponent + 1023) as u64) << 52)
+}
+
+/// R·d in plain rounded arithmetic.
+#[inline(always)]
+pub fn rotated<S: Scalar>([a, b, c]: &[[S; 4]; 3], d: [S; 3]) -> [S; 3] {
+    [dot([a[0], a[1], a[2]], d), dot([b[0], b[1], b[2]], d), dot([c[0], c[1], c[2]], d)]
+}
+
+/// The entries of RᵀR − I as computed: the diagonal, then those beside it.
+#[inline(always)]
+pub fn orthonormality<S: Scalar>([a, b, c]: &[[S; 4]; 3]) -> [S; 6] {
+    let one = constant(1.0);
+    let [x, y, z] = [[a[0], b[0], c[0]], [a[1], b[1], c[1]], [a[2], b[2], c[2]]];
+    [dot(x, x) - one, dot(y, y) - one, dot(z, z) - one, dot(x, y), dot(x, z), dot(y, z)]
 }
 
 /// An object's placement: world point = R·(local point) + T, exactly as the doubles give it. R is nearly orthonormal,
@@ -83,12 +98,7 @@ impl Pose {
 
     /// R·d in plain rounded arithmetic.
     pub fn rotate(&self, d: &Vector) -> Vector {
-        let r = &self.rows;
-        Vector::new(
-            r[0][0] * d.x + r[0][1] * d.y + r[0][2] * d.z,
-            r[1][0] * d.x + r[1][1] * d.y + r[1][2] * d.z,
-            r[2][0] * d.x + r[2][1] * d.y + r[2][2] * d.z,
-        )
+        rotated(&self.rows, (*d).into()).into()
     }
 
     /// Rᵀ·d in plain rounded arithmetic: maps a world direction *into* the object. For any R the support function of R·K in
@@ -105,10 +115,7 @@ impl Pose {
     /// The largest entry of |RᵀR − I| as computed (its own rounding error is at most 4u for an accepted R), or NaN.
     #[inline(always)]
     pub fn rotation_defect(&self) -> f64 {
-        let [a, b, c] = &self.rows;
-        let dot = |i: usize, j: usize| a[i] * a[j] + b[i] * b[j] + c[i] * c[j];
-        let entries =
-            [dot(0, 0) - 1.0, dot(1, 1) - 1.0, dot(2, 2) - 1.0, dot(0, 1), dot(0, 2), dot(1, 2)].map(f64::abs);
+        let entries = orthonormality(&self.rows).map(f64::abs);
         // One instruction each, where f64::max takes several.
         let worst = entries.into_iter().fold(0.0, |worst, entry| if entry > worst { entry } else { worst });
         // A comparison loses a NaN, a sum does not.

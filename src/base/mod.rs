@@ -7,6 +7,8 @@ pub(crate) mod memory;
 pub mod files;
 pub(crate) mod binary;
 pub(crate) mod enumerator;
+#[doc(hidden)]
+pub mod scalar;
 pub mod math;
 #[doc(hidden)]
 pub mod simd;
@@ -18,5 +20,6 @@ pub mod double_double;
 pub(crate) mod extended_range;
 #[doc(hidden)]
 pub mod predicates;
-pub(crate) mod normal;
+#[doc(hidden)]
+pub mod normal;
 pub(crate) mod workers;

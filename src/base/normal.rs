@@ -5,6 +5,7 @@ use dashu_int::IBig;
 use crate::base::double_double::{WideVector, narrow, wide_cross, wide_difference};
 use crate::base::math::Vector;
 use crate::base::predicates::mantissa_and_exponent;
+use crate::base::scalar::{Scalar, dot};
 
 /// Below this ratio |n|/(|a|·|b|) the error 2⁻¹⁰⁰·|a||b| of a wide cross product could show in doubles; 2⁻⁴⁰.
 const THINNEST_FOR_WIDE: f64 = f64::from_bits((1023 - 40) << 52);
@@ -27,7 +28,14 @@ pub fn unit(v: &Vector) -> Vector {
     while v.amax() > STEP && v.amax() <= f64::MAX {
         v /= STEP;
     }
-    v / v.dot(&v).sqrt()
+    over_length(v.into()).into()
+}
+
+/// v/|v| for squares that are in range.
+#[inline(always)]
+pub fn over_length<S: Scalar>(v: [S; 3]) -> [S; 3] {
+    let length = dot(v, v).sqrt();
+    [v[0] / length, v[1] / length, v[2] / length]
 }
 
 /// Twice the area vector of the triangle o, p, q: (p − o) × (q − o), off by less than 2⁻¹⁰⁰·|p − o||q − o|.

@@ -28,6 +28,7 @@ use crate::base::extended_range::Extended;
 use crate::base::math::{UNIT_ROUNDOFF, Vector, power_of_two};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
+use crate::base::scalar::{Scalar, constant, dot};
 
 /// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
 /// of this file. 2⁻³⁰⁰.
@@ -39,7 +40,7 @@ const SMALLEST_FOR_EXPANSIONS: f64 = f64::from_bits((1023 - 300) << 52);
 const UNDERFLOW_GUARD: f64 = f64::from_bits((1023 - 1000) << 52);
 
 /// The bound at [`ExactPoints::plane`], rounded up for the rounding of the bound itself.
-const FILTER: f64 = 10.0 * UNIT_ROUNDOFF;
+pub const FILTER: f64 = 10.0 * UNIT_ROUNDOFF;
 
 /// The bound at [`double_double_height`], rounded up for the rounding of the spread.
 const DOUBLE_DOUBLE_FILTER: f64 = 26.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
@@ -161,8 +162,7 @@ impl ExactPoints {
         let [a, b, c] = corners.map(|i| &self.scaled[i as usize]);
         let (normal, permanent) = normal_and_permanent([a, b, c]);
         let p = &self.scaled[d as usize];
-        let height: f64 = (0..3).map(|k| normal[k] * (p[k] - a[k])).sum();
-        let spread: f64 = (0..3).map(|k| permanent[k] * (p[k] - a[k]).abs()).sum();
+        let (height, spread) = height_and_spread(normal, permanent, *a, *p);
         if height.abs() > FILTER * spread + self.guard {
             return height;
         }
@@ -224,7 +224,7 @@ impl ExactPoints {
         let a = &self.scaled[plane.corners[0] as usize];
         let point = &self.scaled[p as usize];
         let n = &plane.normal;
-        let height = n[0] * (point[0] - a[0]) + n[1] * (point[1] - a[1]) + n[2] * (point[2] - a[2]);
+        let (height, _) = height_and_spread(*n, *n, *a, *point);
         if height.abs() > plane.error { height } else { self.small_height(plane, p) }
     }
 
@@ -320,11 +320,12 @@ fn leading(value: &IBig, exponent: i32) -> Extended {
 
 /// n = (b − a) × (c − a), rounded, and the same with all minus signs of the cross product made
 /// plus.
-fn normal_and_permanent([a, b, c]: [&[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
+#[inline(always)]
+pub fn normal_and_permanent<S: Scalar>([a, b, c]: [&[S; 3]; 3]) -> ([S; 3], [S; 3]) {
     let e = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
     let f = [c[0] - a[0], c[1] - a[1], c[2] - a[2]];
-    let mut normal = [0.0; 3];
-    let mut permanent = [0.0; 3];
+    let mut normal = [constant(0.0); 3];
+    let mut permanent = [constant(0.0); 3];
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         let (left, right) = (e[i] * f[j], e[j] * f[i]);
@@ -332,6 +333,13 @@ fn normal_and_permanent([a, b, c]: [&[f64; 3]; 3]) -> ([f64; 3], [f64; 3]) {
         permanent[k] = left.abs() + right.abs();
     }
     (normal, permanent)
+}
+
+/// n·(p − a), and the same of magnitudes with the permanent.
+#[inline(always)]
+pub fn height_and_spread<S: Scalar>(normal: [S; 3], permanent: [S; 3], a: [S; 3], p: [S; 3]) -> (S, S) {
+    let d = [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+    (dot(normal, d), dot(permanent, [d[0].abs(), d[1].abs(), d[2].abs()]))
 }
 
 /// det(b − a, c − a, p − a), off by at most 25u²·spread (and the rounding of two words to one,

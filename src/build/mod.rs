@@ -5,7 +5,8 @@
 pub mod hull;
 #[doc(hidden)]
 pub mod check;
-pub(crate) mod slack;
+#[doc(hidden)]
+pub mod slack;
 pub(crate) mod merge;
 pub(crate) mod labels;
 pub(crate) mod mass;

@@ -15,6 +15,7 @@ use crate::base::double_double::{wide_difference, wide_dot, widen};
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{filled, with_capacity};
+use crate::base::scalar::Scalar;
 use crate::polyhedron::triangulation::Triangulation;
 
 /// How far, as an angle, a computed unit normal of a triangle ([`crate::base::normal::normal_of`]) may miss the exact one: what
@@ -134,17 +135,25 @@ pub fn rise_over(normal: &Vector, points: &[Vector], s: &Vector) -> f64 {
 /// the rounding of that sum, too. Where all terms vanish, as for boxes along the axes, nothing was rounded.
 #[inline]
 fn height(normal: &Vector, x: &Vector, s: &Vector) -> (f64, f64) {
-    let d = x - s;
-    let terms = normal.component_mul(&d);
-    let magnitude = terms.x.abs() + terms.y.abs() + terms.z.abs();
+    let (height, magnitude) = height_and_magnitude((*normal).into(), (*x).into(), (*s).into());
     let error = if magnitude > SMALLEST {
-        5.0 * UNIT_ROUNDOFF * magnitude
-    } else if (0..3).all(|k| normal[k] == 0.0 || d[k] == 0.0) {
+        HEIGHT * magnitude
+    } else if (0..3).all(|k| normal[k] == 0.0 || x[k] - s[k] == 0.0) {
         0.0
     } else {
         SMALLEST
     };
-    (terms.x + terms.y + terms.z, error)
+    (height, error)
+}
+
+/// See [`height`].
+pub const HEIGHT: f64 = 5.0 * UNIT_ROUNDOFF;
+
+/// n·(x − s), and the sum of its terms' magnitudes.
+#[inline(always)]
+pub fn height_and_magnitude<S: Scalar>(normal: [S; 3], x: [S; 3], s: [S; 3]) -> (S, S) {
+    let [a, b, c] = [normal[0] * (x[0] - s[0]), normal[1] * (x[1] - s[1]), normal[2] * (x[2] - s[2])];
+    (a + b + c, a.abs() + b.abs() + c.abs())
 }
 
 /// The same in double-double: off by 2⁻¹⁰⁰·|n||x − s|, by the rounding to a double, and by what underflows.

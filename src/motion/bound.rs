@@ -25,6 +25,7 @@ use super::kinds::{Callback, Motion, Screw};
 use super::turn::{LARGEST_ANGLE, Turn};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::scalar::{Scalar, constant};
 use crate::polyhedron::LARGEST;
 
 /// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
@@ -195,15 +196,20 @@ pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
 pub(super) fn least_between(gaps: [f64; 2], sag: f64) -> f64 {
     let [first, last] = gaps;
     let rise = last - first;
-    let least = if sag > rise.abs() {
-        let excess = sag - rise;
-        first - excess * excess / (4.0 * sag)
-    } else {
-        first.min(last)
-    };
-    let rounded = least - 32.0 * U * (first.abs() + last.abs() + sag);
+    let least = if sag > rise.abs() { least_within(first, rise, sag) } else { first.min(last) };
+    let rounded = least - LEAST_BETWEEN * (first.abs() + last.abs() + sag);
     // What is infinite or none proves nothing.
     if rounded.is_finite() { rounded } else { f64::NEG_INFINITY }
+}
+
+/// What [`least_between`] is off by, over both gaps and B.
+pub const LEAST_BETWEEN: f64 = 32.0 * U;
+
+/// The least of a chord less B·s(1 − s), where that is within.
+#[inline(always)]
+pub fn least_within<S: Scalar>(first: S, rise: S, sag: S) -> S {
+    let excess = sag - rise;
+    first - excess * excess / (constant::<S>(4.0) * sag)
 }
 
 fn check_sizes(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> Result<()> {

@@ -4,10 +4,12 @@
 //! next is in `bound.rs`: how far the gap along a fixed direction can sag between two moments, and what rounding may make of a
 //! pose.
 
-mod turn;
+#[doc(hidden)]
+pub mod turn;
 mod kinds;
 mod carried;
-mod bound;
+#[doc(hidden)]
+pub mod bound;
 mod between;
 mod answer;
 mod config;

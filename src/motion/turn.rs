@@ -1,6 +1,7 @@
 //! Turns about an axis, right to a bound that is derived here: no library's sine is trusted, and all machines compute the same.
 
 use crate::base::math::{Matrix, Vector};
+use crate::base::scalar::{Scalar, constant};
 
 /// The largest angle in radians that [`Turn::by`] takes.
 pub(super) const LARGEST_ANGLE: f64 = 1_048_576.0;
@@ -95,11 +96,8 @@ const COSINE: [f64; 8] = [
 /// both are off by less than 1.7u + 2u.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let multiple = (angle * std::f64::consts::FRAC_2_PI).round();
-    let [first, second, third] = HALF_PI;
-    let r = ((angle - multiple * first) - multiple * second) - multiple * third;
-    let square = r * r;
-    let sine = r + r * (square * polynomial(square, &SINE));
-    let cosine = 1.0 - square * (0.5 - square * polynomial(square, &COSINE));
+    let r = reduced(angle, multiple);
+    let (sine, cosine) = (sine(r), cosine(r));
     match (multiple as i64).rem_euclid(4) {
         0 => (sine, cosine),
         1 => (cosine, -sine),
@@ -108,8 +106,31 @@ fn sin_cos(angle: f64) -> (f64, f64) {
     }
 }
 
-fn polynomial(x: f64, coefficients: &[f64; 8]) -> f64 {
-    coefficients.iter().rev().fold(0.0, |sum, coefficient| sum * x + coefficient)
+/// An angle less a multiple of π/2.
+#[inline(always)]
+pub fn reduced<S: Scalar>(angle: S, multiple: S) -> S {
+    let [first, second, third] = HALF_PI.map(constant::<S>);
+    ((angle - multiple * first) - multiple * second) - multiple * third
+}
+
+/// The sine of at most 0.7854.
+#[inline(always)]
+pub fn sine<S: Scalar>(r: S) -> S {
+    let square = r * r;
+    r + r * (square * polynomial(square, &SINE))
+}
+
+/// The cosine of at most 0.7854.
+#[inline(always)]
+pub fn cosine<S: Scalar>(r: S) -> S {
+    let square = r * r;
+    constant::<S>(1.0) - square * (constant::<S>(0.5) - square * polynomial(square, &COSINE))
+}
+
+#[inline(always)]
+fn polynomial<S: Scalar>(x: S, coefficients: &[f64; 8]) -> S {
+    let [others @ .., last] = coefficients;
+    others.iter().rev().fold(constant(*last), |sum, coefficient| sum * x + constant(*coefficient))
 }
 
 #[cfg(test)]

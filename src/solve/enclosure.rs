@@ -5,6 +5,7 @@
 //! support vertices beyond the faces that are too near, until the filter accepts or a bound ends it.
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
@@ -133,12 +134,11 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     for square in z.mul_add(z, y.mul_add(y, x.mul(x))).to_array() {
         longest_square = if square > longest_square { square } else { longest_square };
     }
-    let longest = longest_square.sqrt() * (1.0 + 8.0 * U);
+    let longest = length_above(longest_square);
     let error = frame.difference_error(longest);
     // A bound of their length that is never 0.
     let longest = if longest > error { longest } else { error };
-    let spread = 1.0 + error / longest;
-    let bound = (12.0 * U * longest + 3.0 * error * spread * spread) * longest * longest * (1.0 + 16.0 * U);
+    let bound = determinant_error(longest, error);
     // Written out: what the compiler leaves out of line, a closure say, is not compiled for these lanes.
     let &[p, q, r, s] = corners;
     let [ax, ay, az] = L::components(&[q, p, p, p]);
@@ -159,6 +159,20 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     let inside = [inside & 1 != 0, inside & 2 != 0, inside & 4 != 0, inside & 8 != 0];
     let certain = u32::from(inside[0]) + u32::from(inside[1]) + u32::from(inside[2]) + u32::from(inside[3]);
     Sides { weights, inside, certain }
+}
+
+/// A length, rounded up, from its square, which errs by 3u.
+#[inline(always)]
+pub fn length_above<S: Scalar>(square: S) -> S {
+    square.sqrt() * constant(1.0 + 8.0 * U)
+}
+
+/// What a determinant is off by, for columns of length at most `longest`, each off by at most `error`, see [`sides_of_faces`].
+#[inline(always)]
+pub fn determinant_error<S: Scalar>(longest: S, error: S) -> S {
+    let spread = constant::<S>(1.0) + error / longest;
+    let of_columns = constant::<S>(3.0) * error * spread * spread;
+    (constant::<S>(12.0 * U) * longest + of_columns) * longest * longest * constant(1.0 + 16.0 * U)
 }
 
 /// Sum of the unit outward normals of the faces that do not certainly have the origin inside.

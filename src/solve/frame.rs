@@ -7,15 +7,23 @@
 
 use crate::base::double_double::{two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 
 /// A rotation is taken for rigid when no entry of RᵀR − I exceeds this; the rounding of an orthonormal matrix to doubles leaves
 /// a few u.
-const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
+pub const RIGID: f64 = 7.0 * UNIT_ROUNDOFF;
 
-/// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at: then |RᵀR − I| ≤ √6·10u < 3·8u + u.
+/// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at.
 pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
+
+/// ‖RᵀR − I‖₂ of a pose that counts as rigid, the rounding with which it was measured included.
+///
+/// By [`RIGID`]: entries up to 7u make 3·7u. By [`RIGID_TOGETHER`]: lane i holds the diagonal's entry sᵢ and pᵢ beside it, sᵢ² +
+/// pᵢ² ≤ (10u)². So xᵀEx = Σ(sᵢxᵢ² + 2pᵢxᵢxᵢ₊₁) ≤ 10u·Σ|xᵢ|√(xᵢ² + 4xᵢ₊₁²) ≤ 10u·√5 for |x| = 1 (Cauchy and Schwarz, twice).
+/// Measuring errs by up to 3.5u on the diagonal entry by entry, 2.5u in lanes, and 2u beside it: together 28.5u and 28.9u.
+pub const RIGID_DEFECT: f64 = 29.0 * UNIT_ROUNDOFF;
 
 /// Where the first body of a pair saw the second, and its first two axes ([`Frame::mark`]), as the bits of single-precision
 /// numbers; of each four the last says nothing.
@@ -165,8 +173,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
     ) -> Frame<'a, L> {
         let size = polyhedra[0].radius + polyhedra[1].radius;
         let offset = origins.offset;
-        let separation =
-            offset.dot(offset).sqrt() * (1.0 + 8.0 * UNIT_ROUNDOFF) + 16.0 * UNIT_ROUNDOFF * origins.cancelled;
+        let separation = separation(offset.dot(offset), origins.cancelled);
         Frame {
             in_range,
             rigid: !(skewed[0] | skewed[1]),
@@ -176,7 +183,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
             ],
             size,
             separation,
-            tolerance: 32.0 * UNIT_ROUNDOFF * (size + separation),
+            tolerance: tolerance(size, separation),
         }
     }
 
@@ -239,14 +246,34 @@ impl<'a, L: Lanes> Frame<'a, L> {
         self.bodies[0].rotate(p).add(self.bodies[0].offset).sub(self.bodies[1].rotate(q))
     }
 
-    /// An upper bound of the rounding error of [`Frame::difference`], whose length is about `length`.
+    /// An upper bound of the rounding error of [`Frame::difference`], whose length is about `length`, for points within their
+    /// bodies' radii. A foot found on a face's plane may lie beyond; what that adds is for whoever takes it, as `of_face` does.
     ///
     /// R·p errs by at most γ₃·‖|R|‖·|p| ≤ 5.3u·ρ (‖|R|‖ ≤ √3·1.015), the sum with Δ by u(|D| + 1.02ρ₂), Δ itself by at most
     /// 2u|Δ|, the last difference by u|D|.
     #[inline(always)]
     pub fn difference_error(&self, length: f64) -> f64 {
-        UNIT_ROUNDOFF * (8.0 * self.size + 2.0 * self.separation + 2.0 * length)
+        difference_error(self.size, self.separation, length)
     }
+}
+
+/// [`Frame::difference_error`].
+#[inline(always)]
+pub fn difference_error<S: Scalar>(size: S, separation: S, length: S) -> S {
+    let [by_size, by_separation, by_length] = [constant::<S>(6.5), constant(2.0), constant(2.0)];
+    constant::<S>(UNIT_ROUNDOFF) * (by_size * size + by_separation * separation + by_length * length)
+}
+
+/// [`Frame::separation`], from Δ² and what [`Centred::cancelled`] says.
+#[inline(always)]
+pub fn separation<S: Scalar>(square: S, cancelled: S) -> S {
+    square.sqrt() * constant(1.0 + 8.0 * UNIT_ROUNDOFF) + constant::<S>(16.0 * UNIT_ROUNDOFF) * cancelled
+}
+
+/// [`Frame::tolerance`].
+#[inline(always)]
+pub fn tolerance<S: Scalar>(size: S, separation: S) -> S {
+    constant::<S>(32.0 * UNIT_ROUNDOFF) * (size + separation)
 }
 
 /// A pose in lanes, and what has to be small for it to be acceptable.

@@ -5,6 +5,7 @@
 //! by the certificate, an enclosing tetrahedron by the determinant filter, anything else goes to integers.
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::scalar::{Scalar, dot};
 use crate::base::simd::Lanes;
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron::lookup::Table;
@@ -186,11 +187,34 @@ pub fn certify<L: Lanes>(frame: &Frame<L>, simplex: Simplex, direction: &Vector,
         let polyhedron = frame.bodies[i].polyhedron;
         let position = |k: usize| polyhedron.vertices[simplex.pairs[k][i] as usize].position;
         let first = position(0);
-        (1..simplex.count).fold(first, |sum, k| sum + (position(k) - first) * simplex.weights[k])
+        let add = |sum, k| plus_weighted(sum, first.into(), position(k).into(), simplex.weights[k]);
+        (1..simplex.count).fold(first.into(), add).into()
     });
     let interval = supported_interval(frame, points, direction, pair);
     Nearest { simplex, points, direction: *direction, interval }
 }
+
+/// A sum and so much of the way from one point to another: see [`COMBINATION`].
+#[inline(always)]
+pub fn plus_weighted<S: Scalar>(sum: [S; 3], from: [S; 3], to: [S; 3], weight: S) -> [S; 3] {
+    let of = |k: usize| sum[k] + (to[k] - from[k]) * weight;
+    [of(0), of(1), of(2)]
+}
+
+/// How much farther than a point a body reaches along g at a vertex, as computed: see [`EXCESS`].
+#[inline(always)]
+pub fn height_over<S: Scalar>(g: [S; 3], vertex: [S; 3], point: [S; 3]) -> S {
+    dot(g, [vertex[0] - point[0], vertex[1] - point[1], vertex[2] - point[2]])
+}
+
+/// g·(v − x) for a support vertex v and a point x of a body, over ρ|g|: g errs by 6.2u, which v − x feels, up to 2ρ; their
+/// difference by u and the product by 3u, both of 2ρ: 20.4u.
+pub const EXCESS: f64 = 24.0 * U;
+
+/// How far a combination a + w₁(b − a) + w₂(c − a) lies out of the body, over ρ. w₁ + w₂ ≤ 1 + 3u, which takes it out by 3u·2ρ;
+/// both differences and products err by 2u·2ρ together, the two sums by uρ each: 12u, and what is of second order is covered by
+/// the factors of [`certificate::interval`].
+pub const COMBINATION: f64 = 12.0 * U;
 
 /// The interval of two points (convex combinations of vertices) and a direction, with supports proved at the given vertices.
 #[inline(always)]
@@ -208,10 +232,10 @@ fn supported_interval<L: Lanes>(
         let polyhedron = frame.bodies[i].polyhedron;
         let g = &towards[i];
         let support = polyhedron.vertices[pair[i] as usize].position;
-        support_excess += g.dot(&(support - points[i])).max(0.0)
+        support_excess += height_over((*g).into(), support.into(), points[i].into()).max(0.0)
             + certificate::of_vertex(polyhedron, pair[i], g)
-            + 24.0 * U * polyhedron.radius * g.abs().sum();
-        point_error += 12.0 * U * polyhedron.radius;
+            + EXCESS * polyhedron.radius * g.abs().sum();
+        point_error += COMBINATION * polyhedron.radius;
     }
     let difference = frame.difference(&points[0], &points[1]);
     let direction = L::from_vector(direction);

@@ -17,10 +17,12 @@ pub mod support_search;
 pub mod marching;
 #[doc(hidden)]
 pub mod exact;
-pub(crate) mod gjk;
+#[doc(hidden)]
+pub mod gjk;
 #[doc(hidden)]
 pub mod enclosure;
 pub(crate) mod decide;
-pub(crate) mod facets;
+#[doc(hidden)]
+pub mod facets;
 #[doc(hidden)]
 pub mod polytope;

@@ -24,8 +24,7 @@ pub struct Axis {
 /// The interval of the bodies' distance that their bounding spheres prove, for rigid poses of [simple](Polyhedron::simple)
 /// bodies.
 ///
-/// No point of R·P is farther from its centred origin than ρ(1 + 16u): |R|² ≤ 1 + √6·10u (see
-/// [`crate::solve::frame::RIGID_TOGETHER`]) plus the rounding of the defect as computed, below 6u.
+/// No point of R·P is farther from its centred origin than ρ(1 + 16u): |R|² ≤ 1 + 29u, see [`crate::solve::frame::RIGID_DEFECT`].
 /// |Δ| is below `separation` by at most 16u of it: 8u that it was raised by, 2u of Δ, and the rounding of dot product and root.
 /// Sums and differences err by 4u of the largest term; `tolerance` is 32u of both together.
 #[inline(always)]

@@ -1,13 +1,13 @@
 //! The triangles that prove a depth, for its check.
 
 use super::cache::DepthCache;
-use super::scaling::{Rescaled, is_in_scale};
+use super::scaling::Rescaled;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{self, Polytope, SearchStart, Wanted};
+use crate::solve::polytope::{self, Polytope, SearchStart, Wanted, is_in_scale};
 
 /// Where a proof of a depth is looked for.
 #[derive(Clone, Copy)]

@@ -13,18 +13,6 @@ pub struct Rescaled {
     unit: f64,
 }
 
-/// The exponent of the largest and smallest radius that the search takes as it is: beyond, cross products
-/// may underflow or overflow.
-const MOST_EXPONENT: i32 = 100;
-
-/// Whether the search takes a pair as it is.
-#[inline(always)]
-pub fn is_in_scale(polyhedra: [&Polyhedron; 2]) -> bool {
-    let [radius1, radius2] = polyhedra.map(|polyhedron| polyhedron.radius);
-    let radius = if radius1 > radius2 { radius1 } else { radius2 };
-    (power_of_two(-MOST_EXPONENT)..=power_of_two(MOST_EXPONENT)).contains(&radius)
-}
-
 impl Rescaled {
     /// `None` where some coordinate would not be the same number in the new unit, or memory is lacking: of bodies of the range of
     /// doubles at once, of translations 2²⁰⁰ times as large as both bodies, and of points.

@@ -3,14 +3,13 @@
 use super::answer::{DepthAnswer, DepthConfig};
 use super::cache::DepthCache;
 use super::resting::{self, LeastFacet};
-use super::scaling::is_in_scale;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::simd::{Kernel, Lanes, Work};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron::fan::Fan;
 use crate::solve::facets::{self, Outcome as ByFacets, Overlap};
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness};
+use crate::solve::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness, is_in_scale};
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
 pub struct DepthQuery<'a> {

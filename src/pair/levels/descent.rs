@@ -158,7 +158,7 @@ fn levels_have_jumped<L: Lanes>(frame: &Frame<L>, bodies: &Leveled, marker: Opti
 /// An upper bound of ‖R‖₂: ‖RᵀR − I‖₂ is at most three times the largest entry.
 #[inline(always)]
 fn stretch<L: Lanes>(frame: &Frame<L>, pose: &Pose) -> f64 {
-    // Rounding leaves 25u at most, see `certificate::RIGID_MISFIT`; as computed the defect is right to 4u.
+    // Rounding leaves `RIGID_DEFECT` at most, 29u; as computed the largest entry is right to 4u.
     if frame.rigid { 1.0 + 64.0 * U } else { 1.0 + 1.5 * (pose.rotation_defect() + 16.0 * U) }
 }
 

@@ -14,9 +14,10 @@
 mod skewed;
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::{Lanes, Portable};
 use crate::polyhedron::{Bevel, Edge, Face, NONE, Polyhedron};
-use crate::solve::frame::Frame;
+use crate::solve::frame::{Frame, RIGID_DEFECT};
 use crate::solve::state::{FeatureId, State};
 use crate::solve::voronoi::{Rule, STRICT, edge_direction, plane_values};
 
@@ -218,9 +219,9 @@ pub fn face_rounding(magnitude: f64, height: f64) -> f64 {
     16.0 * U * (magnitude + height)
 }
 
-/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: 25u + 3·4u for the defect of R and the rounding with which
-/// it was measured, 5.4u for the product; and 12u for what the planes and directions of a feature miss each other by.
-pub const RIGID_MISFIT: f64 = 56.0 * U;
+/// |RᵀU − n| for U = R·n computed, n of unit length and a rigid R: the defect of R, 5.4u for the product, and 12u for what the
+/// planes and directions of a feature miss each other by.
+pub const RIGID_MISFIT: f64 = RIGID_DEFECT + 18.0 * U;
 
 /// A rigorous interval and |D| beside it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -246,10 +247,20 @@ pub fn reciprocal_length(square: f64) -> f64 {
 /// these lie at most `point_error` out of the bodies.
 #[inline(always)]
 pub fn interval(distance: f64, projection: f64, error: f64, support_excess: f64, point_error: f64) -> Interval {
-    // U·D errs by 4u|U||D|, root, reciprocal and product by 4u; support_excess has been summed with as much.
-    let lower = (projection - support_excess * (1.0 + 64.0 * U) - error - 8.0 * U * distance) * (1.0 - 4.0 * U);
-    let upper = (distance * (1.0 + 4.0 * U) + error + point_error) * (1.0 + 4.0 * U);
+    let [lower, upper] = ends(distance, projection, error, support_excess, point_error);
     Interval { lower, upper }
+}
+
+/// The ends of [`interval`].
+///
+/// U·D errs by 4u|U||D|, root, reciprocal and product by 4u; support_excess has been summed with as much.
+#[inline(always)]
+pub fn ends<S: Scalar>(distance: S, projection: S, error: S, support_excess: S, point_error: S) -> [S; 2] {
+    let [less, more] = [constant::<S>(1.0 - 4.0 * U), constant(1.0 + 4.0 * U)];
+    let excess = support_excess * constant(1.0 + 64.0 * U);
+    let lower = (projection - excess - error - constant::<S>(8.0 * U) * distance) * less;
+    let upper = (distance * more + error + point_error) * more;
+    [lower, upper]
 }
 
 /// How far a body misses the assumptions at a point of a feature.
@@ -261,7 +272,7 @@ struct Defect {
 }
 
 /// Rounding error of g = RᵀU relative to |U|, which is at most 1.02|g|.
-const DIRECTION_ERROR: f64 = 6.2 * U;
+pub const DIRECTION_ERROR: f64 = 6.2 * U;
 
 /// δ of any vertex of a body in direction g (local).
 pub fn of_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
@@ -370,7 +381,9 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let length = norm1_of(g);
     let c = clamp(g.dot(&record.normal), 0.0, f64::INFINITY);
     let remainder = g - record.normal * c;
-    // A point that is not in the face may be far out of the body.
+    // A point that is not in the face may be far out of the body, beyond the radius that the frame's bound of the difference is
+    // for: that bound lacks 8u(|q| − ρ). The terms below have 11u|q| to spare: of 12u(ρ + |q|) they need 6.2u for g and 2u for the
+    // remainder, of 16u(|q| + height) in `rounding` at most 9u.
     let apart = point.norm();
     let magnitude = if apart > polyhedron.radius { apart } else { polyhedron.radius };
     let rounding = face_rounding(magnitude, height);

@@ -1,6 +1,6 @@
 //! Nodes and arcs of the fans: which of them one corner of the other body proves.
 
-use super::search::Search;
+use super::search::{NODE, NORMAL, Search};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::Lanes;
 use crate::polyhedron::fan::Fan;
@@ -63,7 +63,7 @@ impl<const C: usize> Survivors<C> {
 ///
 /// On the chord n(s) = (1 − s)a + s·b both S are linear, l and m. Where l(s) ≥ T|n(s)| is an interval from s = 0 on, as l − T|n|
 /// is concave for T ≥ 0; where m(s) is, one to s = 1. If both hold at one s, they cover the chord. Any computed s will do. There l
-/// and m are off by what [`NODE`](super::search::NODE) says and |n| by 33u, both over |n|, which is all that 80uM is for.
+/// and m are off by what [`NODE`] says and |n| by [`NORMAL`], both over |n|; what is computed of s, l, m and |n| adds less than 4u.
 #[inline(always)]
 pub fn proved_by_two_corners<L: Lanes, const C: usize, const F: usize>(
     search: &Search<L, C, F>,
@@ -95,6 +95,6 @@ pub fn proved_by_two_corners<L: Lanes, const C: usize, const F: usize>(
     }
     let length = (a + (b - a) * s).norm();
     let value = (l0 + s * (l1 - l0)).min(m0 + s * (m1 - m0));
-    let error = 80.0 * U * search.longest / length;
+    let error = (NODE + NORMAL + 4.0 * U) * search.longest / length;
     (value >= threshold * length).then_some(threshold - error - search.fans[body].face_slack)
 }

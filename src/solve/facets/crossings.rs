@@ -5,13 +5,19 @@
 //! So n* is within θ of the computed ±(e × g)/|e × g|, θ = (32u + leans)/|e × g|.
 
 use super::arcs::{Survivors, proved_by_two_corners};
-use super::search::{Facet, Search};
+use super::search::{Facet, NORMAL, Search};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 
 /// See above; a factor for e and g, which skewed poses make no unit vectors.
 const CROSS: f64 = 32.0 * U;
 const STRETCH: f64 = 1.05;
+
+/// What rounding does to n·(l + r) − (1 + l·r)|n| for a unit vector along n on the arc between the normals l and r. With δl and δr
+/// off it is δl·(n − r) + δr·(n − l), and |n − l| + |n − r| ≤ 2√2 on the arc: 2√2·37u, see [`NORMAL`]. Computed, the length of n
+/// errs by 2.5u, its product with l + r by 3u, l + r by u, all times 2; 1 + l·r and its product by 7u, the sum with this by 2u:
+/// 22u.
+const ON_ARC: f64 = 2.9 * NORMAL + 23.0 * U;
 
 /// Edges with a greater θ are as good as parallel.
 const MOST_TILT: f64 = 1e-6;
@@ -184,7 +190,7 @@ fn may_be_nearer<L: Lanes, const C: usize, const F: usize>(
     let length = nx.mul_add(nx, ny.mul_add(ny, nz.mul(nz))).sqrt();
     let off = block.lean.add(L::splat(CROSS + lean)).mul(L::splat(STRETCH));
     // By how much a product of n with a sum of two normals is off, times its length.
-    let allowed = length.mul_add(L::splat(100.0 * U), off.add(off));
+    let allowed = length.mul_add(L::splat(ON_ARC), off.add(off));
     let inside1 = nx.mul_add(L::splat(middle.x), ny.mul_add(L::splat(middle.y), nz.mul(L::splat(middle.z))));
     let [mx, my, mz] = block.middle;
     let inside2 = nx.mul_add(mx, ny.mul_add(my, nz.mul(mz)));

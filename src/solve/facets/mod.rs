@@ -21,7 +21,8 @@
 //! So each answer is its own proof: nothing is kept but which facet was the nearest, as a bound to begin with. The idea of pruning
 //! pairs of arcs by the normals' fans is D. Gregorius's (The Separating Axis Test between Convex Polyhedra, GDC 2013).
 
-mod placed;
+#[doc(hidden)]
+pub mod placed;
 mod search;
 mod arcs;
 mod crossings;
@@ -35,7 +36,8 @@ use arcs::Survivors;
 use crossings::Crossings;
 use placed::PlacedFan;
 pub use search::Facet;
-use search::{Best, NODE, SUPPORT, Search};
+use search::{Best, Search};
+pub use search::{NODE, NORMAL, SUPPORT};
 pub use witness::Witness;
 
 /// What all facets tell. (What they tell of is written in its place: R1, R5.)

@@ -4,7 +4,7 @@ use super::placed::PlacedFan;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::polyhedron::fan::Fan;
-use crate::solve::frame::Frame;
+use crate::solve::frame::{Frame, RIGID_DEFECT};
 
 /// A facet of the Minkowski difference, by indices of the polyhedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -19,25 +19,29 @@ pub enum Facet {
 /// facets differ by less.
 pub(super) const TIE: f64 = 12.0 * U;
 
+/// What rounding does to a placed face's normal: RᵀR − I turns it, [`RIGID_DEFECT`]; the product R·n makes 5.3u, the length of n
+/// 2.5u.
+pub const NORMAL: f64 = RIGID_DEFECT + 8.0 * U;
+
 /// What rounding does to S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are
 /// alike except for Δ.
 ///
 /// | | ρ₁ | ρ₂ | \|Δ\| |
 /// |---|--:|--:|--:|
-/// | R·n for the unit vector along R⁻ᵀn: RᵀR − I up to 25 turns it by as much; product, length of n 8 | 33 | 33 | 33 |
+/// | R·n for the unit vector along R⁻ᵀn, see [`NORMAL`] | 37 | 37 | 37 |
 /// | how far the body reaches along n | 1 | | |
 /// | Δ, and its product with the normal | | | 5 |
 /// | their sum | 1 | | 1 |
 /// | R·w | | 5.3 | |
 /// | its product with the normal | | 3.1 | 0 |
 ///
-/// The comparison with the threshold is one more of M. Of skewed poses normals are by the cofactors of R and normalised, 3 + 5.3 +
-/// 3.
-pub(super) const NODE: f64 = 44.0 * U;
+/// At most 46.4 of 1.02ρ (of body 1's corners below a plane of body 2 the sum with Δ is one more); the comparison with the
+/// threshold is one more of M. Of skewed poses normals are by the cofactors of R and normalised, 3 + 5.3 + 3.
+pub const NODE: f64 = 48.0 * U;
 
 /// What rounding does to a support along a computed unit vector, over M: vertices 5.3ρ and their sum with Δ 1 + 2, products 3, the
 /// difference 1, the vector's length 3.
-pub(super) const SUPPORT: f64 = 16.0 * U;
+pub const SUPPORT: f64 = 16.0 * U;
 
 /// The least support so far, as computed over the corners.
 #[derive(Clone, Copy)]

@@ -266,8 +266,8 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
 /// Over a triangle, whose sides do not lean: its foot q has to be inside by 24u·max(ρ, |q|), see [`is_inside_sides`]; the
 /// foot's values differ from the point's by a few u of the height and of both points' magnitudes. By an edge: with x seen from
 /// the far body as p = Rᵀx and U = x − R·foot, RᵀU = p − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what
-/// they would say of RᵀU + foot by 37u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x,
-/// 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|: at most 70u·(ρ₁ + ρ₂ + |Δ|) in all.
+/// they would say of RᵀU + foot by 29u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x,
+/// 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|: at most 62u·(ρ₁ + ρ₂ + |Δ|) in all.
 const MARGIN: f64 = 3.0;
 
 #[inline(always)]

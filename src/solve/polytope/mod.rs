@@ -27,10 +27,13 @@ mod witness;
 mod pyramid;
 mod raise;
 
-use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, power_of_two};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
-use crate::solve::frame::Frame;
+use crate::polyhedron::Polyhedron;
+use crate::solve::frame::{Frame, difference_error};
 pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
+pub use planes::evaluate;
 pub use pyramid::{Failure, Pyramid, Rest};
 pub use raise::raise;
 pub use storage::{NO_TWIN, Polytope, triangle_of};
@@ -61,11 +64,30 @@ impl Rounding {
     /// Of a pair.
     #[inline(always)]
     pub fn of<L: Lanes>(frame: &Frame<L>) -> Rounding {
-        let longest = 1.02 * frame.size + frame.separation;
-        let difference = frame.difference_error(longest);
-        let plane = difference + 10.0 * U * longest;
-        Rounding { difference, plane, determinant: 10.0 * U * longest, provable: 2.0 * plane + 8.0 * U * longest }
+        let [difference, plane, determinant, provable] = rounding(frame.size, frame.separation);
+        Rounding { difference, plane, determinant, provable }
     }
+}
+
+/// The numbers of [`Rounding`], in its order.
+#[inline(always)]
+pub fn rounding<S: Scalar>(size: S, separation: S) -> [S; 4] {
+    let longest = constant::<S>(1.02) * size + separation;
+    let difference = difference_error(size, separation, longest);
+    let determinant = constant::<S>(10.0 * U) * longest;
+    let plane = difference + determinant;
+    [difference, plane, determinant, constant::<S>(2.0) * plane + constant::<S>(8.0 * U) * longest]
+}
+
+/// The exponent of the largest and smallest radius that a search takes as it is: beyond, cross products may underflow or overflow.
+const MOST_EXPONENT: i32 = 100;
+
+/// Whether a search takes a pair as it is.
+#[inline(always)]
+pub fn is_in_scale(polyhedra: [&Polyhedron; 2]) -> bool {
+    let [radius1, radius2] = polyhedra.map(|polyhedron| polyhedron.radius);
+    let radius = if radius1 > radius2 { radius1 } else { radius2 };
+    (power_of_two(-MOST_EXPONENT)..=power_of_two(MOST_EXPONENT)).contains(&radius)
 }
 
 /// Cross products of edges shorter than this, 2⁻⁴⁰⁰, count as none: the squares of longer ones do not underflow. Pairs whose size

@@ -13,14 +13,14 @@
 //!    from the origin, less the error of a [plane](Rounding::plane); that is the lower end.
 //! 3. *So are the sides and further triangles*: with a triangle's normal N, however rounded, min N·v ≥ |N|·(min m·v) over its
 //!    corners. Both are positive, so their squares are compared, and no root is taken. The products err by 3u·|N|M and the
-//!    differences by e, which is less than the plane's error; squares and |N|² by less than 32u of themselves.
+//!    differences by e; squares and |N|² by a few u of themselves, so the height by 3u of itself. The plane's error is 10u·M and e.
 //! 4. *It goes around the origin once*: all determinants are positive for sure, so that solid angles sum up to more than 0. A
 //!    determinant is N·v for a corner v, and errs by less than [`Rounding::determinant`] times both edges' lengths.
 //! 5. *The bodies overlap by no more along m* than both reach along it, see [`reach`]; that is the upper end.
 //! 6. *The ends have met*, up to what is provable. Otherwise the pyramid proves nothing.
 
-use super::Rounding;
 use super::support::reach;
+use super::{Rounding, is_in_scale};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 use crate::polyhedron::Vertex;
@@ -325,10 +325,11 @@ impl Pyramid {
     /// The depth that it proves.
     #[inline(always)]
     pub fn prove<L: Lanes>(&self, frame: &Frame<L>, rounding: &Rounding) -> Result<Rest<L>, Failure> {
-        // Bodies farther apart do not intersect, and products of coordinates could overflow. Flat ones are for the search.
+        // Bodies farther apart do not intersect; out of scale squares of determinants overflow, and ∞ ≤ ∞ proves nothing. Flat ones
+        // are for the search.
         let [polyhedron1, polyhedron2] = frame.polyhedra();
         let are_solid = (polyhedron1.dimension == 3) & (polyhedron2.dimension == 3);
-        if !(are_solid && self.is_of(frame) && frame.separation <= 2.0 * frame.size) {
+        if !(are_solid && is_in_scale(frame.polyhedra()) && self.is_of(frame) && frame.separation <= 2.0 * frame.size) {
             return Err(Failure::Enclosure);
         }
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
@@ -487,8 +488,8 @@ impl Surface {
     /// a plane's error: 3 and 4 above.
     #[inline(always)]
     fn is_beyond<L: Lanes>(&self, positions: &[[f64; 4]; MOST_CORNERS + 1], height: f64, rounding: &Rounding) -> bool {
-        let height = L::splat(height * height * (1.0 + 32.0 * U));
-        let determinant = L::splat(rounding.determinant * rounding.determinant);
+        let (height, determinant) = (L::splat(height), L::splat(rounding.determinant));
+        let (height, determinant) = (height.mul(height), determinant.mul(determinant));
         let (zero, least) = (L::splat(0.0), L::splat(LEAST_SQUARE));
         let mut bad = 0;
         let mut first = 0;

@@ -1,0 +1,203 @@
+//! The bounds: what the library claims, and what is proved of it.
+
+use crate::count::{Polynomial, rational, to_double, unit_roundoff, worst};
+use crate::kernels::{Kernel, named};
+use crate::library::*;
+
+/// The Frobenius norm of an accepted R: its square is the trace of RᵀR, at most 3.03. It bounds ‖|R|‖.
+pub const FROBENIUS: f64 = 1.7407;
+
+/// The spectral norm of an accepted R: that of RᵀR is at most 1.03.
+pub const STRETCH: f64 = 1.015;
+
+/// A bound.
+pub struct Row {
+    /// Where it stands.
+    pub place: &'static str,
+    /// What is bounded.
+    pub what: &'static str,
+    /// What the code allows for, in u of what it is relative to.
+    pub claimed: f64,
+    /// What is proved, in the same unit.
+    pub proved: f64,
+    /// By what.
+    pub how: &'static str,
+}
+
+/// A number with a little more than rounding can have made of it.
+fn above(x: f64) -> f64 {
+    x * (1.0 + 1e-12)
+}
+
+/// In u, rounded up.
+pub fn in_u(x: &dashu_ratio::RBig) -> f64 {
+    above(to_double(&(x / unit_roundoff())))
+}
+
+/// The most that rounding makes of any coefficient of a value, fused or not, in u.
+pub fn most(kernels: &[Kernel], kernel: &str, values: &[&str]) -> f64 {
+    let forms = ["_fused", "_plain", ""].map(|form| format!("{kernel}{form}"));
+    let found = forms.iter().filter(|name| kernels.iter().any(|kernel| kernel.name == **name));
+    let worst = |name: &String| {
+        let kernel = named(kernels, name);
+        values.iter().map(|value| above(to_double(&worst(&kernel.polynomial(value))))).fold(0.0, f64::max)
+    };
+    found.map(worst).fold(0.0, f64::max)
+}
+
+/// The coefficient of a monomial: at least, in u; and the same over 1 for coefficients next to it.
+pub fn low(polynomial: &Polynomial, monomial: &[&str]) -> f64 {
+    let key: Vec<String> = monomial.iter().map(|name| name.to_string()).collect();
+    let coefficient = polynomial.get(&key).unwrap_or_else(|| panic!("no {monomial:?} in {:?}", polynomial.keys()));
+    to_double(&(&coefficient.low / unit_roundoff())) * (1.0 - 1e-12)
+}
+
+/// By how much a value is more than what it is the length of, in u: at least and at most.
+fn raised(polynomial: &Polynomial) -> [f64; 2] {
+    let coefficient = polynomial.values().next().expect("a length");
+    [&coefficient.low, &coefficient.high].map(|end| to_double(&((end - rational(1.0)) / unit_roundoff())))
+}
+
+/// All bounds that are counted on tapes. What is proved by Gappa or Coq alone is in `scripts.rs`.
+pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
+    let most = |kernel: &str, values: &[&str]| most(kernels, kernel, values);
+    let of = |kernel: &str, value: &str| named(kernels, kernel).polynomial(value);
+    let row = |place, what, claimed, proved, how| Row { place, what, claimed, proved, how };
+    let root2 = 2f64.sqrt();
+
+    let turned = most("difference", &["first0", "first1", "first2", "second0", "second1", "second2"]);
+    let sums = most("difference", &["sum0", "sum1", "sum2"]);
+    let offset = most("difference", &["offset0", "offset1", "offset2"]);
+    let error = of("bounds", "difference_error");
+    let of_plane = low(&of("bounds", "plane"), &["size"]) - low(&of("bounds", "difference"), &["size"]);
+    let back = most("rotate_back", &["g0", "g1", "g2"]);
+    let forth = most("rotate_back", &["x0", "x1", "x2"]);
+    let product = most("certificate", &["projection"]);
+    let interval_lower = of("interval", "lower");
+    let distance = -to_double(&(&interval_lower[&vec!["distance".to_string()]].high / unit_roundoff()));
+    let determinant = most("enclosure", &["determinant0", "determinant1", "determinant2", "determinant3"]);
+    let bound = of("determinant_error", "bound");
+    let cross = most("planes", &["cross0", "cross1", "cross2"]).max(most("pyramid", &["cross0", "cross1", "cross2"]));
+    let over = most("planes", &["over"]).max(most("pyramid", &["over"]));
+    let unit = most("planes", &["normal"]);
+    let squares = most("pyramid", &["far"]) + most("pyramid", &["square"]) + most("pyramid", &["over_squared"]);
+    let placed = most("fan", &["normal0", "normal1", "normal2"]);
+    let corner = most("fan", &["corner0", "corner1", "corner2"]);
+    let summed = most("fan", &["point0", "point1", "point2"]);
+    let least = most("fan", &["least"]);
+    let reach = most("fan", &["reach"]);
+    let separations: Vec<[f64; 2]> =
+        ["difference_fused", "difference_plain"].iter().map(|kernel| raised(&of(kernel, "separation"))).collect();
+    let separation_low = separations.iter().map(|ends| ends[0]).fold(f64::INFINITY, f64::min);
+    let separation_high = separations.iter().map(|ends| ends[1]).fold(0.0, f64::max);
+    let way = most("gjk", &["way"]);
+    let on_way = most("gjk", &["point"]);
+    let excess = most("gjk", &["excess"]);
+
+    vec![
+        row(
+            "frame `difference_error`",
+            "of ρ₁ + ρ₂",
+            low(&error, &["size"]),
+            turned * FROBENIUS + sums * STRETCH,
+            "G, C, Coq",
+        ),
+        row("", "of \\|Δ\\|", low(&error, &["separation"]), offset, "G, C, Coq"),
+        row("", "of \\|D\\|; what is of second order is in \\|Δ\\|", low(&error, &["length"]), 2.0 * sums, "G, C, Coq"),
+        row("frame `separation`", "it is raised by at least what \\|Δ\\| may lack", separation_low, offset, "C, Coq"),
+        row("`between_spheres`", "it is raised by at most", 16.0, separation_high + offset, "C, Coq"),
+        row(
+            "frame `RIGID_DEFECT`",
+            "‖RᵀR − I‖, lanes",
+            RIGID_DEFECT / U,
+            above(5f64.sqrt()) * RIGID_TOGETHER / U + 6.5,
+            "G, Coq",
+        ),
+        row("", "‖RᵀR − I‖, entry by entry", RIGID_DEFECT / U, 3.0 * RIGID / U + 7.5, "G, Coq"),
+        row("certificate `ends`", "of \\|D\\|, in the lower end", distance, product, "C, Coq"),
+        row("`DIRECTION_ERROR`", "of \\|g\\|", DIRECTION_ERROR / U, back * FROBENIUS * 1.0153, "C"),
+        row(
+            "`RIGID_MISFIT`",
+            "R·n, without 12u for planes",
+            RIGID_MISFIT / U - 12.0,
+            RIGID_DEFECT / U + forth * FROBENIUS,
+            "C",
+        ),
+        row("`is_inside_sides`", "a value at q, of \\|q\\|", 4.0, most("plane_values", &["value"]), "C"),
+        row("`STRICT`", "of it, the product", 3.0, most("plane_values", &["slope"]), "C"),
+        row("enclosure", "a determinant, of W³", low(&bound, &["L", "L", "L"]), determinant * root2, "C, Coq"),
+        row("polytope `plane`", "of M", of_plane / 1.02, over + unit, "C"),
+        row("polytope `determinant`", "of M\\|e\\|\\|g\\|", of_plane / 1.02, (cross + 2.0) * root2 + over, "C"),
+        row("pyramid, squares", "of M", of_plane / 1.02, over + squares / 2.0, "C, Coq"),
+        row("facets `NORMAL`", "of \\|n\\|", NORMAL / U, RIGID_DEFECT / U + placed * FROBENIUS + 2.5, "C"),
+        row(
+            "facets `NODE`",
+            "of M",
+            NODE / U,
+            ((NORMAL / U + corner * FROBENIUS + least * STRETCH + summed) / 1.02).max(NORMAL / U + reach + offset)
+                + 1.0,
+            "C",
+        ),
+        row("facets `SUPPORT`", "of M", SUPPORT / U, corner * FROBENIUS + summed + offset + least + 1.0 + 3.0, "C"),
+        row("gjk `EXCESS`", "of ρ\\|g\\|", EXCESS / U, 2.0 * DIRECTION_ERROR / U + 2.0 * excess, "C"),
+        row("gjk `COMBINATION`", "of ρ", COMBINATION / U, 2.0 * way + 2.0 * on_way + 6.0, "C"),
+        row("predicates `FILTER`", "of the spread", FILTER / U, most("predicates", &["height"]) + 3.0, "C"),
+        row("normal `unit`", "a component", 4.0, most("normals", &["unit"]), "C"),
+        row("slack `HEIGHT`", "of the magnitudes", HEIGHT / U, most("normals", &["height"]) + 1.0, "C"),
+        // The loss is at most B, as the excess is at most 2B; its own rounding and that of the rise count twice and once. The ends'
+        // directions are of unit length up to 4u.
+        row(
+            "motion `least_between`",
+            "of both gaps and B",
+            LEAST_BETWEEN / U,
+            most("least_within", &["least"]) + 2.0 + 1.0 + 1.0 + 4.0,
+            "C",
+        ),
+        row("ray, motion", "R·p, of ρ", 5.3, most("pose", &["turned"]) * FROBENIUS, "C"),
+    ]
+}
+
+/// What has to hold beside the rows, in exact rationals: coefficients that cover what they are to cover.
+///
+/// # Errors
+/// What does not.
+pub fn check(kernels: &[Kernel]) -> Result<(), String> {
+    let of = |kernel: &str, value: &str| named(kernels, kernel).polynomial(value);
+    let one = rational(1.0);
+    let (lower, upper) = (of("interval", "lower"), of("interval", "upper"));
+    let key = |name: &str| vec![name.to_string()];
+    let spare = rational(8.0 * U);
+    let distance_low = ["certificate_fused", "certificate_plain"]
+        .map(|kernel| of(kernel, "distance").values().next().expect("a length").low.clone());
+    let conditions = [
+        ("lower: the projection is not raised", lower[&key("projection")].high <= one),
+        ("lower: the excess is covered", -lower[&key("excess")].high.clone() >= one),
+        ("lower: the error is covered but for 8u", -lower[&key("error")].high.clone() >= &one - spare),
+        ("upper: the distance is covered", distance_low.iter().all(|low| low * &upper[&key("distance")].low >= one)),
+        ("upper: the error is covered", upper[&key("error")].low >= one),
+        ("upper: the point's error is covered", upper[&key("point")].low >= one),
+        ("enclosure: the longest is raised", {
+            let [low, _] = raised(&of("determinant_error", "longest"));
+            low >= 1.5
+        }),
+    ];
+    for (what, holds) in conditions {
+        if !holds {
+            return Err(what.to_string());
+        }
+    }
+    let bound = of("determinant_error", "bound");
+    for (monomial, needed) in [(["E", "L", "L"], 3.0), (["E", "E", "L"], 6.0), (["E", "E", "E"], 3.0)] {
+        let key: Vec<String> = monomial.iter().map(|name| name.to_string()).collect();
+        if bound[&key].low < rational(needed) {
+            return Err(format!("enclosure: {monomial:?} is not covered"));
+        }
+    }
+    for row in rows(kernels) {
+        // What is of second order the factors 1 + 4u of the ends cover.
+        if !(row.proved <= row.claimed + 1e-9) {
+            return Err(format!("{} {}: {} is claimed, {} is proved", row.place, row.what, row.claimed, row.proved));
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,45 @@
+//! Numbers that a formula of rounding is written for: doubles, or what stands for them where its rounding is proved (`proofs/`).
+//!
+//! A formula on which a bound rests is generic over [`Scalar`], so that what is proved is what runs. For doubles all of it is
+//! inlined.
+
+use std::ops::{Add, Div, Mul, Neg, Sub};
+
+/// A number whose operations round.
+pub trait Scalar:
+    Copy
+    + From<f64>
+    + Add<Output = Self>
+    + Sub<Output = Self>
+    + Mul<Output = Self>
+    + Div<Output = Self>
+    + Neg<Output = Self>
+{
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// Magnitude.
+    fn abs(self) -> Self;
+}
+
+impl Scalar for f64 {
+    #[inline(always)]
+    fn sqrt(self) -> f64 {
+        f64::sqrt(self)
+    }
+    #[inline(always)]
+    fn abs(self) -> f64 {
+        f64::abs(self)
+    }
+}
+
+/// A constant.
+#[inline(always)]
+pub fn constant<S: Scalar>(x: f64) -> S {
+    S::from(x)
+}
+
+/// (x·x′ + y·y′) + z·z′.
+#[inline(always)]
+pub fn dot<S: Scalar>([x, y, z]: [S; 3], other: [S; 3]) -> S {
+    x * other[0] + y * other[1] + z * other[2]
+}
