@@ -29,6 +29,47 @@ static void answers_that_are_known(void)
     swiftprox_shape_release(shape);
 }
 
+/* A ball of radius 1/2 is met at its side, and by a scene beside a cube, whichever was added first. */
+static void round_bodies(void)
+{
+    const double centre[3] = {0, 0, 0};
+    const swiftprox_shape *shapes[2] = {cube(), NULL};
+    swiftprox_shape_options options;
+    swiftprox_ray ray = {{-5, 0.3, 0}, {1, 0, 0}, HUGE_VAL};
+    swiftprox_ray_answer answer;
+    int i, k, hits;
+    swiftprox_shape_options_init(&options);
+    options.input = SWIFTPROX_INPUT_HULL;
+    options.swept_radius = 0.5;
+    CHECK_OK(swiftprox_shape_create_from_points(centre, 1, &options, &shapes[1]));
+    CHECK_OK(swiftprox_shape_cast_ray(shapes[1], identity, &ray, &answer));
+    CHECK(answer.outcome == SWIFTPROX_RAY_OUTCOME_HIT && answer.feature.kind == SWIFTPROX_FEATURE_KIND_VERTEX);
+    CHECK(fabs(answer.entry[0] - 4.6) < 1e-12 && answer.entry[1] - answer.entry[0] < 1e-12);
+    CHECK(fabs(answer.exit[0] - 5.4) < 1e-12 && fabs(answer.normal[0] + 0.8) < 1e-12 && fabs(answer.normal[1] - 0.6) < 1e-12);
+    for (i = 0; i < 2; ++i) {
+        swiftprox_scene *scene;
+        swiftprox_scratch *scratch;
+        swiftprox_scene_ray_answer met;
+        CHECK_OK(swiftprox_scene_create(NULL, &scene));
+        CHECK_OK(swiftprox_scratch_create(&scratch));
+        for (k = 0; k < 2; ++k) {
+            swiftprox_object_options placed;
+            swiftprox_object_id id;
+            swiftprox_object_options_init(&placed);
+            placed.pose[7] = (k ^ i) == 1 ? 100 : 0;
+            CHECK_OK(swiftprox_scene_add_shape(scene, shapes[k ^ i], &placed, &id));
+        }
+        for (hits = 0; hits < 3; ++hits) {
+            CHECK_OK(swiftprox_scene_cast_ray(scene, &ray, (swiftprox_ray_hits)hits, UINT32_MAX, scratch, &met));
+            CHECK(met.count == 1 && met.hits[0].row == (uint32_t)i && met.hits[0].answer.entry[0] <= 4);
+        }
+        swiftprox_scratch_destroy(scratch);
+        swiftprox_scene_destroy(scene);
+    }
+    swiftprox_shape_release(shapes[0]);
+    swiftprox_shape_release(shapes[1]);
+}
+
 static void mistakes(void)
 {
     const swiftprox_shape *shape = box(1, 1, 1);
@@ -56,6 +97,7 @@ static void mistakes(void)
 int main(void)
 {
     answers_that_are_known();
+    round_bodies();
     mistakes();
     return check_report("ray");
 }

@@ -1,4 +1,4 @@
-//! Rays at any body at any pose: refused exactly if a number is out of range, else judged by exact rationals; and in the
+//! Rays at any body at any pose, with a ball of any radius swept over it: refused exactly if a number is out of range, else judged by exact rationals; and in the
 //! floating-point environment that the last byte chooses the bits are the same.
 #![no_main]
 
@@ -8,12 +8,15 @@ use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::ray::{Ray, cast_ray};
-use swiftprox::shape::Shape;
+use swiftprox::shape::{LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, pose};
-use testkit::rays::{Case, check, check_intervals, truth};
+use testkit::rays::{Case, SweptCase, check, check_intervals, truth};
 
-/// The truth takes time in the third power of this.
+/// The truth takes time in the third power of this …
 const MOST_POINTS: usize = 10;
+
+/// … and with a swept radius in the fourth of this.
+const MOST_SWEPT_POINTS: usize = 6;
 
 const MOST_RAYS: usize = 4;
 
@@ -24,7 +27,11 @@ fuzz_target!(|bytes: &[u8]| {
 });
 
 fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
-    let (points, pose, options) = (points(u, MOST_POINTS)?, pose(u)?, hull_options(u)?);
+    let radius = if u.arbitrary()? { any_number(u, &mut 1.0)?.abs() } else { 0.0 };
+    let radius = if radius <= LARGEST_SWEPT_RADIUS { radius } else { 0.0 };
+    let most = if radius > 0.0 { MOST_SWEPT_POINTS } else { MOST_POINTS };
+    let (points, pose, options) = (points(u, most)?, pose(u)?, hull_options(u)?);
+    let options = ShapeOptions { swept_radius: radius, ..options };
     // Not every body has levels.
     let Ok(shape) = Shape::from_points(&points, &options) else { return Ok(()) };
     for _ in 0..MOST_RAYS {
@@ -36,6 +43,10 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
         match answer {
             Ok(answer) => {
                 assert!(accepted && is_sound(&ray), "{ray:?} {pose:?}");
+                if radius > 0.0 {
+                    SweptCase { points: points.clone(), radius, pose, ray }.check_part(&answer);
+                    continue;
+                }
                 let case = Case { truth: truth(&points, &pose, &ray), points: points.clone(), pose, ray };
                 check_intervals(&case, &answer);
                 if is_tame(&case) {

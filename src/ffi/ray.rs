@@ -11,8 +11,8 @@ use crate::base::math::Pose;
 use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
 use crate::shape::Shape;
 
-/// Where a ray meets a shape at a pose, the part of it that is in the closed body: certain, whatever the magnitudes. A ray that
-/// only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
+/// Where a ray meets a shape at a pose, the part of it that is in the closed body, a swept radius included: certain, whatever the
+/// magnitudes. A ray that only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
 /// that the ray and the body have wide, over that of the direction.
 ///
 /// On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction

@@ -175,7 +175,8 @@ pub fn is_feature_of(polyhedron: &Polyhedron, feature: FeatureId, vertices: [u32
     }
 }
 
-fn feature_of_vertices(
+/// The feature that holds a convex combination of vertices, as [`features_of_pairs`] has it; `towards` in the body's axes.
+pub fn feature_of_vertices(
     polyhedron: &Polyhedron,
     vertices: &[u32],
     point: &Vector,

@@ -26,7 +26,7 @@ pub use batch::{PairQuestion, batch};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};
-pub(crate) use contact::{label, normalised};
+pub(crate) use contact::{feature_of_vertices, label, normalised};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;

@@ -30,12 +30,14 @@ pub struct RayAnswer {
     /// `exit[0]` ≤ where it ends ≤ `exit[1]`: where the ray leaves the body, or `t_max` if that comes first.
     pub exit: [f64; 2],
     /// Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
-    /// face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane.
+    /// face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane. With a swept radius it is
+    /// that of the round surface.
     pub normal: [f64; 3],
     /// Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
-    /// vertex.
+    /// vertex. With a swept radius it is the vertex, the edge or the face that is nearest to where the ray enters, of the body
+    /// without the ball.
     pub feature: Feature,
-    /// Faces that the search visited.
+    /// Faces that the search visited; with a swept radius vertices.
     pub steps: u32,
 }
 

@@ -1,4 +1,5 @@
-//! A line and a placed body in one frame, and what doubles prove of them: bounds by planes, and passing through a polygon.
+//! A line and a placed body in one frame, and what doubles prove of them: bounds by planes and by balls, and passing through a
+//! polygon.
 
 use super::Ray;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
@@ -14,14 +15,17 @@ const UNDERFLOW_GUARD: f64 = f64::from_bits((1023 - 800) << 52);
 pub(super) struct Line<'a> {
     pub polyhedron: &'a Polyhedron,
     pose: &'a Pose,
+    /// Of the ball that is swept over the polyhedron; 0 without.
+    pub swept_radius: f64,
     /// Of the ray.
     pub direction: Vector,
     /// Where the centre of the body's coordinates is.
     centre: Vector,
     /// R⁻¹, rounded.
     inverse: Matrix,
-    /// No vertex is farther from the ray's origin than 1.03 times this: of lengths that rounding errors are in proportion to.
-    reach: f64,
+    /// No point of the body is farther from the ray's origin than 1.03 times this: of lengths that rounding errors are in proportion
+    /// to.
+    pub reach: f64,
     /// The 1-norm of the direction.
     length: f64,
 }
@@ -47,10 +51,11 @@ pub(super) struct Crossing {
 
 impl<'a> Line<'a> {
     /// None where magnitudes are left to integers.
-    pub fn new(polyhedron: &'a Polyhedron, pose: &'a Pose, ray: &Ray) -> Option<Line<'a>> {
+    pub fn new(polyhedron: &'a Polyhedron, pose: &'a Pose, ray: &Ray, swept_radius: f64) -> Option<Line<'a>> {
         let (origin, direction) = (ray.origin(), ray.direction());
         let translation = pose.translation();
-        let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius)
+        // What underflows of a polyhedron that is smaller than its ball is nothing beside that.
+        let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius.max(swept_radius))
             && (SMALLEST..=LARGEST).contains(&direction.amax())
             && origin.amax().max(translation.amax()).max(polyhedron.centre.amax()) <= LARGEST;
         if !is_in_range {
@@ -66,16 +71,28 @@ impl<'a> Line<'a> {
         let inverse = cofactors / columns[0].dot(&cofactors.column(0));
         let from_origin = translation - origin;
         let centre = from_origin + pose.rotate(&polyhedron.centre);
-        let reach = norm1(&from_origin) + norm1(&polyhedron.centre) + polyhedron.radius;
-        Some(Line { polyhedron, pose, direction, centre, inverse, reach, length: norm1(&direction) })
+        let reach = norm1(&from_origin) + norm1(&polyhedron.centre) + polyhedron.radius + swept_radius;
+        Some(Line { polyhedron, pose, swept_radius, direction, centre, inverse, reach, length: norm1(&direction) })
     }
 
     /// Where a vertex is.
     ///
     /// Off by at most 8u·`reach`: u for the difference of translation and origin, 3u for each component of the two rotated vectors,
     /// 5.3u of their length, and u for each of the two sums.
-    fn vertex(&self, vertex: u32) -> Vector {
+    pub fn vertex(&self, vertex: u32) -> Vector {
         self.pose.rotate(&self.polyhedron.vertices[vertex as usize].position) + self.centre
+    }
+
+    /// A direction of the world as the support function of the body takes it, see [`Pose::rotate_back`].
+    pub fn rotate_back(&self, direction: &Vector) -> Vector {
+        self.pose.rotate_back(direction)
+    }
+
+    /// From the centre to about where the line along a unit vector comes into the sphere around the body, or passes it.
+    pub fn towards_sphere(&self, along: &Vector) -> Vector {
+        let across = along * self.centre.dot(along) - self.centre;
+        let depth = (self.sphere() * self.sphere() - across.norm_squared()).max(0.0).sqrt();
+        (across - along * depth) / self.sphere()
     }
 
     /// Its direction in the body's axes, rounded.
@@ -91,8 +108,13 @@ impl<'a> Line<'a> {
     /// Whether the line passes by the bounding sphere, or the ray leads away from it.
     pub fn passes_sphere(&self) -> bool {
         // The products are off by less than 8u of the lengths, as is the centre.
-        let least = (LARGEST_STRETCH * self.polyhedron.radius + 24.0 * U * self.reach) * self.length;
+        let least = self.sphere() * self.length;
         self.direction.cross(&self.centre).norm() > least || self.direction.dot(&self.centre) < -least
+    }
+
+    /// The radius of a sphere around `centre`, rounding included, that the body is in.
+    fn sphere(&self) -> f64 {
+        LARGEST_STRETCH * self.polyhedron.radius + self.swept_radius + 24.0 * U * self.reach
     }
 
     /// Where it crosses the plane of a face, see [`Line::crossing`]; none where rounding hides which way.
@@ -109,14 +131,62 @@ impl<'a> Line<'a> {
         let missed = norm1(&(self.pose.rotate_back(&world) - normal)) + 8.0 * U;
         let height = world.dot(&self.vertex(vertex));
         // |U| ≤ 1.02: 8.2u of the reach for the vertex, 3.3u for the product, 1.1u for the sums below.
-        let error = slack + 2.0 * self.polyhedron.radius * missed + 16.0 * U * self.reach;
-        let along = world.dot(&self.direction);
+        self.crossing_at(world, height, slack + 2.0 * self.polyhedron.radius * missed + 16.0 * U * self.reach)
+    }
+
+    /// Where it crosses the plane that supports the body with its ball along a unit vector, rounded, of the world: of the
+    /// polyhedron a vertex is the farthest, up to an excess.
+    pub fn crossing_of_support(&self, normal: &Vector, vertex: u32, excess: f64) -> Option<Crossing> {
+        let [height, error] = self.support(normal, vertex, excess);
+        self.crossing_at(*normal, height, error)
+    }
+
+    /// Whether all of the ray is on the outer side of such a plane, as far as it is in the sphere around the body.
+    pub fn is_in_front(&self, normal: &Vector, vertex: u32, excess: f64, t_max: f64) -> bool {
+        let [height, error] = self.support(normal, vertex, excess);
+        let square = self.direction.norm_squared();
+        let (middle, half) = (self.direction.dot(&self.centre) / square, 1.01 * self.sphere() / square.sqrt());
+        let [from, to] = [(middle - half).max(0.0), (middle + half).min(t_max)];
+        // These places are within 2.1 times the reach: 6.3u of that for the slope, 2.1u for its product, 3.3u for the difference.
+        let along = normal.dot(&self.direction);
+        [from, to].iter().all(|t| t * along - height > error + 16.0 * U * self.reach)
+    }
+
+    /// How far the body with its ball reaches along a unit vector, and the rounding error: as of a face, with 4u of the radius for
+    /// the length of the vector and its product.
+    fn support(&self, normal: &Vector, vertex: u32, excess: f64) -> [f64; 2] {
+        let height = normal.dot(&self.vertex(vertex)) + self.swept_radius * normal.norm();
+        [height, excess * (1.0 + 64.0 * U) + 24.0 * U * self.reach]
+    }
+
+    /// Where it crosses a plane of a normal of about unit length, the height of which is off by at most an error.
+    fn crossing_at(&self, normal: Vector, height: f64, error: f64) -> Option<Crossing> {
+        let along = normal.dot(&self.direction);
         let along_error = 4.0 * U * self.length;
         if !(along.abs() > along_error) {
             return None;
         }
         let at = quotient([height - error, height + error], [along - along_error, along + along_error]);
-        Some(Crossing { at, faces: along < 0.0, normal: world })
+        Some(Crossing { at, faces: along < 0.0, normal })
+    }
+
+    /// Where it surely comes into the ball around a point of the polyhedron and where it goes out; none where rounding hides that
+    /// it does. The point is computed from vertices with convex weights.
+    ///
+    /// Vertices are off by 8u of the reach, such a point by less than 24u. With c the point and d the direction, |c × d|/|d| is the
+    /// distance of the line from it, off by 8u more, c·d/|d| the middle of the chord, off by 4u, half the chord by 4u of the
+    /// radius. The quotients by |d| are off by 4u of themselves, of 2.1 times the reach.
+    pub fn chord(&self, point: &Vector) -> Option<[[f64; 2]; 2]> {
+        let (length, error) = (self.direction.norm(), 48.0 * U * self.reach);
+        let distance = self.direction.cross(point).norm() / length;
+        let half = |distance: f64| ((self.swept_radius - distance) * (self.swept_radius + distance)).sqrt();
+        let halves = [half(distance + error), half((distance - error).max(0.0))];
+        let middle = self.direction.dot(point) / length;
+        let at = |along: f64| along / length;
+        let entry = [at(middle - halves[1] - error), at(middle - halves[0] + error)];
+        let exit = [at(middle + halves[0] - error), at(middle + halves[1] + error)];
+        // Of what is negative the root is a NaN.
+        (halves[0] >= 0.0).then_some([entry, exit])
     }
 
     /// Whether it surely passes through the hull of corners, given counter-clockwise as seen from where it comes (`faces`) or goes.

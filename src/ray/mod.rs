@@ -4,6 +4,9 @@
 //! the faces through which the ray comes and goes. A hit is proved where the ray passes through the polygon of such a face's
 //! corners, a miss where the bound of coming lies behind that of going (Cyrus & Beck 1978). Where rounding hides either, integers
 //! decide.
+//!
+//! A body with a swept radius is its hull with a ball, which stays round in the world: the same proofs, by planes that support it
+//! and balls in it.
 
 mod query;
 mod answer;
@@ -11,11 +14,14 @@ mod line;
 mod walk;
 mod exact;
 mod search;
+mod rounded;
+mod swept_exact;
+mod swept;
 
 pub use answer::{RayAnswer, RayOutcome};
 pub use query::Ray;
 
-use crate::base::error::{Error, Result};
+use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::environment::with_default;
 use crate::pair::Placed;
@@ -24,23 +30,23 @@ use crate::pair::Placed;
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
-/// [`Error::Argument`] for an origin or a direction that is not finite, a direction of 0, a `t_max` that is negative or NaN, and a
-/// shape with a swept radius.
+/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and a
+/// `t_max` that is negative or NaN.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;
         body.pose.check(ROTATION_LIMIT)?;
-        let radius = body.shape.swept_radius();
-        if radius > 0.0 {
-            return Err(Error::Argument(format!(
-                "the shape has a swept radius of {radius:e}: rays are cast at shapes without one, a distance tells how near they pass"
-            )));
-        }
-        Ok(search::cast(body.shape.polyhedron(), body.pose, ray))
+        Ok(match body.shape.swept_radius() {
+            0.0 => search::cast(body.shape.polyhedron(), body.pose, ray),
+            radius => swept::cast(body.shape.polyhedron(), body.pose, ray, radius),
+        })
     })
 }
 
 /// The same of a ray and a pose that are accepted, in integers alone: both ends are neighbouring doubles.
 pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> RayAnswer {
-    search::cast_in_integers(body.shape.polyhedron(), body.pose, ray)
+    match body.shape.swept_radius() {
+        0.0 => search::cast_in_integers(body.shape.polyhedron(), body.pose, ray),
+        radius => swept::cast_in_integers(body.shape.polyhedron(), body.pose, ray, radius),
+    }
 }

@@ -26,7 +26,7 @@ enum Proved {
 /// Where a ray meets a polyhedron at a pose; both are checked.
 pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
     let mut answer = RayAnswer::default();
-    let line = Line::new(polyhedron, pose, ray);
+    let line = Line::new(polyhedron, pose, ray, 0.0);
     if let Some(line) = &line {
         match prove(line, ray, &mut answer.steps) {
             Proved::Miss => {
@@ -34,7 +34,12 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer
                 return answer;
             }
             Proved::Passes { face, entry, exit } => {
-                if fill(&mut answer, line, ray, face, entry, exit) {
+                if fill(&mut answer, line, ray, entry.at, exit.at) {
+                    if answer.outcome == RayOutcome::Hit {
+                        answer.normal = normalised(&entry.normal);
+                        let point = line.local_origin() + line.local_direction() * entry.at[0];
+                        answer.feature = label(polyhedron, FeatureId::Face(face), &point);
+                    }
                     return answer;
                 }
             }
@@ -48,7 +53,7 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer
 /// The same, whatever doubles prove.
 pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
     let mut answer = RayAnswer::default();
-    exact::cast(polyhedron, pose, ray, Line::new(polyhedron, pose, ray).as_ref(), &mut answer);
+    exact::cast(polyhedron, pose, ray, Line::new(polyhedron, pose, ray, 0.0).as_ref(), &mut answer);
     answer
 }
 
@@ -136,28 +141,20 @@ fn corners(polyhedron: &Polyhedron, face: u32, local: &LocalLine) -> ([u32; MOST
     (corners, used)
 }
 
-/// What a line that passes through the body says of the ray; false where rounding hides an end of either.
-fn fill(answer: &mut RayAnswer, line: &Line, ray: &Ray, face: u32, entry: Crossing, exit: Crossing) -> bool {
-    let begins_inside = entry.at[1] < 0.0;
-    let is_certain = (begins_inside || entry.at[0] >= 0.0)
-        && entry.at[1] <= ray.t_max
-        && exit.at[0] >= 0.0
-        && line.is_narrow(entry.at)
-        && line.is_narrow(exit.at);
+/// What the part of a line in the body says of the ray, but for the surface; false where rounding hides an end of either.
+pub(super) fn fill(answer: &mut RayAnswer, line: &Line, ray: &Ray, entry: [f64; 2], exit: [f64; 2]) -> bool {
+    let begins_inside = entry[1] < 0.0;
+    let is_certain = (begins_inside || entry[0] >= 0.0)
+        && entry[1] <= ray.t_max
+        && exit[0] >= 0.0
+        && line.is_narrow(entry)
+        && line.is_narrow(exit);
     if !is_certain {
         return false;
     }
-    answer.exit = exit.at.map(|t| t.min(ray.t_max));
-    if begins_inside {
-        answer.outcome = RayOutcome::Inside;
-        answer.entry = [0.0; 2];
-        return true;
-    }
-    answer.outcome = RayOutcome::Hit;
-    answer.entry = entry.at;
-    answer.normal = normalised(&entry.normal);
-    let point = line.local_origin() + line.local_direction() * entry.at[0];
-    answer.feature = label(line.polyhedron, FeatureId::Face(face), &point);
+    answer.exit = exit.map(|t| t.min(ray.t_max));
+    (answer.outcome, answer.entry) =
+        if begins_inside { (RayOutcome::Inside, [0.0; 2]) } else { (RayOutcome::Hit, entry) };
     true
 }
 

@@ -135,8 +135,8 @@ pub struct ShapeOptions {
     /// found from the coordinates and polygons ([`default_noise`]). 0: rounding of doubles only.
     pub face_noise: Option<f64>,
     /// The radius of a ball that is swept over the body, in the units of the input, before `scale`: a point with one is a sphere, a
-    /// segment a capsule, a body one with round edges. All answers of pairs and scenes are about the swept body; witness points are
-    /// on it, features are of the body without the ball. From 0 (the default) to [`LARGEST_SWEPT_RADIUS`].
+    /// segment a capsule, a body one with round edges. All answers of pairs, rays and scenes are about the swept body; witness
+    /// points are on it, features are of the body without the ball. From 0 (the default) to [`LARGEST_SWEPT_RADIUS`].
     pub swept_radius: f64,
 }
 

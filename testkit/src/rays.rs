@@ -12,8 +12,10 @@ use dashu_ratio::RBig;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::FeatureKind;
 use swiftprox::ray::{Ray, RayAnswer, RayOutcome};
+use swiftprox::shape::LARGEST_SWEPT_RADIUS;
 
-use crate::oracle::{rational, transform};
+use crate::cases::row_major;
+use crate::oracle::{Polytope, Truth, rational, transform};
 use crate::random::Random;
 
 /// Integers: `i128` where numbers are small, `IBig` elsewhere.
@@ -261,4 +263,141 @@ pub fn check(case: &Case, answer: &RayAnswer) {
     for point in world {
         assert!(normal.dot(&(point - entry)) <= slack, "{case:?} {answer:?}");
     }
+}
+
+/// A body with a ball swept over it, and a ray. What is asked of the oracle is whether stretches of the ray's line are within the
+/// radius of the hull, by the pairs of all features.
+#[derive(Debug, Clone)]
+pub struct SweptCase {
+    pub points: Vec<Vector>,
+    pub radius: f64,
+    pub pose: Pose,
+    pub ray: Ray,
+}
+
+/// Farther along a line than any double goes, as a power of two.
+const FAR: isize = 2_200;
+
+/// Where a stretch ends that leaves out 0 and nothing else.
+const NEAR_0: isize = -70_000;
+
+impl SweptCase {
+    /// The square of the distance of the hull and the line between two places.
+    fn square(&self, hull: &Polytope, from: &RBig, to: &RBig) -> RBig {
+        let place = |t: &RBig| -> [RBig; 3] {
+            std::array::from_fn(|k| rational(self.ray.origin[k]) + rational(self.ray.direction[k]) * t)
+        };
+        let ends = if from == to { vec![place(from)] } else { vec![place(from), place(to)] };
+        let here = row_major(&Pose::IDENTITY);
+        crate::oracle::truth(hull, &row_major(&self.pose), &Polytope::from_rationals(ends), &here).squared_distance
+    }
+
+    /// How far the hull is from all of the ray, or from its origin.
+    pub fn apart(&self, of_origin: bool) -> Truth {
+        let end = if of_origin { RBig::ZERO } else { self.end() };
+        Truth { squared_distance: self.square(&self.hull(), &RBig::ZERO, &end) }
+    }
+
+    /// The same, rounded.
+    fn distance(&self, of_origin: bool) -> f64 {
+        self.apart(of_origin).squared_distance.to_f64().value().sqrt()
+    }
+
+    fn hull(&self) -> Polytope {
+        Polytope::new(&self.points.iter().map(|p| (*p).into()).collect::<Vec<_>>())
+    }
+
+    fn end(&self) -> RBig {
+        if self.ray.t_max < f64::INFINITY { rational(self.ray.t_max) } else { power(FAR) }
+    }
+
+    /// Whether an answer is the truth; what integers said of both ends are neighbouring doubles, and the normal is that of a plane
+    /// that the body is behind.
+    pub fn check(&self, answer: &RayAnswer) {
+        self.check_part(answer);
+        if answer.exact == 1 && answer.outcome != RayOutcome::Miss {
+            assert!([answer.entry, answer.exit].iter().all(|[a, b]| *b <= a.next_up()), "{self:?} {answer:?}");
+        }
+        if answer.outcome == RayOutcome::Hit {
+            self.check_surface(answer);
+        }
+    }
+
+    /// Whether the outcome is the truth and both intervals hold.
+    pub fn check_part(&self, answer: &RayAnswer) {
+        let Ray { t_max, .. } = self.ray;
+        let (hull, end, zero) = (self.hull(), self.end(), RBig::ZERO);
+        let square_of_radius = rational(self.radius) * rational(self.radius);
+        let compare = |from: &RBig, to: &RBig| self.square(&hull, from, to).cmp(&square_of_radius);
+        if compare(&zero, &end).is_gt() {
+            assert_eq!(answer.outcome, RayOutcome::Miss, "{self:?} {answer:?}");
+            assert!(answer.entry[0].is_nan() && answer.exit[1].is_nan() && answer.normal[0].is_nan());
+            return;
+        }
+        let before = || compare(&-power(FAR), &-power(NEAR_0));
+        let at_origin = compare(&zero, &zero);
+        let begins_inside = at_origin.is_lt() || (at_origin.is_eq() && before().is_le());
+        let outcome = if begins_inside { RayOutcome::Inside } else { RayOutcome::Hit };
+        assert_eq!(answer.outcome, outcome, "{self:?} {answer:?}");
+        let [first, until] = answer.exit;
+        assert!((0.0..=t_max).contains(&first) && until <= t_max, "{self:?} {answer:?}");
+        if compare(&end, &end).is_le() {
+            assert_eq!(until, t_max, "{self:?} {answer:?}");
+        } else {
+            assert!(compare(&rational(first), &end).is_le(), "{self:?} {answer:?}");
+            assert!(until == f64::INFINITY || compare(&rational(until), &end).is_ge(), "{self:?} {answer:?}");
+        }
+        let [from, last] = answer.entry;
+        if begins_inside || at_origin.is_eq() {
+            assert_eq!(answer.entry, [0.0; 2], "{self:?} {answer:?}");
+        } else {
+            assert!(from >= 0.0 && compare(&zero, &rational(from)).is_ge(), "{self:?} {answer:?}");
+            assert!(last == f64::INFINITY || compare(&zero, &rational(last)).is_le(), "{self:?} {answer:?}");
+        }
+    }
+
+    fn check_surface(&self, answer: &RayAnswer) {
+        let normal = Vector::from(answer.normal);
+        assert!((normal.norm() - 1.0).abs() < 1e-12, "{self:?} {answer:?}");
+        let Ray { origin, direction, .. } = self.ray;
+        // In units that keep squares among the doubles.
+        let largest = self.points.iter().map(|p| p.amax()).fold(self.radius, f64::max);
+        let world = self.points.iter().map(|p| self.pose.rotate(&(p / largest)));
+        let from = (Vector::from(origin) - self.pose.translation()) / largest;
+        let advanced = Vector::from(direction) * answer.entry[0] / largest;
+        let entry = from + advanced;
+        let size = 1.0 + from.amax() + advanced.amax();
+        if !(size < 1e100) {
+            return;
+        }
+        let highest = world.map(|point| normal.dot(&(point - entry))).fold(f64::NEG_INFINITY, f64::max);
+        assert!((highest + self.radius / largest).abs() <= 1e-9 * size, "{self:?} {answer:?}");
+    }
+}
+
+/// A ball over the points of another case: of a length of theirs, or such that it reaches the ray, or its origin, up to roundings.
+pub fn swept(random: &mut Random, case: Case) -> SweptCase {
+    let Case { points, pose, ray, .. } = case;
+    let mut swept = SweptCase { points, radius: 0.0, pose, ray };
+    let largest = swept.points.iter().map(|p| p.amax()).fold(f64::MIN_POSITIVE, f64::max);
+    let radius = match random.below(6) {
+        0 => swept.distance(false),
+        1 => swept.distance(true),
+        2 => largest * random.pick(&[1e-30, 1e-12, 1e-3, 1e3, 1e30]),
+        3 => largest * random.uniform(0.0, 2.0),
+        _ => largest * random.pick(&[0.25, 0.5, 1.0, 1.25, 2.0, 2.5, 5.0]),
+    };
+    let radius = match random.below(4) {
+        0 => radius.next_up(),
+        1 => radius.next_down(),
+        _ => radius,
+    };
+    swept.radius = radius.clamp(f64::MIN_POSITIVE, LARGEST_SWEPT_RADIUS);
+    swept
+}
+
+/// A power of two.
+fn power(exponent: isize) -> RBig {
+    let size = RBig::from(IBig::ONE << exponent.unsigned_abs());
+    if exponent < 0 { RBig::ONE / size } else { size }
 }

@@ -4,7 +4,7 @@ use swiftprox::base::simd::environment::Environment;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::FeatureKind;
 use swiftprox::point::{PointLocation, locate_point, support};
-use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::models;
 use testkit::shapes::{at, cuboid, hull};
 
@@ -92,4 +92,28 @@ fn the_floating_point_environment_changes_no_bit() {
     for environment in Environment::all() {
         assert_eq!(environment.run(ask), plain);
     }
+}
+
+/// The nearest point is on the round surface, and its feature the hull's; the support vertex is one of the hull.
+#[test]
+fn round_bodies() {
+    let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: 0.5, ..ShapeOptions::default() };
+    let ends = [Vector::new(0.0, 0.0, -2.0), Vector::new(0.0, 0.0, 2.0)];
+    let capsule = Shape::from_points(&ends, &options).unwrap();
+    let pose = at(10.0, 0.0, 0.0);
+    for (point, location, distance, world, kind) in [
+        ([13.0, 0.0, 1.0], PointLocation::Outside, 2.5, [10.5, 0.0, 1.0], FeatureKind::Edge),
+        ([10.0, 0.25, 1.0], PointLocation::Inside, -0.25, [10.0, 0.5, 1.0], FeatureKind::Edge),
+        ([10.0, 0.0, 2.5], PointLocation::On, 0.0, [10.0, 0.0, 2.5], FeatureKind::Vertex),
+        ([10.3, 0.4, 2.0], PointLocation::On, 0.0, [10.3, 0.4, 2.0], FeatureKind::Vertex),
+    ] {
+        let answer = locate_point(capsule.at(&pose), point).unwrap();
+        // No double is 10.3.
+        assert!(answer.location == location || point[0] == 10.3, "{answer:?}");
+        assert!((answer.distance - distance).abs() < 1e-14 && answer.upper - answer.lower < 1e-13, "{answer:?}");
+        assert!((Vector::from(answer.world) - Vector::from(world)).norm() < 1e-12, "{answer:?}");
+        assert_eq!(answer.feature.kind, kind, "{answer:?}");
+    }
+    let farthest = support(capsule.at(&pose), [3.0, 0.0, 1.0]).unwrap();
+    assert_eq!((farthest.vertex, farthest.world), (1, [10.0, 0.0, 2.0]));
 }

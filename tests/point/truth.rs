@@ -1,17 +1,21 @@
 //! Points and support vertices against integers.
 
+use std::cmp::Ordering;
+
 use dashu_int::IBig;
 use dashu_ratio::RBig;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::FeatureKind;
 use swiftprox::point::{PointAnswer, PointLocation, locate_point, support};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::any_size::depth::depth;
 use testkit::any_size::integers::{cross, difference, dot, is_zero, place};
 use testkit::any_size::nearest::nearest;
 use testkit::oracle::{rational, transform};
 use testkit::random::Random;
-use testkit::rays::{Case, anywhere, on_lattice};
+use testkit::rays::{Case, anywhere, on_lattice, swept};
 use testkit::shapes::hull;
+use testkit::swept::Length;
 
 /// The row-major 3x4 matrices of a pose and of a point.
 fn matrices(pose: &Pose, point: [f64; 3]) -> [f64; 24] {
@@ -142,6 +146,37 @@ fn points_anywhere() {
         counts[try_point(&points, &pose, (through + near).into()).location as usize - 1] += 1;
     }
     assert!(counts[0] > 30 && counts[2] > 30, "{counts:?}");
+}
+
+/// Bodies with a swept radius, often one that reaches the point up to a rounding: on the surface only exactly there, and points and
+/// segments have an inside.
+#[test]
+fn round_bodies() {
+    let mut random = Random::new(14);
+    let mut counts = [0; 3];
+    for round in 0..1_500 {
+        let make = if round % 2 == 0 { anywhere } else { on_lattice };
+        let case = make(&mut random);
+        let case = swept(&mut random, case);
+        let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: case.radius, ..ShapeOptions::default() };
+        let shape = Shape::from_points(&case.points, &options).unwrap();
+        let answer = locate_point(shape.at(&case.pose), case.ray.origin).unwrap();
+        let of_hull = case.apart(true);
+        let length = Length::between(&of_hull, [case.radius, 0.0]);
+        let truth = match length.compared_with(0.0) {
+            Ordering::Greater => PointLocation::Outside,
+            Ordering::Equal => PointLocation::On,
+            Ordering::Less => PointLocation::Inside,
+        };
+        assert_eq!(answer.location, truth, "{case:?} {answer:?}");
+        // In the hull it is as deep as in that, and the radius deeper.
+        let holds = length.compared_with(answer.lower).is_ge()
+            && (of_hull.intersecting() || length.compared_with(answer.upper).is_le());
+        assert!(holds && answer.lower <= answer.distance && answer.distance <= answer.upper, "{case:?} {answer:?}");
+        assert!((Vector::from(answer.normal).norm() - 1.0).abs() < 1e-12 && answer.feature.kind != FeatureKind::None);
+        counts[truth as usize - 1] += 1;
+    }
+    assert!(counts.iter().all(|&count| count > 20), "{counts:?}");
 }
 
 #[test]

@@ -10,22 +10,22 @@ use testkit::random::Random;
 use testkit::rays::{Case, check};
 use testkit::shapes::hull;
 
-type Integers = [dashu_int::IBig; 3];
+pub type Integers = [dashu_int::IBig; 3];
 
 /// What a double or a product of two is a multiple of, here.
 const BITS: usize = 400;
 
-fn integer(x: &RBig) -> dashu_int::IBig {
+pub fn integer(x: &RBig) -> dashu_int::IBig {
     let shifted = x * RBig::from(dashu_int::IBig::ONE << BITS);
     assert!(shifted.denominator().is_one());
     shifted.numerator().clone()
 }
 
-fn dot(a: &Integers, b: &Integers) -> dashu_int::IBig {
+pub fn dot(a: &Integers, b: &Integers) -> dashu_int::IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 
-fn minus(a: &Integers, b: &Integers) -> Integers {
+pub fn minus(a: &Integers, b: &Integers) -> Integers {
     [0, 1, 2].map(|k| &a[k] - &b[k])
 }
 

@@ -8,11 +8,13 @@ use swiftprox::math::{Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{ContactDetail, Replay, Scene, SceneOptions, SceneQuery};
+use swiftprox::ray::{Ray, RayAnswer, RayOutcome};
+use swiftprox::scene::{ContactDetail, RayHits, Replay, Scene, SceneOptions, SceneQuery, SetScratch};
 use swiftprox::shape::Shape;
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use testkit::random::Random;
-use testkit::shapes::at;
+use testkit::rays::SweptCase;
+use testkit::shapes::{at, cuboid, lattice_box};
 
 /// Whatever moves, a scene finds the pairs that all pairs asked one by one are, with their answers: no box and no sphere is too
 /// small.
@@ -68,6 +70,90 @@ fn a_scene_finds_what_all_pairs_are() {
         }
     }
     assert!(found.iter().all(|&count| count > 100), "{found:?}");
+}
+
+/// One round piece anywhere made `cast_ray` fail for the first hit and for all, however far it was from the ray; for any hit it
+/// depended on which object was added first. The cause: rays at swept radii were refused, and a scene that is not prepared casts at
+/// all pieces. A ball 100 away beside a cube that the ray meets shows it.
+#[test]
+fn a_ray_meets_what_is_there_in_any_order() {
+    let (cube, ball) = (Arc::new(cuboid([1.0; 3])), Arc::new(sphere(0.5)));
+    let ray = Ray { origin: [-5.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0], t_max: f64::INFINITY };
+    for (away, met) in [(100.0, 1), (3.0, 2)] {
+        for ball_first in [false, true] {
+            let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+            let mut add = |is_ball: bool| {
+                let (shape, pose) =
+                    if is_ball { (&ball, at(away, away - 3.0, 0.0)) } else { (&cube, at(0.0, 0.0, 0.0)) };
+                let options = ObjectOptions { pose, user_data: u64::from(is_ball), ..Default::default() };
+                scene.add_object(vec![shape.clone()], &options).unwrap();
+            };
+            [ball_first, !ball_first].into_iter().for_each(&mut add);
+            let mut scratch = SetScratch::default();
+            let mut hits = |wanted| {
+                let hits = scene.cast_ray(&ray, wanted, u32::MAX, &mut scratch).unwrap();
+                hits.iter().map(|hit| hit.user_data).collect::<Vec<_>>()
+            };
+            assert_eq!(hits(RayHits::First), [0]);
+            assert_eq!(hits(RayHits::All), (0..met).collect::<Vec<_>>());
+            assert_eq!(hits(RayHits::Any).len(), 1);
+        }
+    }
+}
+
+/// Balls, capsules, boxes with and without round edges on a lattice: each as rationals have it, in the order of their entries,
+/// whichever was added first and whether the scene is prepared or not.
+#[test]
+fn rays_meet_what_rationals_say() {
+    let mut random = Random::new(0x5ce2);
+    let box_points = lattice_box([1.0; 3], 2);
+    let clouds = [vec![Vector::zeros()], vec![-Vector::x(), Vector::x()], box_points.clone(), box_points];
+    let radii = [1.0, 0.5, 0.5, 0.0];
+    let mut counts = [0; 3];
+    for round in 0..6 {
+        let poses: Vec<Pose> = (0..8).map(|_| Pose::new(&random.quarter_turns(), &random.lattice(2))).collect();
+        let shapes: Vec<Arc<Shape>> = (0..4).map(|kind| Arc::new(swept(&clouds[kind], radii[kind]))).collect();
+        let mut scenes = [0, 1].map(|_| Scene::new(&SceneOptions::default()).unwrap());
+        for (backwards, scene) in scenes.iter_mut().enumerate() {
+            for k in 0..8 {
+                let k = if backwards == 1 { 7 - k } else { k };
+                let options = ObjectOptions { pose: poses[k], user_data: k as u64, ..Default::default() };
+                scene.add_object(vec![shapes[k % 4].clone()], &options).unwrap();
+            }
+        }
+        scenes[round % 2].prepare().unwrap();
+        for _ in 0..24 {
+            let origin = random.lattice(4) * random.pick(&[0.5, 1.0]);
+            let ways = [random.vector(), random.lattice(2), Vector::y()];
+            let direction = random.pick(&ways);
+            let direction = if direction == Vector::zeros() { Vector::x() } else { direction };
+            let t_max = random.pick(&[f64::INFINITY, 4.0]);
+            let ray = Ray { origin: origin.into(), direction: direction.into(), t_max };
+            let mut scratch = SetScratch::default();
+            let [all, backwards] = [0, 1].map(|k| {
+                let scene = &scenes[k];
+                let all = scene.cast_ray(&ray, RayHits::All, u32::MAX, &mut scratch).unwrap().to_vec();
+                let first = scene.cast_ray(&ray, RayHits::First, u32::MAX, &mut scratch).unwrap().to_vec();
+                assert_eq!(first.first().map(|hit| hit.user_data), all.first().map(|hit| hit.user_data), "{ray:?}");
+                let any = scene.cast_ray(&ray, RayHits::Any, u32::MAX, &mut scratch).unwrap();
+                assert_eq!(any.len(), all.len().min(1), "{ray:?}");
+                assert!(any.iter().all(|any| all.iter().any(|hit| hit.user_data == any.user_data)));
+                all
+            });
+            assert!(all.windows(2).all(|two| two[0].answer.entry[0] <= two[1].answer.entry[1]));
+            for (k, pose) in poses.iter().enumerate().filter(|(k, _)| radii[k % 4] > 0.0) {
+                let case = SweptCase { points: clouds[k % 4].clone(), radius: radii[k % 4], pose: *pose, ray };
+                for hits in [&all, &backwards] {
+                    let hit = hits.iter().find(|hit| hit.user_data == k as u64);
+                    let missed = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
+                    let answer = hit.map_or(missed, |hit| hit.answer);
+                    case.check_part(&answer);
+                    counts[answer.outcome as usize - 1] += 1;
+                }
+            }
+        }
+    }
+    assert!(counts.iter().all(|&count| count > 20), "{counts:?}");
 }
 
 /// A radius comes back from a file, is scaled with a shape, and files of before radii were are read.

@@ -17,10 +17,12 @@ mod minkowski;
 mod boundary;
 mod differences;
 mod half_space;
+mod beside_line;
 
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 pub use answer::{ExactAnswer, ExactDistance};
+pub(crate) use beside_line::{BesideLine, Place};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
 pub use differences::{Differences, Normal, PairEdge};
 pub use half_space::{Lowest, lowest};

@@ -1,14 +1,15 @@
-//! Rays at one body beside parry's. On 20 vertices our answers are judged by exact rationals; the peer is judged by ours.
+//! Rays at one body beside parry's, round ones among them. On a few vertices our answers are judged by exact rationals; the peer is
+//! judged by ours.
 
 use parry3d_f64::math::{Pose as ParryPose, Vector as ParryVector};
-use parry3d_f64::query::{Ray as ParryRay, RayCast};
-use parry3d_f64::shape::ConvexPolyhedron;
+use parry3d_f64::query::Ray as ParryRay;
+use parry3d_f64::shape::{Ball, Capsule, Cuboid, RoundShape, Shape as ParryShape};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::ray::{Ray, RayOutcome, cast_ray};
-use swiftprox::shape::{Shape, ShapeOptions};
-use testkit::models::random_hull;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::models::{cuboid, random_hull};
 use testkit::random::Random;
-use testkit::rays::{Case, check, truth};
+use testkit::rays::{Case, SweptCase, check, truth};
 
 use super::scenes::Truth;
 use super::{Caster, Row, Said, compare, ours, parry};
@@ -31,11 +32,68 @@ pub fn measure(options: &Options) -> Result<Vec<Row>, String> {
         if n <= MOST_FOR_TRUTH {
             rays.iter().for_each(|(pose, ray)| judge(&mesh.vertices, &shape, pose, ray));
         }
-        let parry = Parry { polyhedron: parry::polyhedron(&mesh)?, rays: rays.iter().map(theirs).collect() };
+        let parry = Parry { shape: Box::new(parry::polyhedron(&mesh)?), rays: rays.iter().map(theirs).collect() };
         let mut methods: Vec<Box<dyn Caster + '_>> = vec![Box::new(ours), Box::new(parry)];
         rows.extend(compare("ray", &format!("rays, {n} vertices"), &mut methods, &truths, options));
     }
+    for RoundBody { name, points, radius, theirs: shape } in round_bodies()? {
+        let swept = ShapeOptions { input: InputPolicy::Hull, swept_radius: radius, ..ShapeOptions::default() };
+        let own = Shape::from_points(&points, &swept).map_err(|error| error.to_string())?;
+        let rays = rays(4 * options.count);
+        let ours = Ours { shape: &own, rays: &rays };
+        let truths: Vec<Truth> = (0..rays.len()).map(|i| ours.truth(i)).collect();
+        if points.len() <= MOST_FOR_SWEPT_TRUTH {
+            for (pose, ray) in rays.iter().take(options.count) {
+                let case = SweptCase { points: points.clone(), radius, pose: *pose, ray: *ray };
+                case.check(&cast_ray(own.at(pose), ray).expect("finite rays"));
+            }
+        }
+        let parry = Parry { shape, rays: rays.iter().map(theirs).collect() };
+        let mut methods: Vec<Box<dyn Caster + '_>> = vec![Box::new(ours), Box::new(parry)];
+        rows.extend(compare("ray", &format!("rays, {name}"), &mut methods, &truths, options));
+    }
     Ok(rows)
+}
+
+/// The exact truth of a round body takes time in the fourth power of the vertices.
+const MOST_FOR_SWEPT_TRUTH: usize = 8;
+
+struct RoundBody {
+    name: &'static str,
+    points: Vec<Vector>,
+    radius: f64,
+    theirs: Box<dyn ParryShape>,
+}
+
+/// About as large as the hulls, of radius 1.
+fn round_bodies() -> Result<[RoundBody; 4], String> {
+    let (half, radius) = ([0.6, 0.5, 0.4], 0.1);
+    let hull = random_hull(102, 1).map_err(|error| error.to_string())?;
+    let end = Vector::new(0.0, 0.0, 0.6);
+    Ok([
+        RoundBody { name: "ball", points: vec![Vector::zeros()], radius: 0.9, theirs: Box::new(Ball::new(0.9)) },
+        RoundBody {
+            name: "capsule",
+            points: vec![-end, end],
+            radius: 0.4,
+            theirs: Box::new(Capsule::new_z(end.z, 0.4)),
+        },
+        RoundBody {
+            name: "box of 8, radius 0.1",
+            points: cuboid(half).map_err(|error| error.to_string())?.vertices,
+            radius,
+            theirs: Box::new(RoundShape {
+                inner_shape: Cuboid::new(ParryVector::new(half[0], half[1], half[2])),
+                border_radius: radius,
+            }),
+        },
+        RoundBody {
+            name: "102 vertices, radius 0.1",
+            points: hull.vertices.clone(),
+            radius,
+            theirs: Box::new(RoundShape { inner_shape: parry::polyhedron(&hull)?, border_radius: radius }),
+        },
+    ])
 }
 
 /// From a shell around the body, of radius 1, to about the body: two in three hit.
@@ -90,7 +148,7 @@ fn theirs((pose, ray): &(Pose, Ray)) -> (ParryPose, ParryRay) {
 
 /// `cast_ray_and_get_normal`.
 struct Parry {
-    polyhedron: ConvexPolyhedron,
+    shape: Box<dyn ParryShape>,
     rays: Vec<(ParryPose, ParryRay)>,
 }
 
@@ -101,7 +159,7 @@ impl Caster for Parry {
 
     fn cast(&mut self, i: usize) -> Said {
         let (pose, ray) = &self.rays[i];
-        match self.polyhedron.cast_ray_and_get_normal(pose, ray, f64::MAX, true) {
+        match self.shape.cast_ray_and_get_normal(pose, ray, f64::MAX, true) {
             Some(hit) => Said::Hit(hit.time_of_impact),
             None => Said::Free,
         }

@@ -1,0 +1,192 @@
+//! A ray cast at a body with a swept radius in integers, for any magnitudes.
+//!
+//! One question is asked: whether a stretch of the line is within the radius of the hull. Of stretches from the ray's origin on the
+//! longer ones are; where it changes the ray comes in. Of those to its end the earlier ones are, up to where it goes out. Both
+//! places are found between neighbouring doubles by bisection, from where doubles have them.
+
+use std::cmp::Ordering;
+
+use dashu_int::IBig;
+
+use super::{Ray, RayAnswer, RayOutcome};
+use crate::base::math::{Pose, Vector};
+use crate::base::predicates::mantissa_and_exponent;
+use crate::pair::{feature_of_vertices, label, normalised};
+use crate::polyhedron::Polyhedron;
+use crate::solve::exact::dyadic::bounds_of_quotient_by_root;
+use crate::solve::exact::{BesideLine, Place};
+
+/// Casts the ray anew; `guess` is where doubles have both ends, or NaN.
+pub(super) fn cast(
+    polyhedron: &Polyhedron,
+    pose: &Pose,
+    ray: &Ray,
+    radius: f64,
+    guess: [f64; 2],
+    answer: &mut RayAnswer,
+) {
+    let cast = Cast { line: BesideLine::new(polyhedron, pose, ray.origin, ray.direction), radius };
+    let end = if ray.t_max < f64::INFINITY { Step::of(ray.t_max) } else { beyond(polyhedron, pose, ray, radius) };
+    answer.exact = 1;
+    answer.outcome = RayOutcome::Miss;
+    if cast.compare(Step::FIRST, end).is_gt() {
+        return;
+    }
+    let origin = cast.line.nearest([Step::FIRST.place(); 2]);
+    let at_origin = origin.compare(radius);
+    // On the surface the slope tells whether the line comes in or goes out there, or grazes.
+    let slope = if at_origin.is_eq() { origin.slope() } else { Ordering::Equal };
+    let goes_out = slope.is_gt();
+    let begins_inside = at_origin.is_lt() || goes_out || (at_origin.is_eq() && slope.is_eq() && cast.is_in(BEFORE));
+    answer.exit = if cast.compare(end, end).is_le() {
+        [ray.t_max; 2]
+    } else if goes_out {
+        [0.0; 2]
+    } else {
+        cast.exit(end, guess[1])
+    };
+    if begins_inside {
+        answer.outcome = RayOutcome::Inside;
+        answer.entry = [0.0; 2];
+        return;
+    }
+    answer.outcome = RayOutcome::Hit;
+    // Outside the body or on its surface, as near to where the ray comes in as doubles are.
+    let at;
+    (at, answer.entry) = if at_origin.is_gt() { cast.entry(end, guess[0]) } else { (Step::FIRST, [0.0; 2]) };
+    let nearest = cast.line.nearest([at.place(); 2]).answer();
+    let normal = -nearest.direction;
+    answer.normal = normalised(&normal);
+    let vertices: Vec<u32> = nearest.pairs.iter().map(|pair| pair[0]).collect();
+    let weighted = nearest.weights.iter().zip(&vertices);
+    let point: Vector = weighted.map(|(weight, &v)| polyhedron.vertices[v as usize].position * *weight).sum();
+    let feature = feature_of_vertices(polyhedron, &vertices, &point, &pose.rotate_back(&normal), 0.0);
+    answer.feature = label(polyhedron, feature, &point);
+}
+
+struct Cast<'a> {
+    line: BesideLine<'a>,
+    radius: f64,
+}
+
+impl Cast<'_> {
+    /// How far the stretch between two places is from the hull, against the radius.
+    fn compare(&self, from: Step, to: Step) -> Ordering {
+        self.line.nearest([from, to].map(Step::place)).compare(self.radius)
+    }
+
+    fn is_in(&self, place: Place) -> bool {
+        self.line.nearest([place; 2]).compare(self.radius).is_le()
+    }
+
+    /// Where a ray comes in that begins outside: the last place before that is known, and an interval.
+    fn entry(&self, end: Step, guess: f64) -> (Step, [f64; 2]) {
+        let [outside, inside] = change([Step::FIRST, end], guess, |at| self.compare(Step::FIRST, at).is_le());
+        // At the radius all along, and nearer right afterwards: it is there, as distances along a line are convex.
+        let is_there = self.compare(Step::FIRST, inside).is_eq() && self.compare(Step::FIRST, inside.next()).is_lt();
+        let from = if is_there { inside } else { outside };
+        (from, [from.bounds()[0], inside.bounds()[1]])
+    }
+
+    /// Where a ray goes out that ends outside.
+    fn exit(&self, end: Step, guess: f64) -> [f64; 2] {
+        let [inside, outside] = change([Step::FIRST, end], guess, |at| self.compare(at, end).is_gt());
+        let is_there =
+            inside != Step::FIRST && self.compare(inside, end).is_eq() && self.compare(inside.previous(), end).is_lt();
+        [inside.bounds()[0], if is_there { inside } else { outside }.bounds()[1]]
+    }
+}
+
+/// Between which neighbouring steps a test becomes true, of two of which the second passes it: looked for around a guess first.
+fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) -> bool) -> [Step; 2] {
+    let mut stride = 1;
+    let mut at = if guess > 0.0 && guess < f64::INFINITY { Step::of(guess) } else { Step::FIRST };
+    let mut gallops_back = None;
+    while before < at && at < after {
+        let passes = test(at);
+        if passes {
+            after = at
+        } else {
+            before = at
+        }
+        if *gallops_back.get_or_insert(passes) != passes {
+            break;
+        }
+        at = if passes { Step(at.0.saturating_sub(stride)) } else { Step(at.0 + stride) };
+        stride *= 2;
+    }
+    while before.next() < after {
+        let middle = Step(before.0 + (after.0 - before.0) / 2);
+        if test(middle) { after = middle } else { before = middle }
+    }
+    [before, after]
+}
+
+/// Places from 0 on in order, as the bits of doubles are, with exponents that reach farther: a biased exponent, and 52 bits of the
+/// mantissa.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
+struct Step(u64);
+
+/// The biased exponent of 1: that of the least double and of the farthest place of a line in a body, 2^2110, fit in twelve bits.
+const BIAS: i32 = 1200;
+
+/// Nearer to 0 than any place but 0 at which a line that grazes a body begins to. With coordinates of 4,400 bits, over one power of
+/// two, that is a quotient of polynomials of at most the ninth degree in them: its denominator has less bits than this.
+const BEFORE: Place = Place { mantissa: -1, exponent: -65_536 };
+
+impl Step {
+    const FIRST: Step = Step(0);
+
+    /// Of a double from 0 on.
+    fn of(t: f64) -> Step {
+        let (mantissa, exponent) = mantissa_and_exponent(t);
+        if mantissa == 0 {
+            return Step::FIRST;
+        }
+        // So that bit 52 leads.
+        let shift = mantissa.leading_zeros() - 11;
+        Step::new((mantissa as u64) << shift, exponent + 52 - shift as i32)
+    }
+
+    /// `mantissa`/2⁵² · 2^exponent, from 1 to 2 and no zero bits above.
+    fn new(mantissa: u64, exponent: i32) -> Step {
+        debug_assert!(mantissa >> 52 == 1 && (1..4096).contains(&(exponent + BIAS)), "{mantissa:x} {exponent}");
+        Step(((exponent + BIAS) as u64) << 52 | (mantissa & ((1 << 52) - 1)))
+    }
+
+    fn place(self) -> Place {
+        if self == Step::FIRST {
+            return Place { mantissa: 0, exponent: 0 };
+        }
+        let mantissa = self.0 & ((1 << 52) - 1) | 1 << 52;
+        Place { mantissa: mantissa as i64, exponent: (self.0 >> 52) as i32 - BIAS - 52 }
+    }
+
+    fn next(self) -> Step {
+        Step(self.0 + 1)
+    }
+
+    fn previous(self) -> Step {
+        Step(self.0 - 1)
+    }
+
+    /// The doubles next to it, below and above; both itself where it is one.
+    fn bounds(self) -> [f64; 2] {
+        let Place { mantissa, exponent } = self.place();
+        if mantissa == 0 {
+            return [0.0; 2];
+        }
+        let (below, above) = bounds_of_quotient_by_root(&IBig::from(mantissa), &IBig::ONE, exponent);
+        [below, above]
+    }
+}
+
+/// A place from which on a ray is outside the body. No coordinate of the body is larger than 1.02·√3 times those of two vectors in
+/// its own axes, and of one in the world, and the radius: less than 8 times the largest. There, 16 times it are behind the ray.
+fn beyond(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> Step {
+    let lengths = [ray.origin().amax(), pose.translation().amax(), polyhedron.centre.amax(), polyhedron.radius, radius];
+    let largest = lengths.iter().map(|length| Step::of(*length)).max().unwrap_or(Step::FIRST);
+    let exponent = |step: Step| (step.0 >> 52) as i32 - BIAS;
+    // Less than twice the power of two with this exponent.
+    Step::new(1 << 52, exponent(largest).max(-1074) + 5 - exponent(Step::of(ray.direction().amax())))
+}
