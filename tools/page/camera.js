@@ -21,24 +21,34 @@ function turned(turn, v) {
 const FIELD_OF_VIEW = 35 * Math.PI / 180;
 
 function makeCamera() {
-  /* extent: half of what moves; reach: how far anything is from the origin */
-  return { target: [0, 0, 0], yaw: -1.05, pitch: 0.42, distance: 1, extent: 1, reach: 1, up: 2, width: 1, height: 1 };
+  /* extent: half of what moves; reach: how far anything is from the origin; ground: the point of it below the scene */
+  return { target: [0, 0, 0], yaw: -1.05, pitch: 0.3, distance: 1, extent: 1, reach: 1, ground: [0, 0, 0], up: 2, width: 1, height: 1 };
+}
+
+/* The axes of the world, of which the last goes up. */
+const worldAxes = up => [1, 2, 3].map(k => [0, 1, 2].map(i => i === (up + k) % 3 ? 1 : 0));
+
+/* Towards the light, which stands still in the world: over the shoulder of an eye that has not turned. */
+function lightOf(camera) {
+  const [first, second, up] = worldAxes(camera.up);
+  return unit(add(add(first.map(x => -0.3 * x), second, -0.55), up, 1.1));
 }
 
 /* The axes of the picture: to the right, up, and to the eye. */
 function axesOf(camera) {
-  const axis = k => [0, 1, 2].map(i => i === (camera.up + 1 + k) % 3 ? 1 : 0);
-  const [first, second, up] = [axis(0), axis(1), axis(2)];
+  const [first, second, up] = worldAxes(camera.up);
   const level = add(first.map(x => x * Math.cos(camera.yaw)), second, Math.sin(camera.yaw));
   const back = add(level.map(x => x * Math.cos(camera.pitch)), up, Math.sin(camera.pitch));
   const right = unit(cross(up, back));
   return { right, up: cross(back, right), back };
 }
 
+const eyeOf = camera => add(camera.target, axesOf(camera).back, camera.distance);
+
 /* Column-major, as WebGL takes it. */
 function matrixOf(camera) {
   const { right, up, back } = axesOf(camera);
-  const eye = add(camera.target, back, camera.distance);
+  const eye = eyeOf(camera);
   const f = 1 / Math.tan(FIELD_OF_VIEW / 2);
   const far = camera.distance + Math.hypot(...camera.target) + camera.reach;
   const near = Math.max(camera.distance * 0.02, far * 1e-5);
@@ -55,7 +65,7 @@ function matrixOf(camera) {
 /* Points of the scene as pixels of the page, or null behind the eye. */
 function projector(camera) {
   const { right, up, back } = axesOf(camera);
-  const eye = add(camera.target, back, camera.distance);
+  const eye = eyeOf(camera);
   const scale = camera.height / 2 / Math.tan(FIELD_OF_VIEW / 2);
   return point => {
     const seen = add(point, eye, -1);
@@ -83,15 +93,14 @@ function zoomCamera(camera, factor) {
   camera.distance = Math.min(20 * camera.extent, Math.max(1e-5 * camera.extent, camera.distance * factor));
 }
 
-/* A few places of a body over time, seen from the origin. */
+/* A few moves of a body over time. */
 function samplesOf(recording, body) {
-  const { first, order } = recording.moves;
+  const { first, order, places } = recording.moves;
   const stride = Math.max(1, Math.floor((first[body + 1] - first[body]) / 8));
   const samples = [];
   for (let at = first[body]; at < first[body + 1]; at += stride) {
-    const place = placeOf(recording, order[at]);
-    if (!Number.isNaN(place[0])) {
-      samples.push(place);
+    if (!Number.isNaN(places[3 * order[at]])) {
+      samples.push(order[at]);
     }
   }
   return samples;
@@ -102,8 +111,8 @@ function boxOf(recording, bodies) {
   const lower = [[], [], []], upper = [[], [], []];
   for (const body of bodies) {
     const radius = recording.shapes[shapeOf(recording, body)].radius;
-    for (const place of samplesOf(recording, body)) {
-      place.forEach((x, k) => {
+    for (const move of samplesOf(recording, body)) {
+      placeOf(recording, move).forEach((x, k) => {
         lower[k].push(x - radius);
         upper[k].push(x + radius);
       });
@@ -114,23 +123,62 @@ function boxOf(recording, bodies) {
     [lower.map(numbers => quantile(numbers, 0.01)), upper.map(numbers => quantile(numbers, 0.99))];
 }
 
+/* Puts spheres, as [x, y, z, radius], into the picture with a little room about them. */
+function fitSpheres(camera, spheres) {
+  const { right, up, back } = axesOf(camera);
+  const slope = Math.tan(FIELD_OF_VIEW / 2), wide = slope * camera.width / camera.height;
+  for (const axis of [right, up]) {
+    const ends = [-1, 1].map(side => spheres.reduce((most, sphere) => Math.max(most, side * dot(axis, sphere) + sphere[3]), -Infinity));
+    camera.target = add(camera.target, axis, (ends[1] - ends[0]) / 2 - dot(axis, camera.target));
+  }
+  camera.distance = spheres.reduce((most, sphere) => {
+    const from = add(sphere.slice(0, 3), camera.target, -1);
+    const aside = Math.max((Math.abs(dot(right, from)) + sphere[3]) / wide, (Math.abs(dot(up, from)) + sphere[3]) / slope);
+    return Math.max(most, 1.05 * aside + dot(back, from));
+  }, 0);
+}
+
+/* How low bodies get, those aside whose spheres get lower than `floor`. Spheres say which are worth a look. */
+function lowestOf(recording, bodies, up, floor) {
+  const axis = worldAxes(up)[2], near = [];
+  for (const body of bodies) {
+    const { radius, vertices } = recording.shapes[shapeOf(recording, body)];
+    samplesOf(recording, body).forEach(move => near.push({ move, vertices, least: recording.moves.places[3 * move + up] - radius }));
+  }
+  let lowest = Infinity;
+  for (const { move, vertices, least } of near.filter(sample => sample.least >= floor).sort((a, b) => a.least - b.least)) {
+    if (least >= lowest) {
+      break;
+    }
+    const [x, y, z, w] = turnOf(recording, move), down = turned([-x, -y, -z, w], axis);
+    for (let v = 0; v < vertices.length; v += 3) {
+      lowest = Math.min(lowest, recording.moves.places[3 * move + up] + dot(down, vertices.subarray(v, v + 3)));
+    }
+  }
+  return Number.isFinite(lowest) ? lowest : floor;
+}
+
 /* Shows what moves, and of what is fixed all that is no larger than that and not far away. */
 function frameScene(camera, recording) {
   const all = Array.from({ length: recording.bodyCount }, (_, body) => body);
   const radiusOf = body => recording.shapes[shapeOf(recording, body)].radius;
   const moving = all.filter(body => !isFixed(recording, body));
-  let box = boxOf(recording, moving);
+  let box = boxOf(recording, moving), shown = all;
   if (box) {
     const target = middle(...box), extent = Math.hypot(...add(box[1], box[0], -1)) / 2;
     const isBeside = body => radiusOf(body) <= extent &&
-      samplesOf(recording, body).some(place => Math.hypot(...add(place, target, -1)) <= 2 * extent);
-    box = boxOf(recording, moving.concat(all.filter(body => isFixed(recording, body) && isBeside(body))));
+      samplesOf(recording, body).some(move => Math.hypot(...add(placeOf(recording, move), target, -1)) <= 2 * extent);
+    shown = moving.concat(all.filter(body => isFixed(recording, body) && isBeside(body)));
+    box = boxOf(recording, shown);
   }
   box = box || boxOf(recording, all) || [[-1, -1, -1], [1, 1, 1]];
   camera.target = middle(...box);
   camera.extent = Math.max(Math.hypot(...add(box[1], box[0], -1)) / 2, 1e-30);
   camera.reach = all.reduce((most, body) => samplesOf(recording, body)
-    .reduce((far, place) => Math.max(far, Math.hypot(...place) + radiusOf(body)), most), camera.extent);
-  const narrow = Math.min(1, camera.width / camera.height);
-  camera.distance = 0.92 * camera.extent / Math.sin(FIELD_OF_VIEW / 2) / narrow;
+    .reduce((far, move) => Math.max(far, Math.hypot(...placeOf(recording, move)) + radiusOf(body)), most), camera.extent);
+  camera.ground = camera.target.slice();
+  camera.ground[camera.up] = lowestOf(recording, shown, camera.up, box[0][camera.up]);
+  const spheres = shown.flatMap(body => samplesOf(recording, body).map(move => [...placeOf(recording, move), radiusOf(body)]))
+    .filter(sphere => [0, 1, 2].every(k => sphere[k] >= box[0][k] && sphere[k] <= box[1][k]));
+  fitSpheres(camera, spheres.length > 0 ? spheres : [[...camera.target, camera.extent]]);
 }

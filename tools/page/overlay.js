@@ -47,6 +47,22 @@ function spotOf(answer, project) {
   return answer.drawn && !Number.isNaN(answer.drawn[0][0]) ? project(middle(...answer.drawn)) : null;
 }
 
+/* A dot that is seen on whatever is behind, filled or, of a pair that does not touch, hollow. */
+function mark(context, spot, colours, colour, isFilled) {
+  context.beginPath();
+  context.arc(spot[0], spot[1], 3, 0, 2 * Math.PI);
+  context.lineWidth = isFilled ? 2 : 4;
+  context.strokeStyle = colours.paper;
+  context.stroke();
+  context.fillStyle = context.strokeStyle = isFilled ? colour : colours.paper;
+  context.fill();
+  if (!isFilled) {
+    context.lineWidth = 1.5;
+    context.strokeStyle = colour;
+    context.stroke();
+  }
+}
+
 /* The lines between all pairs, the nearest of many, and dots where they touch. Returns where a click finds them. */
 function drawPairs(context, recording, step, project, colours) {
   const MOST = 3000;
@@ -60,13 +76,17 @@ function drawPairs(context, recording, step, project, colours) {
       continue;
     }
     spots.push({ pair, spot });
-    if (answer.isIntersecting) {
-      context.fillStyle = colours.touchingMark;
-      disc(context, spot, 2);
-    } else {
-      context.strokeStyle = colours.nearMark;
-      line(context, ...answer.drawn.map(project));
+    if (!answer.isIntersecting) {
+      for (const [width, colour] of [[4, colours.paper], [1.5, colours.near]]) {
+        context.lineWidth = width;
+        context.strokeStyle = colour;
+        line(context, ...answer.drawn.map(project));
+      }
     }
+  }
+  for (const { pair, spot } of spots) {
+    const isIntersecting = recording.code(pair, 0) === INTERSECTING;
+    mark(context, spot, colours, isIntersecting ? colours.touching : colours.near, isIntersecting);
   }
   return spots;
 }
@@ -108,7 +128,7 @@ function drawPicked(context, recording, answer, size, project, colours) {
     arrow(context, spot, project(add(start, answer.normal, size)));
   }
   if (spot) {
-    context.strokeStyle = answer.isIntersecting ? colours.touchingMark : colours.nearMark;
+    context.strokeStyle = answer.isIntersecting ? colours.touching : colours.near;
     context.lineWidth = 2.5;
     line(context, ...answer.drawn.map(project));
     answer.drawn.forEach((point, i) => {
