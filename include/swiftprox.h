@@ -226,8 +226,8 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
   /** Admit bodies without interior (a two-sided polygon); otherwise as strict. */
   SWIFTPROX_INPUT_FLAT = 1,
   /**
-   * Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
-   * mesh; otherwise they are ignored, and a face's label is its own index.
+   * Take the convex hull of the vertices, of any dimension, also of those that belong to no face. Faces label the hull if one of
+   * the other two would admit the mesh; otherwise they are ignored, and a face's label is its own index.
    */
   SWIFTPROX_INPUT_HULL = 2,
   /**
@@ -239,8 +239,8 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    */
   SWIFTPROX_INPUT_NEARLY_CONVEX = 3,
   /**
-   * The faces are a part of the surface of their vertices' hull, as a piece of a decomposition is: that hull counts, of any
-   * dimension. Vertices of no face are left out. A face of the hull on which no face of the mesh lies is called
+   * The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of no
+   * face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
    * SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
    */
   SWIFTPROX_INPUT_PATCH = 4
@@ -292,8 +292,8 @@ typedef struct swiftprox_shape_options {
   double face_noise;
   /**
    * The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
-   * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds and scenes are of the
-   * swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
+   * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds, rays and scenes are of
+   * the swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
    * tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
    */
   double swept_radius;
@@ -1729,21 +1729,23 @@ typedef struct swiftprox_ray_answer {
   double exit[2];
   /**
    * Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
-   * face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane.
+   * face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane. With a swept radius it is
+   * that of the round surface.
    */
   double normal[3];
   /**
    * Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
-   * vertex.
+   * vertex. With a swept radius it is the vertex, the edge or the face that is nearest to where the ray enters, of the body
+   * without the ball.
    */
   struct swiftprox_feature feature;
-  /** Faces that the search visited. */
+  /** Faces that the search visited; with a swept radius vertices. */
   uint32_t steps;
 } swiftprox_ray_answer;
 
 /**
- * Where a ray meets a shape at a pose, the part of it that is in the closed body: certain, whatever the magnitudes. A ray that
- * only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
+ * Where a ray meets a shape at a pose, the part of it that is in the closed body, a swept radius included: certain, whatever the
+ * magnitudes. A ray that only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
  * that the ray and the body have wide, over that of the direction.
  *
  * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
