@@ -1,11 +1,12 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
 # make check                  the daily loop, minutes of it: unit tests, C tests and lint
-# make test                   everything that is tested: lint, test-rust, test-c, test-fuzz and proofs, side by side
+# make test                   everything that is tested: lint, test-rust, test-c, test-fuzz, proofs and loom, side by side
 # make proofs                 bounds on rounding, proved of the code by Gappa and Coq: docs/proofs.md (a part of make test, too)
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
 # make tsan                   tests with threads under the thread sanitizer
 # make miri                   unit tests under Miri
+# make loom                   the library's own threads under loom, in every order of their steps: loom/src/main.rs
 # make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
 # make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
@@ -64,7 +65,7 @@ MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -92,7 +93,7 @@ test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
 	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz test-proofs lint
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz test-proofs lint loom
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
@@ -143,6 +144,12 @@ tsan:
 miri:
 	@scripts/require.sh $(CC_PACKAGES)
 	scripts/sanitizers.sh miri
+
+# Where the crates cannot be had it says so, and that is no failure.
+loom:
+	@scripts/require.sh $(CC_PACKAGES)
+	@if ! cargo fetch --locked --quiet --manifest-path loom/Cargo.toml; then echo "loom: skipped: its crates cannot be had"; \
+	else cargo run --locked --release --manifest-path loom/Cargo.toml; fi
 
 valgrind:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake valgrind=valgrind
@@ -265,4 +272,4 @@ cross:
 
 clean:
 	cargo clean
-	rm -rf $(BUILD) benches/compare/target fuzz/target
+	rm -rf $(BUILD) benches/compare/target fuzz/target loom/target

@@ -6,7 +6,8 @@ use crate::base::workers::parked::{MOST_THREADS, ParkedThreads, Parts, Task};
 
 impl Workers {
     /// Threads of the standard library, started now, which wait between calls and end with the last owner of this; the caller's
-    /// is one of the `count`, and more than 256 are taken as 256.
+    /// is one of the `count`, and more than 256 are taken as 256. Of several who call at once one shares, the others do all their
+    /// parts themselves.
     pub fn threads(count: usize) -> Workers {
         let count = count.min(MOST_THREADS);
         let threads = ParkedThreads::new(count.saturating_sub(1));

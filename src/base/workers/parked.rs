@@ -7,6 +7,9 @@
 //! | the owner ends, or gets other threads | the threads are told so and waited for |
 //! | the process forks | the child has none of them: there the caller's thread does all parts, and none is waited for |
 //! | the process exits | nobody waits for them; between calls they touch their own lock at most |
+//! | several call at once | one shares, the others do their parts themselves |
+//!
+//! `make loom` runs this file with loom's locks in place of the standard library's.
 
 use std::any::Any;
 use std::hint::spin_loop;
@@ -151,9 +154,8 @@ impl<T: Task> Parking<T> {
     /// Waits until all have left the task; what a panic in one of them carried.
     fn take_back(&self) -> Option<Box<dyn Any + Send>> {
         let mut handover = locked(&self.handover);
-        handover.withdraw();
         let mut waits_since = None;
-        while !handover.is_done() {
+        while !handover.take_back() {
             handover = self.look_later(&self.left, &mut waits_since, handover);
         }
         locked(&self.panic).take()

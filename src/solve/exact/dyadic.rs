@@ -9,8 +9,21 @@ use crate::base::predicates::mantissa_and_exponent;
 /// Three integers: a vector up to a common scale.
 pub(crate) type IntVector = [IBig; 3];
 
-/// Bits that a quotient or a root is computed to before it is rounded to the 53 of a double.
-const QUOTIENT_BITS: usize = 66;
+/// A floating-point format, and how to round to it.
+#[derive(Clone, Copy)]
+struct Format {
+    /// Bits of a significand, the leading one of normal numbers included.
+    precision: i64,
+    /// The exponent of the least positive number.
+    least: i64,
+    /// That of the first power of two beyond the largest number.
+    end: i64,
+    /// A quotient or a root is computed to so many bits more than it is rounded to; right from 0 on.
+    spare: i64,
+}
+
+/// A constant to the functions that take a format: only tests give another, so narrow that all its numbers can be tried.
+const DOUBLE: Format = Format { precision: 53, least: -1074, end: 1024, spare: 13 };
 
 pub(crate) fn dot(a: &IntVector, b: &IntVector) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
@@ -88,26 +101,37 @@ pub(crate) fn leading_bits(v: &IntVector) -> Vector {
 
 /// numerator / denominator of a fraction in [0, 1], rounded down.
 pub(crate) fn fraction_to_double(numerator: &IBig, denominator: &IBig) -> f64 {
+    f64::from_bits(fraction(DOUBLE, numerator, denominator))
+}
+
+fn fraction(format: Format, numerator: &IBig, denominator: &IBig) -> u64 {
     let (numerator, denominator) = (magnitude(numerator), magnitude(denominator));
     if numerator.is_zero() {
-        return 0.0;
+        return 0;
     }
-    let shift = QUOTIENT_BITS + denominator.bit_len() - numerator.bit_len().min(denominator.bit_len());
-    round((numerator << shift) / denominator, -(shift as i64), Rounding::Down)
+    let bits = (format.precision + format.spare) as usize;
+    let shift = bits + denominator.bit_len() - numerator.bit_len().min(denominator.bit_len());
+    round(format, (numerator << shift) / denominator, -(shift as i64), Rounding::Down)
 }
 
 /// The doubles next to numerator / √square · 2^exponent, below and above; both the same when it is one. All positive.
 pub(crate) fn bounds_of_quotient_by_root(numerator: &IBig, square: &IBig, exponent: i32) -> (f64, f64) {
+    let (lower, upper) = quotient_by_root(DOUBLE, numerator, square, exponent);
+    (f64::from_bits(lower), f64::from_bits(upper))
+}
+
+fn quotient_by_root(format: Format, numerator: &IBig, square: &IBig, exponent: i32) -> (u64, u64) {
     let (numerator, square) = (magnitude(numerator), magnitude(square));
+    let bits = (format.precision + format.spare) as usize;
     // ⌊√⌊x⌋⌋ = ⌊√x⌋ for every real x ≥ 0, so the two roundings are one.
-    let shift = (QUOTIENT_BITS + square.bit_len().div_ceil(2)).saturating_sub(numerator.bit_len());
+    let shift = (bits + square.bit_len().div_ceil(2)).saturating_sub(numerator.bit_len());
     let scaled = (&numerator * &numerator) << (2 * shift);
     let quotient = &scaled / &square;
     let divides = &quotient * &square == scaled;
     let (root, rest) = quotient.sqrt_rem();
     let exponent = i64::from(exponent) - shift as i64;
     let above = if divides && rest.is_zero() { root.clone() } else { &root + UBig::ONE };
-    (round(root, exponent, Rounding::Down), round(above, exponent, Rounding::Up))
+    (round(format, root, exponent, Rounding::Down), round(format, above, exponent, Rounding::Up))
 }
 
 fn magnitude(x: &IBig) -> UBig {
@@ -120,16 +144,19 @@ enum Rounding {
     Up,
 }
 
-/// The double next to mantissa·2^exponent (positive) in the given direction: down to `f64::MAX` or 0, up to +∞ at the ends
-/// of the range.
-fn round(mantissa: UBig, exponent: i64, rounding: Rounding) -> f64 {
+/// The bits of the number next to mantissa·2^exponent (positive) in the given direction: down to the largest or 0, up to +∞ at
+/// the ends of the range.
+fn round(format: Format, mantissa: UBig, exponent: i64, rounding: Rounding) -> u64 {
+    debug_assert!(!mantissa.is_zero());
+    let Format { precision, least, end, .. } = format;
     // The value lies in [2^(top−1), 2^top).
     let top = mantissa.bit_len() as i64 + exponent;
-    if top > 1024 {
-        return if rounding == Rounding::Down { f64::MAX } else { f64::INFINITY };
+    let infinity = in_units(format, 1 << precision, end - precision);
+    if top > end {
+        return if rounding == Rounding::Down { infinity - 1 } else { infinity };
     }
-    // The unit in the last place of doubles of this size, subnormal ones included.
-    let unit = (top - 53).max(-1074);
+    // The unit in the last place of numbers of this size, subnormal ones included.
+    let unit = (top - precision).max(least);
     let integer = if unit <= exponent {
         mantissa << (exponent - unit) as usize
     } else {
@@ -138,20 +165,22 @@ fn round(mantissa: UBig, exponent: i64, rounding: Rounding) -> f64 {
         let up = rounding == Rounding::Up && (&kept << shift) != mantissa;
         if up { kept + UBig::ONE } else { kept }
     };
-    u64::try_from(integer).map_or(f64::INFINITY, |i| in_units(i, unit as i32))
+    u64::try_from(integer).map_or(infinity, |i| in_units(format, i, unit))
 }
 
-/// integer·2^unit, for at most 2⁵³ units, each the last place of the result; 2¹⁰²⁴ is +∞. Put together from bits: a product with a
-/// subnormal unit would be 0 where these are flushed.
-fn in_units(integer: u64, unit: i32) -> f64 {
-    // A fraction of 52 bits, the biased exponent above it. In normal numbers the leading bit, 2⁵², is the exponent's: it adds 1 to
-    // one less. That of 2⁵³ carries into the next exponent, from the largest one to that of +∞.
-    let exponent_below = (unit + 1074) as u64;
-    f64::from_bits((exponent_below << 52) + integer)
+/// The bits of integer·2^unit, for at most 2^precision units, each the last place of the result; 2^end is +∞. Put together from
+/// bits: a product with a subnormal unit would be 0 where these are flushed.
+fn in_units(Format { precision, least, .. }: Format, integer: u64, unit: i64) -> u64 {
+    debug_assert!(integer <= 1 << precision && unit >= least && (unit == least || integer >= 1 << (precision - 1)));
+    // A fraction of one bit less than the precision, the biased exponent above it. In normal numbers the leading bit is the
+    // exponent's: it adds 1 to one less. That of 2^precision carries into the next exponent, from the largest one to that of +∞.
+    (((unit - least) as u64) << (precision - 1)) + integer
 }
 
 #[cfg(test)]
 mod tests {
+    use std::cmp::Ordering;
+
     use super::*;
     use crate::base::math::power_of_two;
 
@@ -198,5 +227,96 @@ mod tests {
         assert_eq!(fraction_to_double(&IBig::from(5), &IBig::from(5)), 1.0);
         assert_eq!(fraction_to_double(&IBig::from(1), &(IBig::ONE << 3000)), 0.0);
         assert_eq!(fraction_to_double(&IBig::from(2), &IBig::from(3)), 2.0 / 3.0);
+    }
+
+    /// So narrow that all numbers are listed, by their definition: the multiples of 2^least below 2^end whose bits, without zeros
+    /// at their end, are as many as the precision at most. Bits count them from 0 on, and +∞ is the next.
+    fn narrow(precision: i64, spare: i64) -> (Format, Vec<u128>) {
+        let format = Format { precision, least: -12, end: 4, spare };
+        let is_number = |k: &u128| *k == 0 || k >> k.trailing_zeros() < 1 << precision;
+        (format, (0..1 << (format.end - format.least)).filter(is_number).collect())
+    }
+
+    /// The places of the numbers next to a value in a list of them, below and above.
+    fn next_to(numbers: &[u128], order: impl Fn(u128) -> Ordering) -> (u64, u64) {
+        let below = numbers.partition_point(|&number| order(number) != Ordering::Greater) - 1;
+        let above = numbers.partition_point(|&number| order(number) == Ordering::Less);
+        (below as u64, above as u64)
+    }
+
+    #[test]
+    #[cfg_attr(miri, ignore = "long")]
+    fn every_integer_is_rounded_to_the_number_next_to_it() {
+        for precision in [1, 2, 5, 8] {
+            let (format, numbers) = narrow(precision, 0);
+            // From values that are 0 but for their last bit to those beyond all numbers; four bits more than there is room for.
+            let finest = format.least - precision - 6;
+            for (exponent, mantissa) in
+                (finest..format.end + 3).flat_map(|exponent| (1..1u128 << (precision + 4)).map(move |m| (exponent, m)))
+            {
+                let value = mantissa << (exponent - finest);
+                let expected = next_to(&numbers, |number| (number << (format.least - finest)).cmp(&value));
+                let [below, above] =
+                    [Rounding::Down, Rounding::Up].map(|r| round(format, mantissa.into(), exponent, r));
+                assert_eq!((below, above), expected, "{mantissa}·2^{exponent} to {precision} bits");
+            }
+        }
+    }
+
+    #[test]
+    #[cfg_attr(miri, ignore = "long")]
+    fn every_fraction_and_quotient_by_a_root_is_rounded_to_the_number_next_to_it() {
+        for (format, numbers) in [0, 1, 13].map(|spare| narrow(5, spare)) {
+            for (denominator, numerator) in (1..=200u128).flat_map(|d| (0..=d).map(move |n| (d, n))) {
+                let (expected, _) = next_to(&numbers, |number| (number * denominator).cmp(&(numerator << 12)));
+                let fraction = fraction(format, &numerator.into(), &denominator.into());
+                assert_eq!(fraction, expected, "{numerator}/{denominator}");
+            }
+            for (numerator, square) in (1..=32u128).flat_map(|n| (1..=100u128).map(move |s| (n, s))) {
+                for exponent in -24..8 {
+                    // Both sides squared, over 2⁻²⁴.
+                    let value = (numerator << (exponent + 24)).pow(2);
+                    let expected = next_to(&numbers, |number| ((number << 12).pow(2) * square).cmp(&value));
+                    // The second has more bits than are computed.
+                    for shift in [0, 40] {
+                        let numerator = IBig::from(numerator << shift);
+                        let bounds = quotient_by_root(format, &numerator, &square.into(), exponent - shift);
+                        assert_eq!(bounds, expected, "{numerator}/√{square}·2^({exponent} − {shift})");
+                    }
+                }
+            }
+        }
+    }
+
+    /// Of doubles what has edges: ties, carries into the next power of two, subnormal ones, both ends. By exact comparisons.
+    #[test]
+    fn doubles_are_next_to_what_is_rounded() {
+        let order = |double: f64, value: &UBig, exponent: i64| {
+            if double == f64::INFINITY {
+                return Ordering::Greater;
+            }
+            let (mantissa, own) = decode(double);
+            let least = exponent.min(own.into());
+            (IBig::from(mantissa) << (i64::from(own) - least) as usize)
+                .cmp(&(IBig::from(value.clone()) << (exponent - least) as usize))
+        };
+        let around = |bits: usize| (0..=4u8).map(move |k| (UBig::ONE << bits) + k - UBig::from(2u8));
+        let mut mantissas: Vec<UBig> = [2, 51, 52, 53, 54, 63, 64, 65, 106, 200].into_iter().flat_map(around).collect();
+        // All but the last of 53 bits are 0, or 1, and behind them a half and what is next to it.
+        for leading in [(1u64 << 52) + 1, (1 << 53) - 2, (1 << 53) - 1] {
+            mantissas.extend(around(9).map(|rest| (UBig::from(leading) << 10) + rest));
+        }
+        let tops = [-5000..=-4999, -1130..=-1120, -1080..=-1015, -1..=2, 960..=1030, 5000..=5001];
+        for mantissa in &mantissas {
+            for top in tops.iter().cloned().flatten() {
+                let exponent = top - mantissa.bit_len() as i64;
+                let [below, above] = [Rounding::Down, Rounding::Up]
+                    .map(|rounding| f64::from_bits(round(DOUBLE, mantissa.clone(), exponent, rounding)));
+                let orders =
+                    [below, below.next_up(), above, above.next_down()].map(|double| order(double, mantissa, exponent));
+                assert!(below >= 0.0 && orders[0].is_le() && orders[1].is_gt(), "{mantissa}·2^{exponent}: {below:e}");
+                assert!(orders[2].is_ge() && orders[3].is_lt(), "{mantissa}·2^{exponent}: {above:e}");
+            }
+        }
     }
 }
