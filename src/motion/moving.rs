@@ -210,7 +210,7 @@ impl<'a> MovingPair<'a> {
 mod tests {
     use super::*;
     use crate::base::double_double::two_sum;
-    use crate::shape::ShapeOptions;
+    use crate::shape::{Shape, ShapeOptions};
 
     /// Was one unit in the last place above the truth: −(2 − 2⁻⁵²) less 1.98·2⁻⁵² is −2 − 0.98·2⁻⁵²; it was rounded to −2, and of
     /// the tie of −2 less u·2 the even one is −2 again.

@@ -13,6 +13,8 @@ mod exact;
 mod search;
 
 pub use answer::{RayAnswer, RayOutcome};
+#[doc(hidden)]
+pub use line::SIDE;
 pub use query::Ray;
 
 use crate::base::error::{Error, Result};
